@@ -1,0 +1,56 @@
+# How every target is compiled.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+option(OMENTUM_NATIVE "compile the numeric kernels for this machine's vector unit" ON)
+set(OMENTUM_SANITIZE "" CACHE STRING "address (with undefined) or thread; empty for none")
+
+if(OMENTUM_SANITIZE STREQUAL "address")
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+elseif(OMENTUM_SANITIZE STREQUAL "thread")
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=thread)
+elseif(OMENTUM_SANITIZE)
+  message(FATAL_ERROR "OMENTUM_SANITIZE is '${OMENTUM_SANITIZE}'; expected address, thread or nothing")
+endif()
+
+# omentum_library(NAME sources...): a library target omentum_NAME, alias Omentum::NAME.
+function(omentum_library name)
+  add_library(omentum_${name} STATIC ${ARGN})
+  add_library(Omentum::${name} ALIAS omentum_${name})
+  set_target_properties(omentum_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(omentum_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/omentum>)
+  target_compile_features(omentum_${name} PUBLIC cxx_std_20)
+  target_compile_options(omentum_${name} PRIVATE -Wall -Wextra -Wpedantic)
+endfunction()
+
+# omentum_native(sources...): files that hold nothing but numeric kernels on raw pointers. Only
+# they are compiled for this machine's vector unit, so that no inline function of a library leaks out
+# compiled for another instruction set than the rest.
+function(omentum_native)
+  if(OMENTUM_NATIVE)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O3;-march=native;-mprefer-vector-width=512")
+  endif()
+endfunction()
+
+# omentum_executable(NAME sources...): a program in bin/.
+function(omentum_executable name)
+  add_executable(${name} ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic)
+endfunction()

@@ -1,0 +1,59 @@
+// A tetrahedral mesh whose input was checked: what every other room may rely on.
+#pragma once
+
+#include "geometry/types.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace omentum::geometry {
+
+/// What a mesh file holds, before any check. Nodes and tetrahedra in the file's order, from 0.
+struct RawMesh {
+  std::string source;                                  // the file, for messages
+  std::vector<Vec3> positions;                         // in the file's unit
+  std::vector<std::array<std::int32_t, 4>> tetrahedra; // 0-based positions in `positions`
+};
+
+/// A valid mesh: every node used, every tetrahedron positively oriented, no duplicate or overlapping
+/// element, connected through faces, boundary closed and manifold. Positions in metres.
+struct TetraMesh {
+  std::vector<Vec3> positions;          // [N], m
+  std::vector<Tetrahedron> tetrahedra;  // [T], in the file's order
+  std::vector<std::int32_t> file_node;  // [N], 0-based number in the mesh file
+  std::int32_t file_node_count = 0;     // nodes in the file, unused ones included
+};
+
+/// Bad input: the message names file, place and expectation. Programs end with exit code 2.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct CheckedMesh {
+  TetraMesh mesh;
+  std::vector<std::string> warnings;  // e.g. "sofa.msh: 12 tetrahedra were listed in negative order"
+};
+
+/// Reads .msh (Gmsh 1, 2.2, 4; ASCII and binary where the format has it), .vtk (legacy, ASCII and
+/// binary), .vtu (ASCII, base64, zlib) and .node/.ele (either name). Other elements in the file are
+/// ignored. Throws InputError naming file, line or section, and what was expected.
+RawMesh read_mesh(const std::filesystem::path& file);
+
+/// Writes Gmsh 2.2 ASCII, positions in metres.
+void write_mesh(const TetraMesh& mesh, const std::filesystem::path& file);
+
+/// Scales to metres, drops unused nodes and reorders negatively listed tetrahedra (both with a
+/// warning that counts them); throws InputError naming the elements otherwise: zero volume (height
+/// below 1e-6 of the longest edge), repeated or overlapping elements, non-manifold or open boundary,
+/// disconnected parts, non-finite positions, node numbers out of range.
+CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit);
+
+/// Signed volume, m^3: positive when d lies on the side of (a,b,c) its right-handed normal points to.
+inline double signed_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (b - a).cross(c - a).dot(d - a) / 6.0;
+}
+
+}  // namespace omentum::geometry

@@ -1,0 +1,19 @@
+// The numbers of a run, as report.json holds them (DESIGN 5).
+#pragma once
+
+#include "runtime/rate_loop.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+
+namespace omentum::runtime {
+
+/// {"p50":..., "p99":..., "p999":..., "max":..., "count":...}, microseconds.
+nlohmann::json to_json(const Percentiles& percentiles);
+/// {"rate_hz", "ticks", "missed", "period_us", "compute_us"}.
+nlohmann::json to_json(const LoopRecord& record, double rate_hz);
+/// Writes next to `file` and renames, so that a half-written report never looks finished. Throws std::runtime_error.
+void write_report(const nlohmann::json& report, const std::filesystem::path& file);
+
+}  // namespace omentum::runtime

@@ -1,0 +1,22 @@
+// SIGINT and SIGTERM end a node cleanly.
+#pragma once
+
+#include <functional>
+
+namespace omentum::runtime {
+
+/// While it lives, calls `on_stop` once, on a thread of its own, when SIGINT or SIGTERM arrives. Construct it before
+/// any other thread starts (it blocks the signals in the calling thread, and threads inherit that). One at a time.
+class StopSignal {
+ public:
+  explicit StopSignal(std::function<void()> on_stop);
+  ~StopSignal();
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+
+ private:
+  struct Impl;
+  Impl* impl_;
+};
+
+}  // namespace omentum::runtime
