@@ -1,0 +1,87 @@
+// The newest contact of every tool: checked as it arrives, faded when its sender falls silent.
+#pragma once
+
+#include "deform_node/organ_models.h"
+#include "runtime/faults.h"
+#include "runtime/mailbox.h"
+#include "transport/messages.h"
+
+#include <array>
+#include <vector>
+
+namespace omentum::deform {
+
+inline constexpr int kMaxTools = msg::MAX_TOOLS;
+inline constexpr int kMaxNodesPerTool = msg::MAX_CONTACT_NODES;
+inline constexpr int kMaxLoadedNodes = kMaxTools * kMaxNodesPerTool;
+
+/// A Contact comes at the haptic rate (1 kHz); when none came for this long haptic_node is gone, not late, s.
+inline constexpr double kContactStaleS = 0.1;
+/// The organ then comes back to rest within this: slow enough to be seen as a release, not as a jump, s.
+inline constexpr double kContactFadeS = 0.3;
+
+/// The share of a contact's force that still counts: 1 while fresh, then linear to 0.
+double staleness_gain(double age_s) noexcept;
+
+/// How a Contact's node numbers are read for one organ.
+struct OrganNumbers {
+  std::vector<SurfaceId> surface_of_file_node;  // invalid where the node is not on the surface
+  std::int32_t mobile_count = 0;                // SurfaceIds below carry tensors
+  std::uint64_t topology_version = 0;
+};
+
+/// Why a Contact is dropped.
+enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kNotFinite };
+const char* describe(Rejection rejection) noexcept;
+
+/// A checked Contact with SurfaceIds, of fixed size: it crosses threads without memory being taken.
+struct HeldContact {
+  std::uint32_t organ = 0;
+  msg::Echo cause{};
+  std::int64_t received_ns = 0;  // this process's steady clock; 0: none came yet
+  int count = 0;
+  std::array<SurfaceId, kMaxNodesPerTool> nodes{};
+  std::array<Vec3, kMaxNodesPerTool> displacements{};
+  std::array<Vec3, kMaxNodesPerTool> forces{};
+};
+
+/// Translates `contact` into `held`, whose received_ns is set by the caller. Nodes that are held fixed are
+/// left out: they cannot move, and a triangle at a support has some. Pure.
+[[nodiscard]] Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
+                                      HeldContact& held) noexcept;
+
+/// Contacts on their way from the receiving thread to the loop. take() and the loop's methods may run at the
+/// same time on one thread each; neither waits or allocates.
+class ContactBook {
+ public:
+  /// Dropped contacts are raised in `faults`, which must outlive the book.
+  ContactBook(std::vector<OrganNumbers> organs, runtime::FaultList& faults);
+
+  /// Receiving thread.
+  void take(const msg::Contact& contact, std::int64_t now_ns) noexcept;
+
+  /// Loop: looks at what arrived and fades what is old. Everything below refers to this moment.
+  void advance(std::int64_t now_ns) noexcept;
+  /// Loop: what the tools do to one organ; valid until the next advance().
+  std::span<const ToolLoad> loads(std::uint32_t organ) noexcept;
+  /// Loop: the newest pose of each tool that the loads take into account.
+  std::span<const msg::Echo> echoes() const noexcept {
+    return {echoes_.data(), static_cast<std::size_t>(echo_count_)};
+  }
+  /// Loop: forgets every contact received up to `now_ns`.
+  void forget(std::int64_t now_ns) noexcept { forget_until_ns_ = now_ns; }
+
+ private:
+  std::vector<OrganNumbers> organs_;
+  runtime::FaultList& faults_;
+  HeldContact draft_;  // receiving thread
+  std::array<runtime::Mailbox<HeldContact>, kMaxTools> newest_;
+  std::int64_t forget_until_ns_ = 0;
+  std::array<double, kMaxTools> gain_{};
+  std::array<std::array<Vec3, kMaxNodesPerTool>, kMaxTools> faded_forces_{};
+  std::array<ToolLoad, kMaxTools> loads_{};
+  std::array<msg::Echo, kMaxTools> echoes_{};
+  int echo_count_ = 0;
+};
+
+}  // namespace omentum::deform

@@ -1,0 +1,46 @@
+#include "deform_node/quasi_static_model.h"
+
+#include "deform_node/contact_book.h"
+
+#include <algorithm>
+
+namespace omentum::deform {
+
+namespace {
+
+constexpr int kLanes = physics::SurfaceCompliance::kLanes;
+
+/// [cluster][3][16] -> x y z per node, for the nodes that carry tensors.
+void interleave(const std::vector<float>& tiled, std::int32_t mobile_count, std::vector<float>& xyz) {
+  for (std::int32_t n = 0; n < mobile_count; ++n) {
+    const float* lane = tiled.data() + static_cast<std::size_t>(n / kLanes) * 3 * kLanes + n % kLanes;
+    for (int i = 0; i < 3; ++i) xyz[3 * static_cast<std::size_t>(n) + i] = lane[i * kLanes];
+  }
+}
+
+}  // namespace
+
+QuasiStaticModel::QuasiStaticModel(const physics::SurfaceCompliance& compliance, std::int32_t surface_nodes)
+    : compliance_(compliance),
+      tiled_(static_cast<std::size_t>(compliance.cluster_count()) * 3 * kLanes),
+      displacements_(3 * static_cast<std::size_t>(surface_nodes)) {
+  nodes_.reserve(kMaxLoadedNodes);
+  forces_.reserve(kMaxLoadedNodes);
+}
+
+void QuasiStaticModel::step(std::span<const ToolLoad> loads, double /*dt_s*/) noexcept {
+  nodes_.clear();
+  forces_.clear();
+  for (const ToolLoad& load : loads) {
+    nodes_.insert(nodes_.end(), load.nodes.begin(), load.nodes.end());
+    forces_.insert(forces_.end(), load.forces.begin(), load.forces.end());
+  }
+  physics::superpose_surface(compliance_, nodes_, forces_, tiled_);
+  interleave(tiled_, compliance_.mobile_count(), displacements_);
+}
+
+void QuasiStaticModel::reset() noexcept {
+  std::fill(displacements_.begin(), displacements_.end(), 0.0F);
+}
+
+}  // namespace omentum::deform

@@ -1,0 +1,96 @@
+// omentum_session: sends one command (start, pause, reset, ...) to every node of a session.
+#include "runtime/clock.h"
+#include "runtime/node_options.h"
+#include "transport/bus.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+namespace {
+
+using namespace omentum;
+
+/// Discovery takes up to 2.9 s between two Fast participants (WIRE.md).
+constexpr double kDiscoveryS = 5.0;
+/// Other vendors' nodes are found up to this much after the first one.
+constexpr double kSettleS = 1.2;
+/// Time in which a reliable writer repeats what was lost, before it goes away.
+constexpr double kDeliveryS = 0.3;
+
+void sleep_s(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+double now_s() {
+  return 1e-9 * static_cast<double>(runtime::steady_now_ns());
+}
+
+/// Waits until at least `nodes` readers matched, or, when that is not known (0), until no new one came for a
+/// while.
+int wait_for_readers(const transport::Writer<msg::SessionCommand>& writer, int nodes) {
+  const double begin = now_s();
+  double changed = begin;
+  int matched = 0;
+  while (now_s() - begin < kDiscoveryS) {
+    const int now_matched = writer.status().matched;
+    if (now_matched != matched) changed = now_s();
+    matched = now_matched;
+    if (nodes > 0 ? matched >= nodes : matched > 0 && now_s() - changed > kSettleS) break;
+    sleep_s(0.01);
+  }
+  return matched;
+}
+
+void send(const transport::BusOptions& options, std::uint32_t command, int nodes) {
+  const auto bus = transport::Bus::open(options);
+  const auto writer = bus->writer<msg::SessionCommand>();
+  const int matched = wait_for_readers(*writer, nodes);
+  if (matched == 0)
+    throw std::runtime_error("no node found in domain " + std::to_string(options.domain) +
+                             " (expected a running session)");
+  // the stamp orders commands of different senders
+  if (!writer->write(
+          {.seq = static_cast<std::uint64_t>(runtime::steady_now_ns()), .command = command, .argument = {}}))
+    throw std::runtime_error("the command could not be written");
+  sleep_s(kDeliveryS);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::map<std::string, std::uint32_t> commands{{"start", msg::COMMAND_START},
+                                                      {"pause", msg::COMMAND_PAUSE},
+                                                      {"reset", msg::COMMAND_RESET},
+                                                      {"record", msg::COMMAND_RECORD},
+                                                      {"clear-fault", msg::COMMAND_CLEAR_FAULT}};
+  CLI::App app("Sends one command to every node of a running session.", "omentum_session");
+  std::string command, dds = "fast", profile = "loopback", keystore;
+  int domain = 0, nodes = 0;
+  app.add_option("command", command, "start, pause, reset, record or clear-fault")
+      ->required()
+      ->check(CLI::IsMember(commands));
+  app.add_option("--dds", dds, "DDS vendor: fast or cyclone")
+      ->check(CLI::IsMember({"fast", "cyclone"}))
+      ->capture_default_str();
+  app.add_option("--domain", domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
+  app.add_option("--profile", profile, "loopback (one machine) or lan")
+      ->check(CLI::IsMember({"loopback", "lan"}))
+      ->capture_default_str();
+  app.add_option("--secure", keystore, "DDS Security key store")->type_name("KEYSTORE");
+  app.add_option("--nodes", nodes, "send as soon as so many nodes listen (0: when no further one is found)")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+
+  return runtime::node_main(app, argc, argv, [&] {
+    send({.vendor = transport::parse_vendor(dds),
+          .domain = domain,
+          .profile = transport::parse_profile(profile),
+          .name = "omentum_session",
+          .keystore = keystore},
+         commands.at(command), nodes);
+  });
+}
