@@ -52,8 +52,9 @@ std::string Range::words() const {
   return text;
 }
 
-TomlSection::TomlSection(const toml::table& table, std::filesystem::path file, std::string name)
-    : table_(table), file_(std::move(file)), name_(std::move(name)) {}
+TomlSection::TomlSection(std::shared_ptr<const toml::table> table, std::filesystem::path file,
+                         std::string name)
+    : table_(std::move(table)), file_(std::move(file)), name_(std::move(name)) {}
 
 void TomlSection::read(const std::string& key, double& value, Need need, const Range& range) {
   const toml::node* node = find(key, need, range.words());
@@ -73,10 +74,11 @@ void TomlSection::read(const std::string& key, std::uint32_t& value, Need need, 
 }
 
 void TomlSection::read(const std::string& key, std::string& value, Need need) {
-  const toml::node* node = find(key, need, "a text in quotes");
+  const std::string expected = need == kRequired ? "a text in quotes, not empty" : "a text in quotes";
+  const toml::node* node = find(key, need, expected);
   if (node == nullptr) return;
   const auto text = node->value_exact<std::string>();
-  if (!text || (need == kRequired && text->empty())) refuse(key, as_written(*node), "a text in quotes");
+  if (!text || (need == kRequired && text->empty())) refuse(key, as_written(*node), expected);
   value = *text;
 }
 
@@ -124,9 +126,9 @@ void TomlSection::read_direction(const std::string& key, std::array<double, 3>& 
 
 TomlSection TomlSection::section(const std::string& key) {
   const toml::node* node = find(key, kOptional, "");
-  if (node == nullptr) return {toml::table{}, file_, name_ + key + "."};
+  if (node == nullptr) return {std::make_shared<const toml::table>(), file_, name_ + key + "."};
   if (!node->is_table()) refuse(key, as_written(*node), "a table [" + key + "]");
-  return {*node->as_table(), file_, name_ + key + "."};
+  return {{table_, node->as_table()}, file_, name_ + key + "."};
 }
 
 std::vector<TomlSection> TomlSection::sections(const std::string& key) {
@@ -137,13 +139,13 @@ std::vector<TomlSection> TomlSection::sections(const std::string& key) {
   if (!node->is_array_of_tables()) refuse(key, as_written(*node), expected);
   for (const toml::node& table : *node->as_array()) {
     const std::string name = name_ + key + "[" + std::to_string(sections.size()) + "].";
-    sections.emplace_back(*table.as_table(), file_, name);
+    sections.push_back({{table_, table.as_table()}, file_, name});
   }
   return sections;
 }
 
 void TomlSection::refuse_unknown_keys() const {
-  for (const auto& [key, node] : table_) {
+  for (const auto& [key, node] : *table_) {
     const std::string word(key.str());
     if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
     refuse(word, "an unknown key", "one of " + join(known_));
@@ -156,14 +158,14 @@ void TomlSection::refuse(const std::string& key, const std::string& found,
 }
 
 std::string TomlSection::place(const std::string& key) const {
-  const toml::node* node = table_.get(key.substr(0, key.find('[')));
-  const auto line = node != nullptr ? node->source().begin.line : table_.source().begin.line;
+  const toml::node* node = table_->get(key.substr(0, key.find('[')));
+  const auto line = node != nullptr ? node->source().begin.line : table_->source().begin.line;
   return file_.string() + ":" + std::to_string(std::max<std::uint32_t>(line, 1));
 }
 
 const toml::node* TomlSection::find(const std::string& key, Need need, const std::string& expected) {
   known_.push_back(key);
-  const toml::node* node = table_.get(key);
+  const toml::node* node = table_->get(key);
   if (node == nullptr && need == kRequired) refuse(key, "nothing", expected);
   return node;
 }
@@ -186,7 +188,7 @@ TomlSection open_toml(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": found no such file, expected a scene file (TOML)");
   }
   try {
-    return {toml::parse_file(file.string()), file, ""};
+    return {std::make_shared<const toml::table>(toml::parse_file(file.string())), file, ""};
   } catch (const toml::parse_error& e) {
     throw std::runtime_error(file.string() + ":" + std::to_string(e.source().begin.line) + ": " +
                              std::string(e.description()));

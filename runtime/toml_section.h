@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +34,9 @@ inline constexpr Range kNotNegative{.minimum = 0};
 class TomlSection {
  public:
   /// `name` is put before the keys in messages, e.g. "tools[1]." or "".
-  TomlSection(const toml::table& table, std::filesystem::path file, std::string name);
+  TomlSection(std::shared_ptr<const toml::table> table, std::filesystem::path file, std::string name);
 
-  bool has(const std::string& key) const { return table_.contains(key); }
+  bool has(const std::string& key) const { return table_->contains(key); }
   // A key that is absent keeps the value that `value` has; with `required` it is refused.
   enum Need { kOptional, kRequired };
   void read(const std::string& key, double& value, Need need, const Range& range = kAny);
@@ -64,7 +65,8 @@ class TomlSection {
   const toml::node* find(const std::string& key, Need need, const std::string& expected);
   std::array<double, 3> triple(const std::string& key, const toml::node& node) const;
 
-  toml::table table_;
+  // shared: every section points into the one document (a copy of a toml::table would lose its line numbers)
+  std::shared_ptr<const toml::table> table_;
   std::filesystem::path file_;
   std::string name_;
   std::vector<std::string> known_;
