@@ -1,0 +1,69 @@
+// TetGen's .node and .ele: https://wias-berlin.de/software/tetgen/fformats.html
+#include "geometry/file_cursor.h"
+#include "geometry/mesh_formats.h"
+
+namespace omentum::geometry {
+namespace {
+
+// Comments run from # to the end of their line.
+void skip_comments(FileCursor& in) {
+  while (!in.at_end() && in.next_is('#')) in.rest_of_line();
+}
+
+// The first node's number, 0 or 1, is that of all counting in both files.
+std::int64_t read_nodes(FileCursor& in, RawMesh& mesh) {
+  skip_comments(in);
+  const std::size_t count = in.count("the number of nodes");
+  if (in.integer("the dimension, 3") != 3) in.fail("another dimension", "3");
+  in.rest_of_line();
+  std::int64_t first = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    skip_comments(in);
+    const std::int64_t number = in.integer("a node number");
+    if (n == 0) first = number;
+    if (number != first + static_cast<std::int64_t>(n)) {
+      in.fail("node number " + std::to_string(number), std::to_string(first + static_cast<std::int64_t>(n)));
+    }
+    const double x = in.real("x of a node"), y = in.real("y of a node"), z = in.real("z of a node");
+    mesh.positions.emplace_back(x, y, z);
+    in.rest_of_line();
+  }
+  return first;
+}
+
+void read_tetrahedra(FileCursor& in, std::int64_t first, RawMesh& mesh) {
+  skip_comments(in);
+  const std::size_t count = in.count("the number of tetrahedra");
+  const std::int64_t nodes = in.integer("the number of nodes of a tetrahedron, 4 or 10");
+  if (nodes != 4 && nodes != 10) in.fail(std::to_string(nodes) + " nodes a tetrahedron", "4 or 10");
+  in.rest_of_line();
+  for (std::size_t t = 0; t < count; ++t) {
+    skip_comments(in);
+    in.integer("a tetrahedron's number");
+    std::array<std::int32_t, 4> tetrahedron{};
+    for (std::int32_t& node : tetrahedron) {
+      const std::int64_t index = in.integer("a node of a tetrahedron") - first;
+      if (index < 0 || index >= std::ssize(mesh.positions)) {
+        in.fail("node number " + std::to_string(index + first) + " in tetrahedron " + std::to_string(t),
+                "a number of the .node file");
+      }
+      node = static_cast<std::int32_t>(index);
+    }
+    mesh.tetrahedra.push_back(tetrahedron);
+    in.rest_of_line();
+  }
+}
+
+}  // namespace
+
+RawMesh read_tetgen(const std::filesystem::path& file) {
+  RawMesh mesh;
+  mesh.source = file.string();
+  FileCursor nodes(std::filesystem::path(file).replace_extension(".node"));
+  const std::int64_t first = read_nodes(nodes, mesh);
+  FileCursor elements(std::filesystem::path(file).replace_extension(".ele"));
+  read_tetrahedra(elements, first, mesh);
+  return mesh;
+}
+
+}  // namespace omentum::geometry

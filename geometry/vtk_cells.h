@@ -1,0 +1,19 @@
+// What both VTK formats hold: cells as runs of a node list.
+#pragma once
+
+#include "geometry/tetra_mesh.h"
+
+namespace omentum::geometry {
+
+/// Cells of any kind: cell c has the nodes [start[c], start[c+1]) of `nodes` and VTK's type types[c].
+struct VtkCells {
+  std::vector<std::int64_t> start;  // [cells + 1], or empty when there is none
+  std::vector<std::int64_t> nodes;
+  std::vector<std::int64_t> types;  // [cells]
+};
+
+/// Appends the linear tetrahedra (type 10) to `mesh`, whose positions from `first_node` on the cells count.
+/// Throws InputError naming the tetrahedron when its nodes are not four or do not exist.
+void append_tetrahedra(const VtkCells& cells, std::size_t first_node, RawMesh& mesh);
+
+}  // namespace omentum::geometry
