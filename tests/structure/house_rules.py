@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""Who may include what (docs/architecture.md, "The floors"): prints FILE:LINE for every breach.
+
+Usage: house_rules.py ROOT      exit code 0: none; 1: breaches, one a line
+"""
+import pathlib
+import re
+import sys
+
+# what each room may use beside itself; a room that is not listed must not appear in an include
+FLOORS = {
+    "geometry": set(),
+    "physics": {"geometry"},
+    "organ": {"geometry", "physics"},
+    "idl": set(),
+    "transport": {"idl"},
+    "runtime": set(),
+}
+STANDING_ON = {"geometry", "physics", "organ", "idl", "transport", "runtime"}
+PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session", "organ_tools"}
+FREE = {"tests", "benchmarks"}  # may look into every room
+ROOMS = set(FLOORS) | PROGRAMS | FREE
+
+# (pattern of a header, the folders that may include it, what it is)
+VENDORS = [
+    (re.compile(r"(fastdds|fastrtps|fastcdr|dds|ddsc|idlc|ddscxx)/"), ("transport/",), "a DDS header"),
+    (re.compile(r"(epoxy|GL|GLES\d?|EGL|GLFW|KHR)/|imgui_impl_"), ("render_node/gl/",), "an OpenGL or window header"),
+    (re.compile(r"(linux/(input|hidraw|uinput|joystick)|libevdev|hidapi|libusb|HD|HDU|libudev|dhdc|drdc)\b"),
+     ("device_bridge/",), "a device's header"),
+    (re.compile(r"CGAL/"), ("organ_tools/phantom/",), "a GPL header of CGAL (docs/decisions.md 8)"),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+SOURCES = {".h", ".hpp", ".cpp", ".cc", ".c", ".cxx", ".in"}
+NODES = ("haptic_node", "deform_node", "render_node", "device_bridge")
+MAIN_LINES = 60  # a node's main parses, builds, runs and gives the exit code; no more
+
+
+def allowed_rooms(room):
+    if room in FREE:
+        return ROOMS
+    if room in PROGRAMS:
+        return STANDING_ON | {room}
+    return FLOORS[room] | {room}
+
+
+def breach_of(path, target):
+    """Why the file `path` (relative, with slashes) must not include `target`; None when it may."""
+    for pattern, folders, what in VENDORS:
+        if pattern.match(target) and not path.startswith(folders):
+            return f"includes {what} ({target}); only {' and '.join(folders)} may"
+    room, used = path.split("/")[0], target.split("/")[0]
+    if used in ROOMS and "/" in target and used not in allowed_rooms(room):
+        return f"{room} includes {target}; it may use {', '.join(sorted(allowed_rooms(room) - {room})) or 'no other room'}"
+    return None
+
+
+def sources(root):
+    for room in sorted(ROOMS):
+        for file in sorted((root / room).rglob("*")):
+            if file.suffix in SOURCES and file.is_file():
+                yield file
+
+
+def breaches(root):
+    found = []
+    for file in sources(root):
+        path = file.relative_to(root).as_posix()
+        lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
+        for number, line in enumerate(lines, 1):
+            match = INCLUDE.match(line)
+            reason = breach_of(path, match.group(2)) if match else None
+            if reason:
+                found.append(f"{path}:{number}: {reason}")
+        if file.name == "main.cpp" and path.startswith(NODES) and len(lines) > MAIN_LINES:
+            found.append(f"{path}:{len(lines)}: a node's main has at most {MAIN_LINES} lines")
+    return found
+
+
+def main():
+    if len(sys.argv) != 2:
+        print("usage: house_rules.py ROOT", file=sys.stderr)
+        return 2
+    found = breaches(pathlib.Path(sys.argv[1]))
+    print("\n".join(found) if found else "no breach")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""The guard is awake: every kind of breach, planted in a small tree of its own, is caught at its line."""
+import pathlib
+import tempfile
+import unittest
+
+import house_rules
+
+ALLOWED = {
+    "geometry/surface.cpp": '#include "geometry/surface.h"\n#include <Eigen/Core>\n',
+    "physics/law.cpp": '#include "geometry/types.h"\n',
+    "organ/organ.cpp": '#include "physics/material.h"\n#include "geometry/types.h"\n',
+    "transport/fast/bus.cpp": '#include <fastdds/dds/domain/DomainParticipant.hpp>\n#include "idl/field.h"\n',
+    "transport/cyclone/bus.cpp": '#include "dds/dds.h"\n',
+    "render_node/gl/window.cpp": '#include <GLFW/glfw3.h>\n#include "render_node/panel.h"\n',
+    "device_bridge/mouse.cpp": "#include <linux/input.h>\n",
+    "haptic_node/loop.cpp": '#include "runtime/clock.h"\n#include "transport/bus.h"\n#include "tests"\n',
+    "tests/nodes/loop_test.cpp": '#include "haptic_node/loop.h"\n#include "deform_node/loop.h"\n',
+    "organ_tools/phantom/mesher.cpp": "#include <CGAL/Mesh_3.h>\n",
+}
+PLANTED = {
+    "geometry/upward.cpp": '#include "physics/material.h"',
+    "physics/upward.cpp": '#include "organ/organ.h"',
+    "runtime/not_alone.cpp": '#include "geometry/types.h"',
+    "idl/not_alone.h": '#include "transport/bus.h"',
+    "transport/runtime_user.cpp": '#include "runtime/clock.h"',
+    "haptic_node/neighbour.cpp": '#include "deform_node/organ_models.h"',
+    "organ_tools/node_user.cpp": '#include "haptic_node/haptic_step.h"',
+    "organ/tests_user.cpp": '#include "tests/support/bar.h"',
+    "haptic_node/dds_user.cpp": "#include <fastdds/dds/topic/Topic.hpp>",
+    "deform_node/dds_user.cpp": '#include "dds/dds.h"',
+    "tests/nodes/dds_user.cpp": "  #  include <fastcdr/Cdr.h>",
+    "render_node/gl_user.cpp": "#include <epoxy/gl.h>",
+    "haptic_node/device_user.cpp": "#include <linux/input.h>",
+    "organ_tools/organ_build/cgal_user.cpp": "#include <CGAL/Mesh_3.h>",
+}
+
+
+class HouseRules(unittest.TestCase):
+    def tree(self, files):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        for path, text in files.items():
+            file = pathlib.Path(folder.name, path)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+        return pathlib.Path(folder.name)
+
+    def test_what_points_down_passes(self):
+        self.assertEqual(house_rules.breaches(self.tree(ALLOWED)), [])
+
+    def test_every_planted_breach_is_caught_at_its_line(self):
+        for path, include in PLANTED.items():
+            with self.subTest(path=path):
+                found = house_rules.breaches(self.tree({**ALLOWED, path: f"// why\n{include}\n"}))
+                self.assertEqual(len(found), 1)
+                self.assertTrue(found[0].startswith(f"{path}:2: "), found[0])
+
+    def test_a_long_main_of_a_node_is_caught(self):
+        found = house_rules.breaches(self.tree({"deform_node/main.cpp": "int x;\n" * 61}))
+        self.assertEqual(len(found), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
