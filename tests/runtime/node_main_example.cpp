@@ -1,0 +1,23 @@
+// A node that does nothing but wait for its end: what node_main and StopSignal make of it is under test.
+#include "runtime/node_options.h"
+#include "runtime/rate_loop.h"
+#include "runtime/scene.h"
+#include "runtime/signals.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+int main(int argc, char** argv) {
+  CLI::App app{"waits for a signal"};
+  omentum::runtime::NodeOptions options;
+  omentum::runtime::add_node_options(app, options);
+  return omentum::runtime::node_main(app, argc, argv, [&] {
+    omentum::runtime::load_scene(options.scene);
+    omentum::runtime::RateLoop loop(1000);
+    omentum::runtime::StopSignal stop_signal([&] { loop.stop(); });
+    std::cout << "ready" << std::endl;
+    while (loop.wait() != omentum::runtime::RateLoop::Cause::kStopped) loop.finish_tick();
+    std::cout << "stopped" << std::endl;
+  });
+}
