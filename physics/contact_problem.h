@@ -1,0 +1,79 @@
+// Which forces keep rigid points out of an elastic surface: unilateral contact with Coulomb friction, on the
+// compliance of the contact points.
+#pragma once
+
+#include "geometry/types.h"
+
+#include <array>
+#include <span>
+
+namespace omentum::physics {
+
+using geometry::Vec3;
+
+/// Contacts that one problem can hold: four instruments of eight points.
+inline constexpr int kMaxContacts = 32;
+
+/// A gap below this is closed, m: a thousandth of what a fingertip feels as a step, ten thousand times above the
+/// rounding of displacements that are stored in float.
+inline constexpr double kGapTolerance_m = 1e-6;
+
+/// Compliance of the contact itself, m/N, added to every contact's own block: a thousandth of a soft organ's. It keeps the
+/// problem regular where all vertices are pinned, and shares the force between points that the
+/// surface cannot tell apart (eight points in one triangle).
+inline constexpr double kContactCompliance_m_n = 1e-6;
+
+/// A tool's point that holds a material point of the surface.
+struct PointContact {
+  Vec3 normal = Vec3::UnitZ();    // outward, unit: tissue pushes along it and never pulls
+  Vec3 free_gap = Vec3::Zero();   // p - X: tool point minus rest position of the material point, m
+  bool bilateral = false;         // grasped: sticks and may pull
+};
+
+/// For every contact i, with lambda_i the force on the tissue and the gap
+///     r_i = p_i - X_i - sum_j W_ij lambda_j - eps lambda_i:
+/// unilateral: 0 <= -lambda.n, 0 <= r.n, one of them zero (Signorini); |lambda_t| <= mu (-lambda.n), and where r_t is
+/// not zero lambda_t = mu (-lambda.n) r_t / |r_t| (Coulomb: the sliding tool drags the tissue along). Bilateral: r = 0.
+/// mu = 0 is frictionless: lambda along n only. DESIGN 3: the papers' imposed displacement is the sticking case.
+struct ContactProblem {
+  int count = 0;                                                 // 0 .. kMaxContacts
+  double friction = 0;                                           // mu >= 0
+  std::array<PointContact, kMaxContacts> contacts;
+  std::array<Eigen::Matrix3d, kMaxContacts * kMaxContacts> compliance;  // W_ij = J C_AA J^T, m/N, symmetric as a whole
+
+  Eigen::Matrix3d& W(int i, int j) { return compliance[static_cast<std::size_t>(i) * kMaxContacts + j]; }
+  const Eigen::Matrix3d& W(int i, int j) const {
+    return compliance[static_cast<std::size_t>(i) * kMaxContacts + j];
+  }
+};
+
+enum class ContactStatus : std::uint8_t {
+  kConverged,       // every law holds within kGapTolerance_m
+  kIterationLimit,  // forces are inside their cones, but some gap is off by `residual_m`
+};
+
+struct ContactSolution {
+  ContactStatus status = ContactStatus::kConverged;
+  int rounds = 0;         // direct solves with an active set
+  double residual_m = 0;  // the largest violation of any law, expressed as a gap
+};
+
+/// The reduced problem in local axes (-n, t1, t2): one unknown per frictionless contact, three otherwise.
+struct ContactWorkspace {
+  static constexpr int kMaxUnknowns = 3 * kMaxContacts;
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxUnknowns, kMaxUnknowns>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxUnknowns, 1>;
+
+  Square A;         // [m x m] B^T (W + eps I) B
+  Column q, x, gap; // [m] B^T (p - X); unknowns; q - A x
+  Square M;         // the active rows and columns of A
+  Column rhs, kept; // [active]; [m] the iterate before a direct step
+};
+
+/// `forces`: [count] lambda, in W, N; the values on entry are the start (the last tick's). Projected block
+/// Gauss-Seidel that guesses the active set, a direct solve that makes the guess exact, in turns until
+/// every law holds. Deterministic; no allocation.
+[[nodiscard]] ContactSolution solve_contacts(const ContactProblem& problem, std::span<Vec3> forces,
+                                             ContactWorkspace& workspace) noexcept;
+
+}  // namespace omentum::physics

@@ -1,0 +1,201 @@
+#include "physics/force_tensors.h"
+
+#include "physics/blas_threads.h"
+#include "physics/column_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+namespace omentum::physics {
+
+namespace {
+
+using geometry::kClusterSize;
+
+// Nodes whose columns are solved together: wide enough for BLAS to reach its speed, small enough that the
+// workspace of two workers stays below a third of the smallest organ's tensors (measured: 16 to 32 are
+// alike).
+constexpr int kBlockNodes = 21;
+
+using Positions = std::array<std::int32_t, 3>;
+
+// In which order the columns are solved: by their place in the elimination.
+struct Plan {
+  std::vector<Positions> position;  // [mobile] of a node's components; -1 where held
+  std::vector<std::int32_t> order;  // mobile nodes by their first position
+  std::vector<std::int32_t> rank;   // [mobile] inverse of `order`
+  std::vector<bool> wanted;         // [free]
+};
+
+std::int32_t first_position(const Positions& p) {
+  std::int32_t first = INT32_MAX;
+  for (const std::int32_t position : p) {
+    if (position >= 0) first = std::min(first, position);
+  }
+  return first;
+}
+
+Plan plan_columns(const Supernodes& factor, const FreeDofs& free, const geometry::Surface& surface) {
+  std::vector<std::int32_t> position_of(factor.size);
+  for (std::int32_t p = 0; p < factor.size; ++p) position_of[factor.permutation[p]] = p;
+
+  Plan plan;
+  plan.wanted.assign(factor.size, false);
+  for (std::int32_t s = 0; s < surface.mobile_count; ++s) {
+    Positions p{-1, -1, -1};
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int32_t dof = free.of(surface.node[s], axis);
+      if (dof < 0) continue;
+      p[axis] = position_of[dof];
+      plan.wanted[p[axis]] = true;
+    }
+    plan.position.push_back(p);
+  }
+  plan.order.resize(surface.mobile_count);
+  std::iota(plan.order.begin(), plan.order.end(), 0);
+  std::ranges::sort(plan.order, {}, [&](std::int32_t s) { return first_position(plan.position[s]); });
+  plan.rank.resize(surface.mobile_count);
+  for (std::int32_t r = 0; r < surface.mobile_count; ++r) plan.rank[plan.order[r]] = r;
+  return plan;
+}
+
+// Solves blocks of columns and writes their rows from the block's first rank on.
+template <class Scalar>
+class BlockWriter {
+ public:
+  BlockWriter(const Supernodes& factor, const Plan& plan, const ComplianceTiles<Scalar>& tiles)
+      : plan_(plan),
+        tiles_(tiles),
+        solver_(factor, plan.wanted, 3 * kBlockNodes),
+        zero_(3 * kBlockNodes, 0.0) {}
+
+  void run(std::int32_t first_rank) {
+    const std::int32_t end = std::min<std::int32_t>(first_rank + kBlockNodes, tiles_.mobile_count);
+    const std::span nodes(plan_.order.data() + first_rank, plan_.order.data() + end);
+    choose_columns(nodes);
+    solver_.solve(positions_);
+    for (std::int32_t c = 0; c < tiles_.cluster_count(); ++c) write_cluster(nodes, first_rank, c);
+  }
+
+ private:
+  // The smallest position first, as the solver wants it.
+  void choose_columns(std::span<const std::int32_t> nodes) {
+    positions_.clear();
+    for (const std::int32_t k : nodes) {
+      for (const std::int32_t p : plan_.position[k]) {
+        if (p >= 0) positions_.push_back(p);
+      }
+    }
+    std::ranges::iter_swap(positions_.begin(), std::ranges::min_element(positions_));
+    columns_.assign(nodes.size(), {-1, -1, -1});
+    for (std::size_t q = 0; q < nodes.size(); ++q) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto found = std::ranges::find(positions_, plan_.position[nodes[q]][axis]);
+        if (found != positions_.end())
+          columns_[q][axis] = static_cast<std::int32_t>(found - positions_.begin());
+      }
+    }
+  }
+
+  // Rows of the solution for the three components of a cluster's lanes; zeros where there is none.
+  bool find_rows(std::int32_t first_rank, std::int32_t c, const double* (&rows)[3][kClusterSize]) {
+    bool any = false;
+    for (int lane = 0; lane < kClusterSize; ++lane) {
+      const std::int32_t n = c * kClusterSize + lane;
+      const bool solved = n < tiles_.mobile_count && plan_.rank[n] >= first_rank;
+      any = any || solved;
+      for (int i = 0; i < 3; ++i) {
+        rows[i][lane] =
+            solved && plan_.position[n][i] >= 0 ? solver_.row(plan_.position[n][i]) : zero_.data();
+      }
+    }
+    return any;
+  }
+
+  void write_cluster(std::span<const std::int32_t> nodes, std::int32_t first_rank, std::int32_t c) {
+    const double* rows[3][kClusterSize];
+    const bool any = find_rows(first_rank, c, rows);
+    for (std::size_t q = 0; q < nodes.size(); ++q) {
+      Scalar* out = tiles_.tile(nodes[q], c);
+      if (!any) {
+        std::fill_n(out, ComplianceTiles<Scalar>::kTileSize, Scalar{0});
+        continue;
+      }
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j, out += kClusterSize) {
+          const std::int32_t column = columns_[q][j];
+          for (int lane = 0; lane < kClusterSize; ++lane) {
+            out[lane] = column < 0 ? Scalar{0} : static_cast<Scalar>(rows[i][lane][column]);
+          }
+        }
+      }
+    }
+  }
+
+  const Plan& plan_;
+  const ComplianceTiles<Scalar> tiles_;
+  ColumnSolver solver_;
+  std::vector<double> zero_;
+  std::vector<std::int32_t> positions_;
+  std::vector<Positions> columns_;  // [nodes of the block] columns of their components
+};
+
+// Hands out 0, 1, .. count - 1 to the workers, which call work(worker, item); stops early on request.
+template <class Work>
+void share_out(int threads, std::int32_t count, std::stop_token stop, Work work) {
+  std::atomic<std::int32_t> next{0};
+  std::vector<std::jthread> workers;
+  for (int w = 0; w < threads; ++w) {
+    workers.emplace_back([&, w] {
+      for (std::int32_t item; !stop.stop_requested() && (item = next++) < count;) work(w, item);
+    });
+  }
+}
+
+}  // namespace
+
+template <class Scalar>
+bool compute_force_tensors(const StiffnessFactor& factor, const FreeDofs& free,
+                           const geometry::Surface& surface, const ComplianceTiles<Scalar>& tiles,
+                           std::span<float> bounds, const TensorOptions& options) {
+  const BlasThreads one_per_worker(1);
+  const Supernodes supernodes = factor.supernodes();
+  const Plan plan = plan_columns(supernodes, free, surface);
+  const std::int32_t blocks = (surface.mobile_count + kBlockNodes - 1) / kBlockNodes;
+  const int threads = std::max(1, std::min<int>(options.threads, blocks));
+
+  {
+    std::vector<BlockWriter<Scalar>> writers;
+    for (int w = 0; w < threads; ++w) writers.emplace_back(supernodes, plan, tiles);
+    std::mutex reporting;
+    std::int32_t done = 0;
+    share_out(threads, blocks, options.stop, [&](int w, std::int32_t block) {
+      writers[w].run(block * kBlockNodes);
+      const std::lock_guard lock(reporting);
+      ++done;
+      if (options.on_progress) options.on_progress(static_cast<double>(done) / blocks);
+    });
+  }
+  // The last clusters have the most pairs: they go first.
+  const std::int32_t clusters = tiles.cluster_count();
+  share_out(threads, clusters, options.stop,
+            [&](int, std::int32_t item) { mirror_cluster<Scalar>(tiles, plan.rank, clusters - 1 - item); });
+
+  const ClusterReach reach = cluster_reach(surface);
+  std::vector<std::vector<float>> scratch(threads, std::vector<float>(clusters * kClusterSize));
+  share_out(threads, surface.mobile_count, options.stop, [&](int w, std::int32_t k) {
+    bound_column(tiles, reach, k, bounds.data() + static_cast<std::size_t>(k) * clusters, scratch[w]);
+  });
+  return !options.stop.stop_requested();
+}
+
+template bool compute_force_tensors(const StiffnessFactor&, const FreeDofs&, const geometry::Surface&,
+                                    const ComplianceTiles<float>&, std::span<float>, const TensorOptions&);
+template bool compute_force_tensors(const StiffnessFactor&, const FreeDofs&, const geometry::Surface&,
+                                    const ComplianceTiles<double>&, std::span<float>, const TensorOptions&);
+
+}  // namespace omentum::physics
