@@ -111,7 +111,8 @@ std::vector<T> VtuArrays::parse_text(pugi::xml_node array) const {
     T value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + length, value);
     if (error != std::errc{} || end != text.data() + length) {
-      fail("no number as value " + std::to_string(result.size()) + " of array " + array.attribute("Name").value(),
+      fail("no number as value " + std::to_string(result.size()) + " of array " +
+               array.attribute("Name").value(),
            "numbers only");
     }
     result.push_back(value);
