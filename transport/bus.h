@@ -3,6 +3,7 @@
 
 #include "transport/messages.h"  // generated from idl/ by idl/generate.py
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -10,22 +11,27 @@
 namespace omentum::transport {
 
 enum class Vendor { kFast, kCyclone };
+
+/// kLoopback: one machine, messages of up to 64 kB through lo (Fast DDS: through shared memory).
+/// kLan: messages that fit an Ethernet frame; a larger one would be lost with its first lost fragment.
 enum class Profile { kLoopback, kLan };
 
 struct BusOptions {
   Vendor vendor = Vendor::kFast;
   int domain = 0;
   Profile profile = Profile::kLoopback;
-  std::string name;              // the participant's name, e.g. "haptic_node"
-  std::string keystore;          // DDS Security key store; empty: unsecured
+  std::string name;      // the participant's name, e.g. "haptic_node"
+  std::string keystore;  // DDS Security key store; empty: unsecured
 };
 
-/// What a reader or writer saw; read by any thread.
+/// What a reader or writer saw; read by any thread (it may wait for the vendor's locks: not in a
+/// real-time loop).
 struct EndpointStatus {
-  int matched = 0;                      // remote endpoints at this moment
-  std::uint64_t samples = 0;
-  std::uint64_t deadline_missed = 0;
-  std::uint64_t liveliness_lost = 0;
+  int matched = 0;                    // remote endpoints at this moment
+  std::uint64_t samples = 0;          // handed to DDS, or to the callback
+  std::uint64_t rejected = 0;         // writer: over a bound of the IDL, or refused; reader: not decodable
+  std::uint64_t deadline_missed = 0;  // periods in which nothing came (or was written), all keys together
+  std::uint64_t liveliness_lost = 0;  // how often a writer's liveliness ended
   std::uint64_t incompatible_qos = 0;
 };
 
@@ -34,12 +40,16 @@ template <class M>
 class Writer {
  public:
   virtual ~Writer() = default;
+  /// Sends on the calling thread (Fast DDS hands samples above one message's size to a thread of its
+  /// own). False: a sequence or string is over its bound in the IDL, a string contains a zero byte, or
+  /// the vendor refused. Never throws.
   virtual bool write(const M& sample) noexcept = 0;
   virtual EndpointStatus status() const = 0;
 };
 
-/// Receives samples of one topic until destroyed. The callback runs on the vendor's thread, one call at
-/// a time per reader, in order of arrival per writer; it must not block. No call after destruction.
+/// Receives samples of one topic until destroyed. The callback runs on the vendor's receiving thread
+/// (Cyclone: on the writing thread, for a writer in the same process), one call at a time per reader, in
+/// order of arrival per writer; it must not block, throw, or destroy its reader. No call after destruction.
 template <class M>
 class Reader {
  public:
@@ -48,21 +58,31 @@ class Reader {
 };
 
 /// One participant in one domain. Topic names and QoS come from transport/topics.h, by message type.
-/// Destroy readers and writers before the bus.
+/// Destroy readers and writers before the bus. All methods may be called by any thread.
+///
+/// "Matched" is not "ready" in DDS: the first samples of a volatile topic (ToolPose, SessionCommand...)
+/// may be lost while two endpoints find each other; durable topics arrive whole.
 class Bus {
  public:
   /// Throws std::runtime_error saying what was refused (vendor, domain, profile, security).
+  /// On kLan the environment variable OMENTUM_DDS_PEERS ("ip,ip") names machines that multicast
+  /// discovery does not reach.
   static std::unique_ptr<Bus> open(const BusOptions& options);
   virtual ~Bus() = default;
 
+  /// Both throw std::runtime_error when the vendor refuses. M is one of msg::AllTopics.
   template <class M>
   std::unique_ptr<Writer<M>> writer();
   template <class M>
   std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample);
+
+  /// What in this machine's settings will cost samples, and what to set; empty when nothing does.
+  virtual std::string warning() const = 0;
 };
 
 /// "fast" or "cyclone"; throws std::invalid_argument naming the choices.
 Vendor parse_vendor(const std::string& word);
+/// "loopback" or "lan"; throws std::invalid_argument naming the choices.
 Profile parse_profile(const std::string& word);
 
 }  // namespace omentum::transport

@@ -1,0 +1,109 @@
+#include "transport/cyclone/domain.h"
+
+#include "transport/settings.h"
+#include "transport/topics.h"
+
+#include <dds/dds.h>
+
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+namespace omentum::transport::cyclone {
+
+namespace {
+
+struct OpenDomain {
+  dds_entity_t entity = 0;
+  Profile profile = Profile::kLoopback;
+  int users = 0;
+};
+
+struct OpenDomains {
+  std::mutex mutex;
+  std::map<int, OpenDomain> by_id;
+};
+
+// Process-wide because Cyclone's domains are; see Domain.
+OpenDomains& open_domains() {
+  static OpenDomains domains;
+  return domains;
+}
+
+std::string element(const std::string& name, const std::string& content) {
+  return "<" + name + ">" + content + "</" + name + ">";
+}
+
+std::string bytes(std::size_t count) {
+  return std::to_string(count) + "B";
+}
+
+std::string milliseconds(int count) {
+  return std::to_string(count) + "ms";
+}
+
+std::string general(Profile profile) {
+  // a fragment travels with headers in one message: 500 and 100 bytes of margin worked
+  const std::size_t message = max_message_bytes(profile);
+  const std::size_t fragment = message - (profile == Profile::kLoopback ? 500 : 100);
+  std::string text = element("MaxMessageSize", bytes(message)) + element("FragmentSize", bytes(fragment));
+  // lo has no MULTICAST flag, and without multicast Cyclone finds no Fast DDS process started later
+  if (profile == Profile::kLoopback)
+    text += element("Interfaces", R"(<NetworkInterface name="lo" multicast="true"/>)");
+  return element("General", text);
+}
+
+std::string discovery(const std::vector<std::string>& peers) {
+  // participants of one machine that are found by address need ports that can be guessed: an index each
+  constexpr int kMostParticipants = 30;
+  std::string text = element("LeaseDuration", milliseconds(kParticipantLeaseMs)) +
+                     element("SPDPInterval", milliseconds(kAnnouncementPeriodMs));
+  if (!peers.empty()) {
+    std::string list;
+    for (const std::string& peer : peers) list += "<Peer Address=\"" + peer + "\"/>";
+    text += element("ParticipantIndex", "auto") +
+            element("MaxAutoParticipantIndex", std::to_string(kMostParticipants)) + element("Peers", list);
+  }
+  return element("Discovery", text);
+}
+
+}  // namespace
+
+std::string configuration(Profile profile, const std::vector<std::string>& peers) {
+  // a "min" would refuse to start where the kernel allows less; Bus::warning() says so instead
+  const std::string buffers = "<SocketReceiveBufferSize max=\"" + bytes(kSocketBufferBytes) + "\"/>";
+  const auto used_peers = profile == Profile::kLan ? peers : std::vector<std::string>{};
+  return element("CycloneDDS", "<Domain Id=\"any\">" + general(profile) + discovery(used_peers) +
+                                   element("Internal", buffers) + "</Domain>");
+}
+
+Domain::Domain(int id, Profile profile) : id_(id) {
+  OpenDomains& domains = open_domains();
+  const std::lock_guard lock(domains.mutex);
+  const auto found = domains.by_id.find(id);
+  if (found != domains.by_id.end()) {
+    if (found->second.profile != profile)
+      throw std::runtime_error("Cyclone DDS: this process already uses domain " + std::to_string(id) +
+                               " with the other profile");
+    ++found->second.users;
+    return;
+  }
+  const std::string text = configuration(
+      profile, profile == Profile::kLan ? peers_from_environment() : std::vector<std::string>{});
+  const dds_entity_t entity = dds_create_domain(static_cast<dds_domainid_t>(id), text.c_str());
+  if (entity < 0)
+    throw std::runtime_error("Cyclone DDS refused domain " + std::to_string(id) + ": " +
+                             dds_strretcode(entity));
+  domains.by_id[id] = {entity, profile, 1};
+}
+
+Domain::~Domain() {
+  OpenDomains& domains = open_domains();
+  const std::lock_guard lock(domains.mutex);
+  const auto found = domains.by_id.find(id_);
+  if (--found->second.users > 0) return;
+  dds_delete(found->second.entity);
+  domains.by_id.erase(found);
+}
+
+}  // namespace omentum::transport::cyclone

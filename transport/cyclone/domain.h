@@ -1,0 +1,28 @@
+// A domain with our configuration.
+#pragma once
+
+#include "transport/bus.h"
+
+#include <string>
+#include <vector>
+
+namespace omentum::transport::cyclone {
+
+/// Cyclone's configuration (XML) for a profile; peers are used on kLan.
+std::string configuration(Profile profile, const std::vector<std::string>& peers);
+
+/// Holds a domain with our configuration open. Cyclone has one configuration per domain and process, so that
+/// the domain is shared by all participants that the process opens in it and closed with the last.
+class Domain {
+ public:
+  /// Throws std::runtime_error: Cyclone refused, or the process uses the domain with another profile.
+  Domain(int id, Profile profile);
+  ~Domain();
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+
+ private:
+  int id_;
+};
+
+}  // namespace omentum::transport::cyclone

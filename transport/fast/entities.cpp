@@ -1,0 +1,193 @@
+#include "transport/fast/entities.h"
+
+#include "transport/settings.h"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include <stdexcept>
+
+namespace omentum::transport::fast {
+
+namespace {
+
+namespace rtps = eprosima::fastdds::rtps;
+using eprosima::fastrtps::Duration_t;
+
+// Several 3 MB states in flight between processes; a full segment loses samples.
+constexpr std::uint32_t kSharedSegmentBytes = 16 * 1024 * 1024;
+// A reader that lost a sample learns of it within this; the default of 3 s would stall durable topics.
+constexpr int kHeartbeatMs = 50;
+// How many participants of one peer machine are looked for, by their ports.
+constexpr std::uint32_t kPeerParticipants = 16;
+// Participants that start together find each other by the first announcements: more of them than the
+// default 5, so that a busy machine may miss some.
+constexpr std::uint32_t kFirstAnnouncements = 10;
+
+Duration_t duration(int milliseconds) {
+  return Duration_t(milliseconds / 1000, static_cast<std::uint32_t>(milliseconds % 1000) * 1'000'000U);
+}
+
+Duration_t duration(std::chrono::milliseconds time) {
+  return duration(static_cast<int>(time.count()));
+}
+
+void set_transports(dds::DomainParticipantQos& qos, Profile profile) {
+  auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBufferBytes;
+  udp->receiveBufferSize = kSocketBufferBytes;
+  udp->maxMessageSize = static_cast<std::uint32_t>(max_message_bytes(profile));
+  udp->maxInitialPeersRange = kPeerParticipants;
+  if (profile == Profile::kLoopback) udp->interfaceWhiteList = {"127.0.0.1"};
+  qos.transport().use_builtin_transports = false;
+  qos.transport().send_socket_buffer_size = kSocketBufferBytes;
+  qos.transport().listen_socket_buffer_size = kSocketBufferBytes;
+  qos.transport().user_transports.push_back(udp);
+  if (profile == Profile::kLoopback) {
+    auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
+    shared_memory->segment_size(kSharedSegmentBytes);
+    qos.transport().user_transports.push_back(shared_memory);
+  }
+}
+
+void add_peers(dds::DomainParticipantQos& qos, const std::vector<std::string>& peers) {
+  if (peers.empty()) return;
+  // a list of peers replaces the multicast group, which therefore joins it
+  auto& list = qos.wire_protocol().builtin.initialPeersList;
+  std::vector<std::string> addresses = peers;
+  addresses.push_back("239.255.0.1");
+  for (const std::string& address : addresses) {
+    eprosima::fastrtps::rtps::Locator_t locator;
+    eprosima::fastrtps::rtps::IPLocator::setIPv4(locator, address);
+    list.push_back(locator);
+  }
+}
+
+dds::DomainParticipantQos participant_qos(const BusOptions& options) {
+  dds::DomainParticipantQos qos;
+  qos.name(options.name);
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  discovery.leaseDuration = duration(kParticipantLeaseMs);
+  discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriodMs);
+  discovery.initial_announcements.count = kFirstAnnouncements;
+  set_transports(qos, options.profile);
+  if (options.profile == Profile::kLan) add_peers(qos, peers_from_environment());
+  return qos;
+}
+
+// Delivery inside the process would run callbacks on the writing thread, within its locks.
+void turn_off_delivery_inside_the_process() {
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+}
+
+template <class Qos>
+void set_common(Qos& qos, const TopicSpec& spec) {
+  qos.reliability().kind = spec.reliability == Reliability::kReliable ? dds::RELIABLE_RELIABILITY_QOS
+                                                                      : dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind = spec.durability == Durability::kTransientLocal ? dds::TRANSIENT_LOCAL_DURABILITY_QOS
+                                                                         : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = spec.depth;
+  // no limit of instances (the default is 10): a state in blocks has a thousand. 0 stands for "unlimited".
+  qos.resource_limits().max_samples = 0;
+  qos.resource_limits().max_instances = 0;
+  qos.resource_limits().max_samples_per_instance = 0;
+  qos.resource_limits().allocated_samples = spec.depth;
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  qos.data_sharing().off();
+  if (spec.deadline.count() > 0) qos.deadline().period = duration(spec.deadline);
+  if (spec.liveliness_lease.count() > 0) {
+    qos.liveliness().kind = dds::AUTOMATIC_LIVELINESS_QOS;
+    qos.liveliness().lease_duration = duration(spec.liveliness_lease);
+    // two announcements may be lost within a lease
+    qos.liveliness().announcement_period = duration(spec.liveliness_lease / 3);
+  }
+}
+
+}  // namespace
+
+Entities::Entities(const BusOptions& options) : profile(options.profile) {
+  turn_off_delivery_inside_the_process();
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  participant =
+      factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options));
+  if (!participant)
+    throw std::runtime_error("Fast DDS refused a participant in domain " + std::to_string(options.domain));
+  publisher = participant->create_publisher(dds::PublisherQos());
+  subscriber = participant->create_subscriber(dds::SubscriberQos());
+  if (publisher && subscriber) return;
+  participant->delete_contained_entities();
+  factory->delete_participant(participant);
+  throw std::runtime_error("Fast DDS refused a publisher or subscriber");
+}
+
+Entities::~Entities() {
+  participant->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+}
+
+dds::Topic* Entities::topic(const TopicSpec& spec, dds::TypeSupport type) {
+  const std::lock_guard lock(mutex_);
+  dds::Topic*& topic = topics_[spec.name];
+  if (!topic && participant->register_type(type) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
+    topic = participant->create_topic(spec.name, type.get_type_name(), dds::TopicQos());
+  if (!topic) throw std::runtime_error(std::string("Fast DDS refused the topic ") + spec.name);
+  return topic;
+}
+
+dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_t max_bytes) {
+  dds::DataWriterQos qos;
+  set_common(qos, spec);
+  qos.reliable_writer_qos().times.heartbeatPeriod = duration(kHeartbeatMs);
+  // a sample that fits no single message is sent by Fast DDS' own thread; smaller ones without that hop
+  qos.publish_mode().kind =
+      max_bytes > max_message_bytes(profile) ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
+  return qos;
+}
+
+dds::DataReaderQos reader_qos(const TopicSpec& spec) {
+  dds::DataReaderQos qos;
+  set_common(qos, spec);
+  return qos;
+}
+
+// reading a status resets its "changes since", hence no const methods in the vendor's interface
+EndpointStatus status_of(const dds::DataWriter& const_writer) {
+  auto& writer = const_cast<dds::DataWriter&>(const_writer);
+  EndpointStatus status;
+  dds::PublicationMatchedStatus matched;
+  writer.get_publication_matched_status(matched);
+  status.matched = matched.current_count;
+  dds::OfferedDeadlineMissedStatus deadline;
+  writer.get_offered_deadline_missed_status(deadline);
+  status.deadline_missed = deadline.total_count;
+  dds::OfferedIncompatibleQosStatus incompatible;
+  writer.get_offered_incompatible_qos_status(incompatible);
+  status.incompatible_qos = incompatible.total_count;
+  dds::LivelinessLostStatus liveliness;
+  writer.get_liveliness_lost_status(liveliness);
+  status.liveliness_lost = static_cast<std::uint64_t>(liveliness.total_count);
+  return status;
+}
+
+EndpointStatus status_of(const dds::DataReader& const_reader) {
+  auto& reader = const_cast<dds::DataReader&>(const_reader);
+  EndpointStatus status;
+  dds::SubscriptionMatchedStatus matched;
+  reader.get_subscription_matched_status(matched);
+  status.matched = matched.current_count;
+  dds::RequestedDeadlineMissedStatus deadline;
+  reader.get_requested_deadline_missed_status(deadline);
+  status.deadline_missed = deadline.total_count;
+  dds::RequestedIncompatibleQosStatus incompatible;
+  reader.get_requested_incompatible_qos_status(incompatible);
+  status.incompatible_qos = incompatible.total_count;
+  return status;
+}
+
+}  // namespace omentum::transport::fast

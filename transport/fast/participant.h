@@ -1,0 +1,26 @@
+// A Fast DDS participant. No vendor header is included here, so that both vendors meet in bus.cpp.
+#pragma once
+
+#include "transport/bus.h"
+
+namespace omentum::transport::fast {
+
+struct Entities;
+
+/// One participant with a publisher and a subscriber; makes the endpoints of every topic.
+class Participant {
+ public:
+  /// Throws std::runtime_error when Fast DDS refuses.
+  explicit Participant(const BusOptions& options);
+  ~Participant();
+
+  template <class M>
+  std::unique_ptr<Writer<M>> writer();
+  template <class M>
+  std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample);
+
+ private:
+  std::unique_ptr<Entities> entities_;
+};
+
+}  // namespace omentum::transport::fast

@@ -1,0 +1,32 @@
+// What both vendors need to know of the machine and the user's wishes.
+#pragma once
+
+#include "transport/bus.h"
+
+#include <string>
+#include <vector>
+
+namespace omentum::transport {
+
+// Holds a 3 MB OrganState that arrives at once, with room for the other topics.
+inline constexpr int kSocketBufferBytes = 4 * 1024 * 1024;
+
+// A participant that died is forgotten after the lease; announcements at a quarter of it survive losses.
+inline constexpr int kParticipantLeaseMs = 2000;
+inline constexpr int kAnnouncementPeriodMs = 500;
+
+/// Largest domain whose ports stay below 65536 with some participants in it (7400 + 250 * domain).
+inline constexpr int kMaxDomain = 230;
+
+/// IP addresses from OMENTUM_DDS_PEERS ("ip,ip"); none when unset. Throws std::runtime_error for a word
+/// that is no IPv4 address.
+std::vector<std::string> peers_from_environment();
+std::vector<std::string> parse_peers(const std::string& list);
+
+/// Warns when the kernel's limit of receive buffers (net.core.rmem_max, bytes) is below what large
+/// samples need; empty when it is not. A limit below 0 is unknown and not warned of.
+std::string receive_buffer_warning(long rmem_max_bytes);
+/// net.core.rmem_max in bytes, -1 where it cannot be read.
+long kernel_receive_buffer_limit();
+
+}  // namespace omentum::transport

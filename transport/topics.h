@@ -1,0 +1,78 @@
+// Every topic's name and quality of service: the only place that lists them (docs/topics.md explains).
+#pragma once
+
+#include "transport/bus.h"
+
+#include <chrono>
+#include <cstddef>
+
+namespace omentum::transport {
+
+enum class Reliability { kBestEffort, kReliable };
+enum class Durability { kVolatile, kTransientLocal };
+
+/// How a topic travels. Samples are kept per key; zero durations mean "not used".
+struct TopicSpec {
+  const char* name;  // "omentum/<protocol version>/<message>"
+  Reliability reliability;
+  Durability durability;
+  int depth = 1;  // samples kept per key
+  std::chrono::milliseconds deadline{0};
+  std::chrono::milliseconds liveliness_lease{0};
+};
+
+// A device of 1 kHz misses 40 poses before the deadline counts, one of 50 Hz still keeps it. Both
+// numbers only feed counters: force safety rests on the age of each tool's newest sample (1-5 ms).
+inline constexpr std::chrono::milliseconds kPoseDeadline{40};
+// A killed device is reported within this; shorter leases expire falsely on a busy two-core machine.
+inline constexpr std::chrono::milliseconds kPoseLease{100};
+// Commands come from people and scripts: never more than a few in the time that one takes to arrive.
+inline constexpr int kCommandDepth = 32;
+
+template <class M>
+inline constexpr TopicSpec kTopicSpec = [] {
+  static_assert(sizeof(M) == 0, "this message has no line in transport/topics.h");
+  return TopicSpec{};
+}();
+
+// clang-format off
+template <> inline constexpr TopicSpec kTopicSpec<msg::ToolPose> {
+    "omentum/1/tool_pose", Reliability::kBestEffort, Durability::kVolatile, 1, kPoseDeadline, kPoseLease};
+template <> inline constexpr TopicSpec kTopicSpec<msg::ToolForce> {
+    "omentum/1/tool_force", Reliability::kBestEffort, Durability::kVolatile};
+template <> inline constexpr TopicSpec kTopicSpec<msg::DeviceInfo> {
+    "omentum/1/device_info", Reliability::kReliable, Durability::kTransientLocal};
+template <> inline constexpr TopicSpec kTopicSpec<msg::Contact> {
+    "omentum/1/contact", Reliability::kBestEffort, Durability::kVolatile};
+template <> inline constexpr TopicSpec kTopicSpec<msg::LocalModel> {
+    "omentum/1/local_model", Reliability::kBestEffort, Durability::kVolatile};
+template <> inline constexpr TopicSpec kTopicSpec<msg::OrganState> {
+    "omentum/1/organ_state", Reliability::kBestEffort, Durability::kVolatile};
+template <> inline constexpr TopicSpec kTopicSpec<msg::Topology> {
+    "omentum/1/topology", Reliability::kReliable, Durability::kTransientLocal};
+template <> inline constexpr TopicSpec kTopicSpec<msg::SceneInfo> {
+    "omentum/1/scene_info", Reliability::kReliable, Durability::kTransientLocal};
+template <> inline constexpr TopicSpec kTopicSpec<msg::NodeStatus> {
+    "omentum/1/node_status", Reliability::kReliable, Durability::kTransientLocal};
+template <> inline constexpr TopicSpec kTopicSpec<msg::SessionCommand> {
+    "omentum/1/session_command", Reliability::kReliable, Durability::kVolatile, kCommandDepth};
+// clang-format on
+
+/// Largest RTPS message, bytes: what one datagram carries.
+constexpr std::size_t max_message_bytes(Profile profile) {
+  // 64 kB is the most UDP carries; 1400 leaves room in an Ethernet frame for tunnels
+  return profile == Profile::kLoopback ? 65500 : 1400;
+}
+
+/// Most floats of one OrganState block (a multiple of 3): all of them on loopback, one datagram's on a
+/// LAN, so that a lost packet costs one block of one frame.
+constexpr std::size_t organ_block_floats(Profile profile) {
+  // RTPS headers 60, key hash 28, encapsulation 4, and the state's other members with 8 echoes 252 bytes
+  constexpr std::size_t kOverhead = 60 + 28 + 4 + 252;
+  // Cyclone splits a sample at its FragmentSize, 100 bytes below its MaxMessageSize (see cyclone/domain.cpp)
+  constexpr std::size_t kFragmentMargin = 100;
+  if (profile == Profile::kLoopback) return msg::MAX_BLOCK_FLOATS;
+  return (max_message_bytes(profile) - kOverhead - kFragmentMargin) / (3 * sizeof(float)) * 3;
+}
+
+}  // namespace omentum::transport
