@@ -14,32 +14,34 @@ using geometry::Vec3;
 /// Contacts that one problem can hold: four instruments of eight points.
 inline constexpr int kMaxContacts = 32;
 
-/// A gap below this is closed, m: a thousandth of what a fingertip feels as a step, ten thousand times above the
-/// rounding of displacements that are stored in float.
+/// A gap below this is closed, m: a thousandth of what a fingertip feels as a step, ten thousand times above
+/// the rounding of displacements that are stored in float.
 inline constexpr double kGapTolerance_m = 1e-6;
 
-/// Compliance of the contact itself, m/N, added to every contact's own block: a thousandth of a soft organ's. It keeps the
-/// problem regular where all vertices are pinned, and shares the force between points that the
+/// Compliance of the contact itself, m/N, added to every contact's own block: a thousandth of a soft organ's.
+/// It keeps the problem regular where all vertices are pinned, and shares the force between points that the
 /// surface cannot tell apart (eight points in one triangle).
 inline constexpr double kContactCompliance_m_n = 1e-6;
 
 /// A tool's point that holds a material point of the surface.
 struct PointContact {
-  Vec3 normal = Vec3::UnitZ();    // outward, unit: tissue pushes along it and never pulls
-  Vec3 free_gap = Vec3::Zero();   // p - X: tool point minus rest position of the material point, m
-  bool bilateral = false;         // grasped: sticks and may pull
+  Vec3 normal = Vec3::UnitZ();   // outward, unit: tissue pushes along it and never pulls
+  Vec3 free_gap = Vec3::Zero();  // p - X: tool point minus rest position of the material point, m
+  bool bilateral = false;        // grasped: sticks and may pull
 };
 
 /// For every contact i, with lambda_i the force on the tissue and the gap
 ///     r_i = p_i - X_i - sum_j W_ij lambda_j - eps lambda_i:
-/// unilateral: 0 <= -lambda.n, 0 <= r.n, one of them zero (Signorini); |lambda_t| <= mu (-lambda.n), and where r_t is
-/// not zero lambda_t = mu (-lambda.n) r_t / |r_t| (Coulomb: the sliding tool drags the tissue along). Bilateral: r = 0.
-/// mu = 0 is frictionless: lambda along n only. DESIGN 3: the papers' imposed displacement is the sticking case.
+/// unilateral: 0 <= -lambda.n, 0 <= r.n, one of them zero (Signorini); |lambda_t| <= mu (-lambda.n), and
+/// where r_t is not zero lambda_t = mu (-lambda.n) r_t / |r_t| (Coulomb: the sliding tool drags the tissue
+/// along). Bilateral: r = 0. mu = 0 is frictionless: lambda along n only. DESIGN 3: the papers' imposed
+/// displacement is the sticking case.
 struct ContactProblem {
-  int count = 0;                                                 // 0 .. kMaxContacts
-  double friction = 0;                                           // mu >= 0
+  int count = 0;        // 0 .. kMaxContacts
+  double friction = 0;  // mu >= 0
   std::array<PointContact, kMaxContacts> contacts;
-  std::array<Eigen::Matrix3d, kMaxContacts * kMaxContacts> compliance;  // W_ij = J C_AA J^T, m/N, symmetric as a whole
+  std::array<Eigen::Matrix3d, kMaxContacts * kMaxContacts>
+      compliance;  // W_ij = J C_AA J^T, m/N, symmetric as a whole
 
   Eigen::Matrix3d& W(int i, int j) { return compliance[static_cast<std::size_t>(i) * kMaxContacts + j]; }
   const Eigen::Matrix3d& W(int i, int j) const {
@@ -61,13 +63,14 @@ struct ContactSolution {
 /// The reduced problem in local axes (-n, t1, t2): one unknown per frictionless contact, three otherwise.
 struct ContactWorkspace {
   static constexpr int kMaxUnknowns = 3 * kMaxContacts;
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxUnknowns, kMaxUnknowns>;
+  using Square =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxUnknowns, kMaxUnknowns>;
   using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxUnknowns, 1>;
 
-  Square A;         // [m x m] B^T (W + eps I) B
-  Column q, x, gap; // [m] B^T (p - X); unknowns; q - A x
-  Square M;         // the active rows and columns of A
-  Column rhs, kept; // [active]; [m] the iterate before a direct step
+  Square A;          // [m x m] B^T (W + eps I) B
+  Column q, x, gap;  // [m] B^T (p - X); unknowns; q - A x
+  Square M;          // the active rows and columns of A
+  Column rhs, kept;  // [active]; [m] the iterate before a direct step
 };
 
 /// `forces`: [count] lambda, in W, N; the values on entry are the start (the last tick's). Projected block

@@ -1,0 +1,246 @@
+#include "physics/contact_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <memory>
+#include <random>
+
+namespace omentum::physics {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Compliances below are of the order of a soft organ's, 1e-2 m/N: a gap tolerance of 1e-6 m is 1e-4 N, times
+// the condition of the problems drawn here.
+constexpr double kCompliance = 1e-2;
+constexpr double kForceTolerance_n = 100 * kGapTolerance_m / kCompliance;
+
+Vec3 random_vector(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return {normal(random), normal(random), normal(random)};
+}
+
+// A random contact problem with a compliance like an elastic body's: symmetric, positive definite, blocks
+// that decay away from the diagonal. Normals lie within 30 degrees or so of z.
+std::unique_ptr<ContactProblem> random_problem(int count, double friction, std::mt19937& random) {
+  auto problem = std::make_unique<ContactProblem>();
+  problem->count = count;
+  problem->friction = friction;
+  std::uniform_real_distribution<double> uniform(-0.5, 1.0);
+  MatrixXd factor(3 * count, 3 * count + 2);
+  std::normal_distribution<double> normal;
+  for (auto& entry : factor.reshaped()) entry = 0.3 * normal(random);
+  const MatrixXd W =
+      kCompliance * (factor * factor.transpose() / count + MatrixXd::Identity(3 * count, 3 * count));
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) problem->W(i, j) = W.block<3, 3>(3 * i, 3 * j);
+    problem->contacts[i].normal = (Vec3::UnitZ() + 0.3 * random_vector(random)).normalized();
+    // between 10 mm deep and 5 mm open, with some tangential motion
+    problem->contacts[i].free_gap =
+        -0.01 * uniform(random) * problem->contacts[i].normal + 0.003 * random_vector(random);
+  }
+  return problem;
+}
+
+std::vector<Vec3> gaps(const ContactProblem& problem, const std::vector<Vec3>& forces) {
+  std::vector<Vec3> result;
+  for (int i = 0; i < problem.count; ++i) {
+    Vec3 gap = problem.contacts[i].free_gap - kContactCompliance_m_n * forces[i];
+    for (int j = 0; j < problem.count; ++j) gap -= problem.W(i, j) * forces[j];
+    result.push_back(gap);
+  }
+  return result;
+}
+
+std::vector<Vec3> solve(const ContactProblem& problem) {
+  std::vector<Vec3> forces(problem.count, Vec3::Zero());
+  const auto work = std::make_unique<ContactWorkspace>();
+  const ContactSolution solution = solve_contacts(problem, forces, *work);
+  EXPECT_EQ(solution.status, ContactStatus::kConverged) << "residual " << solution.residual_m;
+  return forces;
+}
+
+void expect_contact_laws(const ContactProblem& problem, const std::vector<Vec3>& forces) {
+  const std::vector<Vec3> gap = gaps(problem, forces);
+  for (int i = 0; i < problem.count; ++i) {
+    if (problem.contacts[i].bilateral) {
+      EXPECT_LE(gap[i].norm(), kGapTolerance_m);
+      continue;
+    }
+    const Vec3& n = problem.contacts[i].normal;
+    const double push = -forces[i].dot(n), open = gap[i].dot(n);
+    const Vec3 tangential = forces[i] + push * n, slip = gap[i] - open * n;
+    EXPECT_GE(push, -1e-12) << "tissue never pulls";
+    EXPECT_GE(open, -kGapTolerance_m) << "no point stays inside";
+    EXPECT_LE(std::min(push * kCompliance, open), 2 * kGapTolerance_m) << "an open contact carries no force";
+    EXPECT_LE(tangential.norm(), problem.friction * push + 1e-12) << "friction cone";
+    if (slip.norm() > 20 * kGapTolerance_m && push * kCompliance > 20 * kGapTolerance_m) {
+      EXPECT_NEAR(tangential.norm(), problem.friction * push, kForceTolerance_n)
+          << "sliding uses all friction";
+      if (problem.friction > 0) {
+        EXPECT_GT(tangential.dot(slip), 0.99 * tangential.norm() * slip.norm()) << "dragged along the slip";
+      }
+    }
+  }
+}
+
+// The frictionless problem by trying every set of touching contacts.
+std::vector<Vec3> brute_force(const ContactProblem& problem) {
+  MatrixXd A(problem.count, problem.count);
+  VectorXd q(problem.count);
+  for (int i = 0; i < problem.count; ++i) {
+    const Vec3& n = problem.contacts[i].normal;
+    q(i) = -n.dot(problem.contacts[i].free_gap);
+    for (int j = 0; j < problem.count; ++j) A(i, j) = n.dot(problem.W(i, j) * problem.contacts[j].normal);
+    A(i, i) += kContactCompliance_m_n;
+  }
+  for (unsigned set = 0; set < (1u << problem.count); ++set) {
+    std::vector<int> active;
+    for (int i = 0; i < problem.count; ++i) {
+      if (set >> i & 1) active.push_back(i);
+    }
+    VectorXd x = VectorXd::Zero(problem.count);
+    if (!active.empty()) {
+      const MatrixXd A_active = A(active, active);
+      const VectorXd q_active = q(active), pushes = A_active.llt().solve(q_active);
+      x(active) = pushes;
+    }
+    const VectorXd gap = q - A * x;
+    if (x.minCoeff() < 0) continue;
+    bool valid = true;
+    for (int i = 0; i < problem.count; ++i) valid &= (set >> i & 1) || gap(i) <= 0;
+    if (!valid) continue;
+    std::vector<Vec3> forces;
+    for (int i = 0; i < problem.count; ++i) forces.push_back(-x(i) * problem.contacts[i].normal);
+    return forces;
+  }
+  ADD_FAILURE() << "a positive definite problem has exactly one solution";
+  return {};
+}
+
+TEST(ContactProblem, FrictionlessEqualsEveryActiveSetTried) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto problem = random_problem(1 + trial % 8, 0, random);
+    const std::vector<Vec3> found = solve(*problem), expected = brute_force(*problem);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_LE((found[i] - expected[i]).norm(), kForceTolerance_n) << "trial " << trial << ", contact " << i;
+    }
+  }
+}
+
+TEST(ContactProblem, ObeysSignoriniAndCoulomb) {
+  std::mt19937 random(2);
+  for (const double friction : {0.0, 0.1, 0.3, 0.6}) {
+    for (int trial = 0; trial < 300; ++trial) {
+      const auto problem = random_problem(1 + trial % 16, friction, random);
+      if (trial % 5 == 0) problem->contacts[0].bilateral = true;
+      expect_contact_laws(*problem, solve(*problem));
+      if (HasFailure()) FAIL() << "friction " << friction << ", trial " << trial;
+    }
+  }
+}
+
+TEST(ContactProblem, AllStickingEqualsCholesky) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto problem = random_problem(kMaxContacts / 2, 0, random);
+    const int n = 3 * problem->count;
+    MatrixXd W = kContactCompliance_m_n * MatrixXd::Identity(n, n);
+    VectorXd r(n);
+    for (int i = 0; i < problem->count; ++i) {
+      problem->contacts[i].bilateral = true;
+      r.segment<3>(3 * i) = problem->contacts[i].free_gap;
+      for (int j = 0; j < problem->count; ++j) W.block<3, 3>(3 * i, 3 * j) += problem->W(i, j);
+    }
+    const VectorXd expected = W.llt().solve(r);
+    const std::vector<Vec3> found = solve(*problem);
+    for (int i = 0; i < problem->count; ++i) {
+      EXPECT_LE((found[i] - expected.segment<3>(3 * i)).norm(), 1e-9 * expected.norm());
+    }
+  }
+}
+
+TEST(ContactProblem, DoesNotDependOnTheOrderOfContacts) {
+  std::mt19937 random(4);
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto problem = random_problem(10, trial % 2 ? 0.3 : 0, random);
+    auto reversed = std::make_unique<ContactProblem>(*problem);
+    const int last = problem->count - 1;
+    for (int i = 0; i <= last; ++i) {
+      reversed->contacts[i] = problem->contacts[last - i];
+      for (int j = 0; j <= last; ++j) reversed->W(i, j) = problem->W(last - i, last - j);
+    }
+    const std::vector<Vec3> one = solve(*problem), other = solve(*reversed);
+    for (int i = 0; i <= last; ++i) EXPECT_LE((one[i] - other[last - i]).norm(), kForceTolerance_n);
+  }
+}
+
+TEST(ContactProblem, DoesNotDependOnTheStart) {
+  std::mt19937 random(5);
+  const auto work = std::make_unique<ContactWorkspace>();
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto problem = random_problem(8, trial % 2 ? 0.3 : 0, random);
+    const std::vector<Vec3> cold = solve(*problem);
+    std::vector<Vec3> warm(problem->count);
+    for (Vec3& f : warm) f = random_vector(random);
+    EXPECT_EQ(solve_contacts(*problem, warm, *work).status, ContactStatus::kConverged);
+    for (int i = 0; i < problem->count; ++i) EXPECT_LE((warm[i] - cold[i]).norm(), kForceTolerance_n);
+  }
+}
+
+// Eight points of a tool in one triangle: W has rank 9 for 24 unknowns. Rigid points over one triangle that
+// they all press: the sum of forces must be what the triangle's three nodes need to follow.
+TEST(ContactProblem, RedundantPointsInOneTriangleShareTheForce) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (const double friction : {0.0, 0.4}) {
+    for (int trial = 0; trial < 100; ++trial) {
+      const auto nodes = random_problem(3, 0, random);  // the vertices' own compliance
+      auto problem = std::make_unique<ContactProblem>();
+      problem->count = 8;
+      problem->friction = friction;
+      std::array<Vec3, 8> k;
+      for (int i = 0; i < 8; ++i) {
+        k[i] = Vec3(uniform(random), uniform(random), uniform(random)) + Vec3::Constant(0.01);
+        k[i] /= k[i].sum();
+        problem->contacts[i].free_gap = Vec3(0.001, 0, -0.008);
+      }
+      for (int i = 0; i < 8; ++i) {
+        for (int j = 0; j < 8; ++j) {
+          problem->W(i, j).setZero();
+          for (int a = 0; a < 3; ++a) {
+            for (int b = 0; b < 3; ++b) problem->W(i, j) += k[i][a] * k[j][b] * nodes->W(a, b);
+          }
+        }
+      }
+      expect_contact_laws(*problem, solve(*problem));
+      if (HasFailure()) FAIL() << "trial " << trial;
+    }
+  }
+}
+
+TEST(ContactProblem, PinnedSurfaceIsAStiffWallNotASingularOne) {
+  auto problem = std::make_unique<ContactProblem>();
+  problem->count = 1;
+  problem->W(0, 0).setZero();
+  problem->contacts[0].free_gap = Vec3(0, 0, -1e-5);
+  const std::vector<Vec3> forces = solve(*problem);
+  EXPECT_NEAR(forces[0].z(), -1e-5 / kContactCompliance_m_n, 1e-9);
+}
+
+TEST(ContactProblem, OpenContactsCarryNoForce) {
+  std::mt19937 random(7);
+  const auto problem = random_problem(6, 0.3, random);
+  for (int i = 0; i < 6; ++i) problem->contacts[i].free_gap = 0.001 * problem->contacts[i].normal;
+  for (const Vec3& f : solve(*problem)) EXPECT_EQ(f, Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace omentum::physics
