@@ -22,7 +22,8 @@ constexpr double kFarthestCell = 1 << 28;
 // Queries are grown by this part of a bucket: a thousand times the rounding of a cell boundary.
 constexpr double kRoundingPad = 1e-9;
 
-// Slack as part of the mean edge: of 1/8, 1/4 and 1/2 it made update and query together cheapest.
+// Slack as part of the mean edge. Of 1/8, 1/4, 1/2 and 3/4 measured under a sliding dent on a fine liver:
+// less saves nothing on updates worth having, at 1/2 a query looks at three times as many triangles.
 constexpr double kSuitableSlack = 0.25;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -230,6 +231,15 @@ void BucketGrid::collect_shell(const CellRange& cube, const Cell& centre, std::i
   }
 }
 
+BucketGrid::CellRange BucketGrid::common(const CellRange& a, const CellRange& b) noexcept {
+  CellRange both;
+  for (std::size_t i = 0; i < 3; ++i) {
+    both.low[i] = std::max(a.low[i], b.low[i]);
+    both.high[i] = std::min(a.high[i], b.high[i]);
+  }
+  return both;
+}
+
 std::int32_t BucketGrid::distance_in_cells(const Cell& cell, const CellRange& range) noexcept {
   std::int32_t distance = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -250,6 +260,8 @@ std::optional<BucketGrid::Nearest> BucketGrid::nearest(const Vec3& p, double max
   const auto test_new_candidates = [&] {
     for (; tested < candidates_.size(); ++tested) {
       const TriangleId triangle = candidates_[tested];
+      const Box& around = boxes_[static_cast<std::size_t>(triangle)];
+      if ((around.low - p).cwiseMax(p - around.high).cwiseMax(0.0).squaredNorm() > reach * reach) continue;
       const Triangle& t = surface_->triangles[triangle];
       const TrianglePoint point =
           closest_point_on_triangle(p, positions[t[0]], positions[t[1]], positions[t[2]]);
@@ -265,21 +277,25 @@ std::optional<BucketGrid::Nearest> BucketGrid::nearest(const Vec3& p, double max
   const Cell centre = cell_of(p);
   const CellRange occupied{cell_of(bounds_.low), cell_of(bounds_.high)};
   std::int64_t looked_at = 0;
-  for (std::int32_t shell = distance_in_cells(centre, occupied); (shell - 1) * edge_ <= reach; ++shell) {
-    CellRange cube;
+  for (std::int32_t shell = distance_in_cells(centre, occupied);; ++shell) {
+    const Box around = box();
+    const CellRange within = common(occupied, {cell_of(around.low), cell_of(around.high)});
+    if (within.count() == 0) break;
+    CellRange cube{centre, centre};
     for (std::size_t i = 0; i < 3; ++i) {
-      cube.low[i] = std::max(centre[i] - shell, occupied.low[i]);
-      cube.high[i] = std::min(centre[i] + shell, occupied.high[i]);
+      cube.low[i] -= shell;
+      cube.high[i] += shell;
     }
+    cube = common(cube, within);
     looked_at += cube.count();
     if (looked_at > std::ssize(boxes_)) {  // looking at every triangle is cheaper
-      collect_all(box());
+      collect_all(around);
       test_new_candidates();
       break;
     }
-    collect_shell(cube, centre, shell, box());
+    collect_shell(cube, centre, shell, around);
     test_new_candidates();
-    if (cube == occupied) break;
+    if (cube == within) break;
   }
   return best;
 }

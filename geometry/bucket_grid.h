@@ -117,6 +117,7 @@ class BucketGrid {
   void collect_slot(std::int32_t slot, const Box& box) noexcept;
   void collect_cells(const CellRange& cells, const Box& box) noexcept;
   void collect_shell(const CellRange& cube, const Cell& centre, std::int32_t shell, const Box& box) noexcept;
+  static CellRange common(const CellRange& a, const CellRange& b) noexcept;
   static std::int32_t distance_in_cells(const Cell& cell, const CellRange& range) noexcept;
   void collect_all(const Box& box) noexcept;
   void collect_triangle(std::int32_t triangle, const Box& box) noexcept;
