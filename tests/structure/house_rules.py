@@ -15,8 +15,9 @@ FLOORS = {
     "idl": set(),
     "transport": {"idl"},
     "runtime": set(),
+    "node": {"idl", "transport", "runtime"},
 }
-STANDING_ON = {"geometry", "physics", "organ", "idl", "transport", "runtime"}
+STANDING_ON = set(FLOORS)
 PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session", "organ_tools"}
 FREE = {"tests", "benchmarks"}  # may look into every room
 ROOMS = set(FLOORS) | PROGRAMS | FREE

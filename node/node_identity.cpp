@@ -1,0 +1,57 @@
+#include "node/node_identity.h"
+
+#include <unistd.h>
+
+#include <chrono>
+
+namespace omentum::node {
+
+namespace {
+
+constexpr std::size_t kFaultBytes = 160;  // string<160> of idl/session.idl
+constexpr std::size_t kHostBytes = 64;    // string<64> of idl/session.idl
+
+msg::Percentiles to_message(const runtime::Percentiles& p) {
+  return {.p50 = p.p50, .p99 = p.p99, .p999 = p.p999, .max = p.max, .count = p.count};
+}
+
+}  // namespace
+
+runtime::Scene load_scene(const runtime::NodeOptions& options) {
+  runtime::Scene scene = runtime::load_scene(options.scene);
+  if (!options.organ.empty() && !scene.organs.empty()) scene.organs.front().file = options.organ;
+  return scene;
+}
+
+transport::BusOptions bus_options(const runtime::NodeOptions& options, std::string name) {
+  return {.vendor = transport::parse_vendor(options.dds),
+          .domain = options.domain,
+          .profile = transport::parse_profile(options.profile),
+          .name = std::move(name),
+          .keystore = options.keystore};
+}
+
+msg::NodeStatus introduce(std::uint32_t kind, double rate_hz) {
+  msg::NodeStatus status;
+  status.kind = kind;
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  status.instance = static_cast<std::uint64_t>(std::chrono::nanoseconds(since_epoch).count());
+  char host[kHostBytes + 1] = {};
+  gethostname(host, kHostBytes);
+  status.host = host;
+  status.rate_hz = rate_hz;
+  return status;
+}
+
+void fill_status(const runtime::LoopRecord& record, const runtime::FaultList& faults,
+                 msg::NodeStatus& status) {
+  status.ticks = record.ticks;
+  status.missed = record.missed;
+  status.period_us = to_message(record.period.percentiles());
+  status.compute_us = to_message(record.compute.percentiles());
+  status.faults.clear();
+  if (!faults.any()) return;
+  for (const std::string& fault : faults.lines()) status.faults.push_back(fault.substr(0, kFaultBytes));
+}
+
+}  // namespace omentum::node
