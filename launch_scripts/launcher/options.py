@@ -1,0 +1,152 @@
+"""The command line of launch_scripts/run (DESIGN section 5)."""
+import argparse
+import os
+import pathlib
+from dataclasses import dataclass, field
+
+from .errors import Refusal
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+DEFAULT_SCENE = REPOSITORY / "scenes" / "liver.toml"
+VENDORS = ("fast", "cyclone")
+# short name on the command line -> process
+NODES = {"haptic": "haptic_node", "deform": "deform_node", "render": "render_node", "device": "virtual_device"}
+# beyond 100 a domain's ports lie among those that Linux gives to any program
+FIRST_DOMAIN, LAST_FREE_DOMAIN, LAST_DOMAIN = 1, 100, 230
+
+
+@dataclass
+class Options:
+    scene: pathlib.Path = DEFAULT_SCENE
+    seconds: float = None
+    out: pathlib.Path = pathlib.Path("out")
+    dds: dict = field(default_factory=dict)  # process -> vendor
+    device: str = "virtual"  # virtual, none or trace
+    trace: pathlib.Path = None
+    organ: pathlib.Path = None
+    scale: float = None
+    fixed: str = None
+    rate_hz: float = None
+    headless: bool = False
+    domain: int = None
+    log: bool = False
+    profile: str = "loopback"
+    split: str = None
+    paused: bool = False
+    restart: bool = False
+    programs: pathlib.Path = REPOSITORY / "build" / "release" / "bin"
+    check_only: bool = False
+
+
+class OneLineParser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Refusal(f"{message} (see launch_scripts/run --help)")
+
+
+def build_parser():
+    parser = OneLineParser(
+        prog="launch_scripts/run",
+        description="Starts a session: haptic_node, deform_node, render_node and a simulated hand on this machine. "
+        "In a terminal: p pauses, r resets, c clears a latched fault, q ends.")
+    add = parser.add_argument
+    add("scene", nargs="?", metavar="SCENE", help="scene file or name of a file in scenes/ (default: liver)")
+    add("--seconds", type=float, metavar="N", help="end after N seconds (default: when told to)")
+    add("--out", metavar="DIR", default="out", help="report.json and pictures go here (default: out)")
+    add("--dds", default="fast", metavar="VENDOR",
+        help="fast, cyclone, or haptic=fast,deform=cyclone,render=fast,device=cyclone")
+    add("--device", default="virtual", metavar="KIND", help="virtual, none or trace:FILE (default: virtual)")
+    add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's")
+    add("--scale", type=float, metavar="METRES_PER_UNIT", help="of that mesh (default: found from its size)")
+    add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them")
+    add("--rate-hz", type=float, metavar="HZ", help="rate of the haptic loop (default: 1000)")
+    add("--headless", action="store_true", help="write pictures instead of opening a window")
+    add("--domain", type=int, metavar="N", help="DDS domain, 0..230 (default: a free one)")
+    add("--profile", default="loopback", choices=("loopback", "lan"), help="QoS for one machine or for a network")
+    add("--log", action="store_true", help="also write every loop's samples to DIR/PROCESS.csv")
+    add("--split", choices=("paper",), help="paper: hand and haptic_node on one processor, organ and picture on the "
+        "other, as Cotin 1999 did with two machines")
+    add("--paused", action="store_true", help="start paused")
+    add("--restart", action="store_true", help="start a node again when it crashed")
+    add("--secure", action="store_true", help="secured topics (not part of this version)")
+    add("--check", action="store_true", help=argparse.SUPPRESS)
+    return parser
+
+
+def parse(arguments):
+    """Raises Refusal."""
+    given = build_parser().parse_args(arguments)
+    if given.secure:
+        raise Refusal("--secure is not part of this version; run without it")
+    options = Options(
+        scene=find_scene(given.scene), seconds=given.seconds, out=pathlib.Path(given.out), dds=parse_dds(given.dds),
+        scale=given.scale, fixed=given.fixed, rate_hz=given.rate_hz, headless=given.headless, domain=given.domain,
+        log=given.log, profile=given.profile, split=given.split, paused=given.paused, restart=given.restart,
+        check_only=given.check)
+    options.device, options.trace = parse_device(given.device)
+    options.organ = existing(given.organ, "--organ") if given.organ else None
+    if os.environ.get("OMENTUM_BIN"):
+        options.programs = pathlib.Path(os.environ["OMENTUM_BIN"])
+    check_values(options)
+    return options
+
+
+def find_scene(given):
+    if given is None:
+        return DEFAULT_SCENE
+    named = REPOSITORY / "scenes" / f"{given}.toml"
+    if pathlib.PurePath(given).name == given and named.is_file() and not pathlib.Path(given).exists():
+        return named
+    return existing(given, "SCENE")
+
+
+def existing(given, what):
+    path = pathlib.Path(given)
+    if not path.is_file():
+        raise Refusal(f"{what}: {given}: no such file")
+    return path.resolve()
+
+
+def parse_dds(text):
+    """One vendor for all, or node=vendor pairs; whatever is not named runs Fast DDS."""
+    if "=" not in text:
+        check_vendor(text)
+        return {process: text for process in NODES.values()}
+    chosen = {process: "fast" for process in NODES.values()}
+    for pair in text.split(","):
+        node, _, vendor = pair.partition("=")
+        if node not in NODES:
+            raise Refusal(f"--dds: unknown node '{node}', expected {', '.join(NODES)}")
+        check_vendor(vendor)
+        chosen[NODES[node]] = vendor
+    return chosen
+
+
+def check_vendor(vendor):
+    if vendor not in VENDORS:
+        raise Refusal(f"--dds: unknown vendor '{vendor}', expected {' or '.join(VENDORS)}")
+
+
+def parse_device(text):
+    kind, _, file = text.partition(":")
+    if kind == "mouse":
+        raise Refusal("--device mouse is not part of this version; expected virtual, none or trace:FILE")
+    if kind == "trace" and file:
+        return "trace", existing(file, "--device trace")
+    if text in ("virtual", "none"):
+        return text, None
+    raise Refusal(f"--device: found '{text}', expected virtual, none or trace:FILE")
+
+
+def check_values(options):
+    if options.seconds is not None and not options.seconds > 0:
+        raise Refusal(f"--seconds: found {options.seconds:g}, expected more than 0")
+    if options.scale is not None and not options.scale > 0:
+        raise Refusal(f"--scale: found {options.scale:g}, expected more than 0")
+    if options.rate_hz is not None and not 1 <= options.rate_hz <= 10000:
+        raise Refusal(f"--rate-hz: found {options.rate_hz:g}, expected 1 to 10000")
+    if options.domain is not None and not 0 <= options.domain <= LAST_DOMAIN:
+        raise Refusal(f"--domain: found {options.domain}, expected 0 to {LAST_DOMAIN}")
+    if (options.scale or options.fixed) and not options.organ:
+        raise Refusal("--scale and --fixed describe the mesh of --organ, which is missing")
+    if options.split and len(os.sched_getaffinity(0)) < 2:
+        raise Refusal("--split paper needs two processors, found one")

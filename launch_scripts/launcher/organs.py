@@ -1,0 +1,166 @@
+"""From a scene to files that the nodes can load: phantom, organ, fitted scene; cached by what they are made of."""
+import fcntl
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import time
+
+from .errors import Refusal
+from .options import REPOSITORY
+
+LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to be in millimetres
+SUPPORTED_PART = 0.05  # of a foreign mesh's length, where --fixed is not given
+PATIENCE_S = 2.0  # anything longer gets a line of progress
+
+
+def run_tool(options, arguments, doing):
+    """Runs one of our programs; its one-line refusal becomes ours. Returns what it printed."""
+    command = [str(options.programs / arguments[0]), *map(str, arguments[1:])]
+    begin = time.monotonic()
+    told = False
+    try:
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    except OSError as error:
+        raise Refusal(f"{command[0]}: {error.strerror}") from error
+    try:
+        while True:
+            try:
+                out, err = process.communicate(timeout=PATIENCE_S)
+                break
+            except subprocess.TimeoutExpired:
+                print(f"run: {doing} ... {time.monotonic() - begin:.0f} s", flush=True)
+                told = True
+    except BaseException:
+        process.kill()
+        process.wait()
+        raise
+    if process.returncode != 0:
+        lines = err.strip().splitlines() or [f"{arguments[0]} ended with code {process.returncode}"]
+        raise Refusal(lines[-1])
+    for line in err.strip().splitlines():
+        print(line, flush=True)
+    if told:
+        print(f"run: {doing}: done after {time.monotonic() - begin:.1f} s", flush=True)
+    return out
+
+
+def digest(*parts):
+    """Of texts and of files' contents."""
+    total = hashlib.sha256()
+    for part in parts:
+        content = part.read_bytes() if isinstance(part, pathlib.Path) else str(part).encode()
+        total.update(hashlib.sha256(content).digest())
+    return total.hexdigest()[:20]
+
+
+class Cache:
+    """Files under build/cache (or $OMENTUM_CACHE), one folder for each digest of all that a file depends on."""
+
+    def __init__(self):
+        self.root = pathlib.Path(os.environ.get("OMENTUM_CACHE") or REPOSITORY / "build" / "cache").resolve()
+        self.root.mkdir(parents=True, exist_ok=True)
+
+    def get(self, key, name, make):
+        """The file `name`; make(path) writes it when it is not there. One launcher at a time makes files."""
+        folder = self.root / key
+        file, part = folder / name, folder / "part"
+        with open(self.root / "lock", "w", encoding="ascii") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not file.exists():
+                shutil.rmtree(folder, ignore_errors=True)
+                part.mkdir(parents=True)
+                # made under its own name (an organ is called after its file), then moved: never half a file
+                make(part / name)
+                (part / name).rename(file)
+                part.rmdir()
+        return file
+
+
+def describe(options):
+    return json.loads(run_tool(options, ["scene_prepare", options.scene, "--describe"], "reading the scene"))
+
+
+def phantom_mesh(options, cache, kind):
+    program = options.programs / "organ_phantom"
+    return cache.get(digest("phantom", kind, program), f"liver_{kind}.msh",
+                     lambda file: run_tool(options, ["organ_phantom", *phantom_arguments(kind, file)],
+                                           f"making the liver ({kind} size)"))
+
+
+def phantom_arguments(kind, file):
+    return ["--size", kind, "-o", file]
+
+
+def support_spec(measured, scale, scene_fixed):
+    """A plane at the outermost 5 % of the mesh, on the axis and side on which the scene supports its own organ."""
+    match = re.match(r"plane:([xyz])([<>])", scene_fixed)
+    axis, side = match.groups() if match else ("z", "<")
+    low, high = (scale * measured[end]["xyz".index(axis)] for end in ("min", "max"))
+    at = low + SUPPORTED_PART * (high - low) if side == "<" else high - SUPPORTED_PART * (high - low)
+    return f"plane:{axis}{side}{at:.6g}"
+
+
+def foreign_terms(options, spec):
+    """Scale and supports of a user's mesh: given, or found and said."""
+    measured = json.loads(run_tool(options, ["scene_prepare", "--measure", options.organ], "measuring the mesh"))
+    scale = options.scale
+    if scale is None:
+        largest = max(high - low for low, high in zip(measured["min"], measured["max"]))
+        scale = 0.001 if largest > LARGEST_ORGAN_M else 1.0
+        if scale != 1.0:
+            print(f"run: warning: {options.organ.name} is {largest:.4g} units long: taken as millimetres "
+                  "(--scale says otherwise)", flush=True)
+    fixed = options.fixed or support_spec(measured, scale, spec["fixed"])
+    if not options.fixed:
+        print(f"run: {options.organ.name} is supported at {fixed} (--fixed says otherwise)", flush=True)
+    return scale, fixed
+
+
+def build_organ(options, cache, mesh, name, spec, scale, fixed):
+    program = options.programs / "organ_build"
+    terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
+             "--scale", scale, "--fixed", fixed]
+    inputs = [mesh]
+    if pathlib.Path(fixed).is_file():
+        inputs.append(pathlib.Path(fixed))
+    if mesh.suffix in (".node", ".ele"):
+        inputs += [mesh.with_suffix(".node"), mesh.with_suffix(".ele")]
+    return cache.get(digest("organ", program, *terms, *inputs), f"{name}.h5",
+                     lambda file: run_tool(options, ["organ_build", mesh, "-o", file, *terms],
+                                           f"precomputing the force tensors of {mesh.name}"))
+
+
+def organ_file(options, cache, spec):
+    """The organ file of the session's first organ."""
+    if options.organ:
+        if options.organ.suffix == ".h5":
+            return options.organ
+        scale, fixed = foreign_terms(options, spec)
+        return build_organ(options, cache, options.organ, options.organ.stem, spec, scale, fixed)
+    if spec["file"] or spec["mesh"].endswith(".h5"):
+        return pathlib.Path(spec["file"] or spec["mesh"])
+    kind, _, size = spec["mesh"].partition(":")
+    mesh = phantom_mesh(options, cache, size) if kind == "phantom" else pathlib.Path(spec["mesh"])
+    return build_organ(options, cache, mesh, spec["name"], spec, spec["metres_per_unit"], spec["fixed"])
+
+
+def prepare(options):
+    """Makes what is missing; returns the fitted scene and its name. Raises Refusal."""
+    described = describe(options)
+    if len(described["organs"]) > 1:
+        raise Refusal(f"{options.scene}: {len(described['organs'])} organs; this version's launcher prepares one")
+    file = organ_file(options, Cache(), described["organs"][0])
+    try:
+        options.out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Refusal(f"--out: {options.out}: {error.strerror}") from error
+    scene = (options.out / "scene.toml").resolve()
+    keep = [] if options.organ else ["--keep-points"]
+    notes = run_tool(options, ["scene_prepare", options.scene, "--organ", file, "-o", scene, *keep], "fitting the scene")
+    for line in notes.strip().splitlines():
+        print(f"run: {line}", flush=True)
+    return scene, described["name"]

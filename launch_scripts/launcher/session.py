@@ -1,0 +1,171 @@
+"""One run: four processes from start to report."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import time
+
+from . import processes, report
+from .domain import Domain
+from .keys import Keys
+
+POLL_S = 0.1
+REFUSAL_WINDOW_S = 10.0  # a node that ends with code 2 within this refused to start
+RESTART_PAUSE_S = 1.0
+COMMANDS = {"r": "reset", "c": "clear-fault"}
+
+
+def has_display():
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def processors_of(split):
+    """Cotin's two machines: the hand's on one processor, organ and picture on the other."""
+    if split != "paper":
+        return {}
+    first, second = sorted(os.sched_getaffinity(0))[:2]
+    return {"haptic_node": {first}, "virtual_device": {first}, "deform_node": {second}, "render_node": {second}}
+
+
+class Session:
+    """Runs until its time is over, somebody asks, or a node refuses to start."""
+
+    def __init__(self, options, scene, name):
+        self.options, self.scene, self.name = options, scene, name
+        self.domain = Domain(options.domain)
+        self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
+        self.headless = options.headless
+        self.stopping = False
+        self.paused = False
+        self.realtime = False
+        self.messengers = []
+        self.restarts = {}
+        if not self.headless and not has_display():
+            self.headless = True
+            print("run: no display: writing pictures instead (--headless)", flush=True)
+        self.nodes = self.make_nodes()
+
+    def stop(self):
+        self.stopping = True
+
+    # starting
+    def make_nodes(self):
+        own = {"haptic_node": [], "deform_node": [], "render_node": ["--out", str(self.options.out.resolve())]}
+        if self.options.rate_hz:
+            own["haptic_node"] += ["--rate-hz", f"{self.options.rate_hz:g}"]
+        if self.headless:
+            own["render_node"].append("--headless")
+        if self.options.device != "none":
+            own["virtual_device"] = ["--trace", str(self.options.trace)] if self.options.trace else []
+        processors = processors_of(self.options.split)
+        return [processes.Node(name, self.command(name) + extra, processors.get(name)) for name, extra in own.items()]
+
+    def command(self, name):
+        command = [str(self.options.programs / name), "--scene", str(self.scene), "--dds", self.options.dds[name],
+                   "--domain", str(self.domain.number), "--profile", self.options.profile,
+                   "--report", str(self.report_folder() / f"{name}.json")]
+        if self.options.log:
+            command += ["--log", str(self.options.out.resolve() / f"{name}.csv")]
+        return command
+
+    def report_folder(self):
+        return pathlib.Path(self.folder.name)
+
+    def announce(self):
+        vendors = sorted(set(self.options.dds[node.name] for node in self.nodes))
+        print(f"run: {self.name}; DDS domain {self.domain.number}, {' and '.join(vendors)}", flush=True)
+        if self.options.split:
+            sides = {}
+            for node in self.nodes:
+                sides.setdefault(min(node.processors), []).append(node.name)
+            said = "; ".join(f"processor {cpu}: {', '.join(names)}" for cpu, names in sides.items())
+            print(f"run: split as in the paper: {said}", flush=True)
+
+    # running
+    def run(self):
+        """The exit code: 0; 1 when a node crashed; 2 when one refused to start."""
+        self.announce()
+        begin = time.monotonic()
+        code = 0
+        try:
+            processes.start_all(self.nodes)
+            if self.options.paused:
+                self.toggle_pause()
+            with Keys() as keys:
+                code = self.watch(keys, begin)
+        finally:
+            processes.stop_all(self.nodes)
+            for messenger in self.messengers:
+                messenger.kill()
+                messenger.wait()
+        self.finish(time.monotonic() - begin)
+        return code or (1 if any(node.exit != 0 for node in self.nodes) else 0)
+
+    def watch(self, keys, begin):
+        while not self.stopping and any(node.running() for node in self.nodes):
+            self.obey(keys.wait(POLL_S))
+            self.messengers = [m for m in self.messengers if m.poll() is None]
+            elapsed = time.monotonic() - begin
+            for node in self.nodes:
+                if node.ended_now() and self.ended(node, elapsed) == processes.REFUSED:
+                    return processes.REFUSED
+            self.restart_due()
+            self.look_at_realtime()
+            if self.options.seconds and elapsed >= self.options.seconds:
+                break
+        return 0
+
+    def ended(self, node, elapsed):
+        """Somebody may have ended a node on purpose; the others go on in any case. Returns 2 for a refusal."""
+        if node.exit == processes.REFUSED and node.starts == 1 and elapsed < REFUSAL_WINDOW_S:
+            print(f"run: {node.name} refused to start; ending", flush=True)
+            return processes.REFUSED
+        print(f"run: {node.name} {node.how_it_ended()}; the others go on", flush=True)
+        if self.options.restart and node.exit != 0:
+            self.restarts[node.name] = time.monotonic() + RESTART_PAUSE_S
+        else:
+            print(f"run: to start it again: {node.command_line()}", flush=True)
+        return 0
+
+    def restart_due(self):
+        for node in self.nodes:
+            if self.restarts.get(node.name, float("inf")) <= time.monotonic():
+                del self.restarts[node.name]
+                print(f"run: starting {node.name} again", flush=True)
+                node.start()
+
+    def look_at_realtime(self):
+        haptic = self.nodes[0]
+        if not self.realtime and haptic.running():
+            self.realtime = processes.realtime_granted(haptic)
+
+    # keys
+    def obey(self, key):
+        if key == "q":
+            self.stop()
+        elif key == "p":
+            self.toggle_pause()
+        elif key in COMMANDS:
+            print(f"run: {COMMANDS[key]}", flush=True)
+            self.send(COMMANDS[key])
+
+    def toggle_pause(self):
+        self.paused = not self.paused
+        print("run: paused (p goes on)" if self.paused else "run: goes on", flush=True)
+        self.send("pause" if self.paused else "start")
+
+    def send(self, command):
+        """In the background: finding the nodes takes up to some seconds."""
+        running = sum(node.running() for node in self.nodes)
+        self.messengers.append(subprocess.Popen(
+            [str(self.options.programs / "omentum_session"), command, "--dds", self.options.dds["haptic_node"],
+             "--domain", str(self.domain.number), "--profile", self.options.profile, "--nodes", str(running)],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL))
+
+    # the end
+    def finish(self, seconds):
+        merged = report.merge(self.name, seconds, self.realtime, self.nodes, self.options.dds, self.report_folder())
+        report.write(merged, self.options.out / "report.json")
+        self.folder.cleanup()
+        print(report.summary(merged), flush=True)
+        print(f"run: {self.options.out / 'report.json'}", flush=True)

@@ -1,0 +1,85 @@
+// scene_prepare: fits a scene to an organ file. The launcher also asks it what a scene or a mesh holds.
+#include "organ_tools/scene_prepare/scene_fit.h"
+#include "organ_tools/scene_prepare/scene_text.h"
+#include "runtime/node_options.h"
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iostream>
+
+namespace {
+
+using namespace omentum;
+
+struct Options {
+  std::filesystem::path scene, organ, output, measured;
+  bool keep_points = false;
+  bool describe = false;
+};
+
+/// Bounding box of the nodes that tetrahedra use, in the file's unit.
+nlohmann::json measure(const std::filesystem::path& file) {
+  const geometry::RawMesh raw = geometry::read_mesh(file);
+  Eigen::AlignedBox3d box;
+  for (const auto& tetrahedron : raw.tetrahedra)
+    for (const std::int32_t n : tetrahedron) box.extend(raw.positions.at(static_cast<std::size_t>(n)));
+  const auto corner = [](const geometry::Vec3& p) { return nlohmann::json{p.x(), p.y(), p.z()}; };
+  return {{"min", corner(box.min())}, {"max", corner(box.max())}, {"tetrahedra", raw.tetrahedra.size()}};
+}
+
+/// Next to `file`, then renamed: a half-written scene never looks finished.
+void write_whole(const std::string& text, const std::filesystem::path& file) {
+  const std::filesystem::path part = file.string() + ".part";
+  std::ofstream out(part);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  std::filesystem::rename(part, file);
+}
+
+void prepare(const Options& options) {
+  runtime::Scene scene = runtime::load_scene(options.scene);
+  scene.organs.front().file = options.organ;
+  const organ::Organ organ = organ::load_organ(options.organ, organ::Load::kMeshOnly);
+  const scene_prepare::OrganSkin skin(organ);
+  if (options.keep_points) {
+    scene_prepare::project_hands(skin, scene);
+  } else {
+    for (const std::string& note : scene_prepare::place_hands(skin, scene)) std::cout << note << '\n';
+  }
+  write_whole(scene_prepare::resolved_toml(scene), options.output);
+}
+
+void run(const Options& options) {
+  if (!options.measured.empty()) {
+    std::cout << measure(options.measured) << '\n';
+  } else if (options.scene.empty()) {
+    throw std::runtime_error("SCENE is missing (see scene_prepare --help)");
+  } else if (options.describe) {
+    std::cout << scene_prepare::describe(runtime::load_scene(options.scene)) << '\n';
+  } else if (options.organ.empty() || options.output.empty()) {
+    throw std::runtime_error("--organ and -o are needed (see scene_prepare --help)");
+  } else {
+    prepare(options);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Fits a scene to an organ: press points, trocars, camera.", "scene_prepare");
+  Options options;
+  app.add_option("scene", options.scene, "scene file (TOML)")->type_name("SCENE");
+  app.add_option("--organ", options.organ, "organ file that the scene's first organ becomes")
+      ->type_name("ORGAN.h5");
+  app.add_option("-o,--output", options.output, "the fitted scene")->type_name("OUT.toml");
+  app.add_flag("--keep-points", options.keep_points,
+               "the organ is the scene's own: only project the press points onto its surface");
+  app.add_flag("--describe", options.describe, "print what the scene needs (JSON) and end");
+  app.add_option("--measure", options.measured, "print a mesh file's bounding box (JSON) and end")
+      ->type_name("MESH");
+  return runtime::node_main(app, argc, argv, [&] { run(options); });
+}

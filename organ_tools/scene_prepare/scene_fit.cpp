@@ -1,0 +1,106 @@
+#include "organ_tools/scene_prepare/scene_fit.h"
+
+#include "organ_tools/scene_prepare/press_sites.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace omentum::scene_prepare {
+
+namespace {
+
+/// Pressed deeper than this part of the organ's thickness, a linear model looks wrong.
+constexpr double kDepthShare = 0.25;
+/// A slide takes at most this part of the organ's diagonal.
+constexpr double kSlideShare = 0.2;
+/// How much of the picture's height the organ's bounding sphere fills.
+constexpr double kFill = 0.9;
+
+Vec3 to_vector(const runtime::Triple& t) {
+  return {t[0], t[1], t[2]};
+}
+runtime::Triple to_triple(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// Rotation and translation that take the scene's press point and normal to the organ's.
+Eigen::Isometry3d carry(const runtime::HandSpec& from, const PressSite& to) {
+  const auto R = Eigen::Quaterniond::FromTwoVectors(to_vector(from.press_normal), to.normal);
+  return Eigen::Translation3d(to.point) * R * Eigen::Translation3d(-to_vector(from.press_point));
+}
+
+void set_site(runtime::HandSpec& hand, const PressSite& site) {
+  hand.press_point = to_triple(site.point);
+  hand.press_normal = to_triple(site.normal);
+  hand.slide_direction = to_triple(site.slide);
+}
+
+void move_trocar(runtime::Scene& scene, std::uint32_t tool, const Eigen::Isometry3d& motion) {
+  for (runtime::ToolSpec& spec : scene.tools)
+    if (spec.id == tool && spec.trocar) spec.trocar = to_triple(motion * to_vector(*spec.trocar));
+}
+
+/// Looks at the organ from the side that the scene chose, far enough to see it whole.
+void move_camera(const OrganSkin& skin, runtime::CameraSpec& camera, const Eigen::Isometry3d& motion) {
+  const Vec3 view = to_vector(camera.eye) - to_vector(camera.target);
+  if (camera.mode == "endoscope" || view.norm() == 0) {
+    camera.eye = to_triple(motion * to_vector(camera.eye));
+    camera.target = to_triple(motion * to_vector(camera.target));
+    return;
+  }
+  const double half_angle = camera.field_of_view_deg * std::numbers::pi / 360;
+  const double distance = skin.diagonal() / 2 / (kFill * std::tan(half_angle));
+  camera.target = to_triple(skin.centre());
+  camera.eye = to_triple(skin.centre() + distance * view.normalized());
+}
+
+std::string shrunk(const runtime::HandSpec& hand, const char* what, double from_m, double to_m) {
+  char line[160];
+  std::snprintf(line, sizeof line, "hand of tool %u: %s %.1f mm instead of %.1f mm on this organ", hand.tool,
+                what, 1e3 * to_m, 1e3 * from_m);
+  return line;
+}
+
+}  // namespace
+
+void project_hands(const OrganSkin& skin, runtime::Scene& scene) {
+  for (runtime::HandSpec& hand : scene.hands) {
+    const SkinPoint at = skin.closest(to_vector(hand.press_point));
+    Vec3 slide = to_vector(hand.slide_direction);
+    slide -= slide.dot(at.normal) * at.normal;
+    if (slide.norm() < 1e-6) slide = at.normal.unitOrthogonal();
+    set_site(hand, {at.position, at.normal, slide.normalized()});
+  }
+}
+
+std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scene) {
+  std::vector<std::string> notes;
+  std::vector<double> slides;
+  for (runtime::HandSpec& hand : scene.hands) {
+    const double slide = std::min(hand.slide_m, kSlideShare * skin.diagonal());
+    if (slide < hand.slide_m) notes.push_back(shrunk(hand, "slides", hand.slide_m, slide));
+    hand.slide_m = slide;
+    slides.push_back(slide);
+  }
+  const std::vector<PressSite> sites = choose_press_sites(skin, slides);
+  Eigen::Isometry3d first = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    runtime::HandSpec& hand = scene.hands[i];
+    const Eigen::Isometry3d motion = carry(hand, sites[i]);
+    if (i == 0) first = motion;
+    move_trocar(scene, hand.tool, motion);
+    set_site(hand, sites[i]);
+    const double depth =
+        std::min(hand.depth_m, kDepthShare * skin.thickness({sites[i].point, sites[i].normal}));
+    if (depth < hand.depth_m) notes.push_back(shrunk(hand, "presses", hand.depth_m, depth));
+    hand.depth_m = depth;
+  }
+  move_camera(skin, scene.camera, first);
+  return notes;
+}
+
+}  // namespace omentum::scene_prepare

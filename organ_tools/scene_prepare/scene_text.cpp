@@ -1,0 +1,69 @@
+#include "organ_tools/scene_prepare/scene_text.h"
+
+#include <toml++/toml.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <sstream>
+
+namespace omentum::scene_prepare {
+
+namespace {
+
+toml::array to_array(const runtime::Triple& t) {
+  return toml::array{t[0], t[1], t[2]};
+}
+
+toml::table& entry(toml::table& root, const char* list, std::size_t index) {
+  return *root[list].as_array()->get(index)->as_table();
+}
+
+void write_organ(const runtime::OrganSpec& organ, toml::table& table) {
+  if (!organ.mesh.starts_with("phantom:"))
+    table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
+  if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
+}
+
+void write_hand(const runtime::HandSpec& hand, toml::table& table) {
+  table.insert_or_assign("press_point", to_array(hand.press_point));
+  table.insert_or_assign("press_normal", to_array(hand.press_normal));
+  table.insert_or_assign("slide_direction", to_array(hand.slide_direction));
+  table.insert_or_assign("depth_m", hand.depth_m);
+  table.insert_or_assign("slide_m", hand.slide_m);
+}
+
+}  // namespace
+
+std::string resolved_toml(const runtime::Scene& scene) {
+  // load_scene has accepted this file: every list below has the scene's length
+  toml::table root = toml::parse_file(scene.file.string());
+  for (std::size_t i = 0; i < scene.organs.size(); ++i)
+    write_organ(scene.organs[i], entry(root, "organs", i));
+  for (std::size_t i = 0; i < scene.hands.size(); ++i) write_hand(scene.hands[i], entry(root, "hands", i));
+  for (std::size_t i = 0; i < scene.tools.size(); ++i)
+    if (scene.tools[i].trocar)
+      entry(root, "tools", i).insert_or_assign("trocar", to_array(*scene.tools[i].trocar));
+  if (toml::table* camera = root["camera"].as_table()) {
+    camera->insert_or_assign("eye", to_array(scene.camera.eye));
+    camera->insert_or_assign("target", to_array(scene.camera.target));
+  }
+  std::ostringstream text;
+  text << "# Fitted to its organ by scene_prepare; the nodes of one run read this.\n" << root << '\n';
+  return text.str();
+}
+
+nlohmann::json describe(const runtime::Scene& scene) {
+  nlohmann::json organs = nlohmann::json::array();
+  for (const runtime::OrganSpec& organ : scene.organs)
+    organs.push_back({{"name", organ.name},
+                      {"mesh", organ.mesh},
+                      {"file", organ.file.string()},
+                      {"metres_per_unit", organ.metres_per_unit},
+                      {"young_pa", organ.young_pa},
+                      {"poisson", organ.poisson},
+                      {"density_kg_m3", organ.density_kg_m3},
+                      {"fixed", organ.fixed}});
+  return {{"name", scene.name}, {"organs", organs}};
+}
+
+}  // namespace omentum::scene_prepare

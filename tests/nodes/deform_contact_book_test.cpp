@@ -1,0 +1,117 @@
+#include "deform_node/contact_book.h"
+
+#include "tests/nodes/deform_fixtures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace omentum::deform {
+namespace {
+
+using deform_test::contact_on;
+using deform_test::file_node;
+using deform_test::kNsPerS;
+using deform_test::odd_numbers;
+
+constexpr std::int32_t kSurfaceNodes = 20;
+constexpr std::int32_t kPinned = 4;
+const Vec3 kPush(0, 0, -1);
+
+class ContactBookTest : public ::testing::Test {
+ protected:
+  runtime::FaultList faults_;
+  ContactBook book_{{odd_numbers(kSurfaceNodes, kPinned)}, faults_};
+
+  double push_at(double seconds) {
+    book_.advance(static_cast<std::int64_t>(seconds * kNsPerS));
+    const auto loads = book_.loads(0);
+    return loads.empty() ? 0 : -loads.front().forces.front().z();
+  }
+};
+
+TEST(StalenessGain, IsOneWhileFreshThenFallsLinearlyToZero) {
+  EXPECT_EQ(staleness_gain(0), 1);
+  EXPECT_EQ(staleness_gain(kContactStaleS), 1);
+  EXPECT_NEAR(staleness_gain(kContactStaleS + kContactFadeS / 2), 0.5, 1e-12);
+  EXPECT_EQ(staleness_gain(kContactStaleS + kContactFadeS), 0);
+  EXPECT_EQ(staleness_gain(1e6), 0);
+}
+
+TEST_F(ContactBookTest, SilentSenderFadesToNothingAndANewContactCountsInFull) {
+  book_.take(contact_on(0, {3}, {kPush}), kNsPerS);
+  EXPECT_DOUBLE_EQ(push_at(1.05), 1);
+  double last = 1;
+  for (double t = 1 + kContactStaleS; t < 1 + kContactStaleS + kContactFadeS; t += 0.01) {
+    const double now = push_at(t);
+    EXPECT_LE(now, last);
+    EXPECT_LE(last - now, 0.01 / kContactFadeS + 1e-6) << "a jump at " << t;
+    last = now;
+  }
+  EXPECT_EQ(push_at(1 + kContactStaleS + kContactFadeS), 0);
+  book_.take(contact_on(0, {3}, {kPush}), 2 * kNsPerS);
+  EXPECT_DOUBLE_EQ(push_at(2), 1);
+}
+
+TEST_F(ContactBookTest, NewestContactOfEachToolCounts) {
+  book_.take(contact_on(0, {1, 2}, {kPush, kPush}), kNsPerS);
+  book_.take(contact_on(0, {5}, {2 * kPush}), kNsPerS);
+  book_.take(contact_on(3, {6}, {3 * kPush}), kNsPerS);
+  book_.advance(kNsPerS);
+  const auto loads = book_.loads(0);
+  ASSERT_EQ(loads.size(), 2U);
+  EXPECT_THAT(loads[0].nodes, ::testing::ElementsAre(SurfaceId(5)));
+  EXPECT_EQ(loads[0].forces[0], 2 * kPush);
+  EXPECT_EQ(loads[1].tool, 3U);
+  EXPECT_THAT(loads[1].nodes, ::testing::ElementsAre(SurfaceId(6)));
+}
+
+TEST_F(ContactBookTest, EchoesTheNewestPoseOfEachTool) {
+  book_.take(contact_on(1, {}, {}), kNsPerS);
+  book_.take(contact_on(4, {2}, {kPush}), kNsPerS);
+  book_.advance(kNsPerS);
+  ASSERT_EQ(book_.echoes().size(), 2U);
+  EXPECT_EQ(book_.echoes()[0].seq, 101U);
+  EXPECT_EQ(book_.echoes()[1].tool, 4U);
+}
+
+TEST_F(ContactBookTest, ForgottenContactsComeBackOnlyWithANewSample) {
+  book_.take(contact_on(0, {3}, {kPush}), kNsPerS);
+  book_.forget(kNsPerS);
+  EXPECT_EQ(push_at(1.01), 0);
+  book_.take(contact_on(0, {3}, {kPush}), kNsPerS + 1);
+  EXPECT_EQ(push_at(1.01), 1);
+}
+
+TEST_F(ContactBookTest, PinnedNodesAreLeftOutWithoutFault) {
+  book_.take(contact_on(0, {kSurfaceNodes - 1, 3}, {kPush, 2 * kPush}), kNsPerS);
+  book_.advance(kNsPerS);
+  ASSERT_EQ(book_.loads(0).size(), 1U);
+  EXPECT_THAT(book_.loads(0)[0].nodes, ::testing::ElementsAre(SurfaceId(3)));
+  EXPECT_EQ(book_.loads(0)[0].forces[0], 2 * kPush);
+  EXPECT_FALSE(faults_.any());
+}
+
+TEST_F(ContactBookTest, BadContactsAreDroppedAndCountedAndTheLastGoodOneStays) {
+  const msg::Contact good = contact_on(0, {3}, {kPush});
+  std::vector<msg::Contact> bad(8, good);
+  bad[0].tool = msg::MAX_TOOLS;
+  bad[1].organ = 1;
+  bad[2].topology_version = 1;
+  bad[3].forces.clear();
+  bad[4].displacements.resize(2);
+  bad[5].nodes[0] = 2 * kSurfaceNodes + 1;  // beyond the file
+  bad[6].nodes[0] = file_node(3) + 1;       // inside the organ
+  bad[7].forces[0].y = std::numeric_limits<double>::quiet_NaN();
+  book_.take(good, kNsPerS);
+  for (const msg::Contact& contact : bad) book_.take(contact, kNsPerS + 1);
+  EXPECT_EQ(push_at(1.01), 1);
+  std::uint64_t counted = 0;
+  for (const runtime::Fault& fault : faults_.list()) counted += fault.count;
+  EXPECT_EQ(counted, bad.size());
+  EXPECT_EQ(faults_.list().size(), 6U) << "one line per kind";
+}
+
+}  // namespace
+}  // namespace omentum::deform
