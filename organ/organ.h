@@ -3,6 +3,7 @@
 
 #include "geometry/surface.h"
 #include "physics/material.h"
+#include "physics/supports.h"
 #include "physics/surface_compliance.h"
 
 #include <filesystem>
@@ -11,21 +12,25 @@
 
 namespace omentum::organ {
 
-/// Which components of which nodes are held: [N] bit sets, 1 = x, 2 = y, 4 = z; 7 = pinned.
-using FixedComponents = std::vector<std::uint8_t>;
+using geometry::SurfaceId;
+using physics::FixedComponents;
+
+/// The precision that the tensors are stored in.
+enum class Storage { kFloat, kDouble };
 
 struct Organ {
-  std::string name;                       // from the file's stem
+  std::string name;  // from the file's stem, unless organ_build --name
   geometry::TetraMesh mesh;
-  geometry::Surface surface;              // pinned nodes last
+  geometry::Surface surface;  // pinned nodes last
   physics::Material material;
-  FixedComponents fixed;                  // [N]
+  FixedComponents fixed;                                 // [N]
   std::optional<physics::SurfaceCompliance> compliance;  // float; absent when not asked for
-  std::string hash;                       // SHA-256 (hexadecimal) over everything the tensors depend on: mesh, material,
-                                          // supports, storage, format version
-  std::vector<SurfaceId> surface_of_file_node() const;   // [file_node_count], invalid where none
+  std::string hash;  // SHA-256 (hexadecimal) over everything the tensors depend on: mesh, material,
+                     // supports, storage, format version
+  Storage storage = Storage::kFloat;  // of the tensors in the file; in memory they are float
+
+  std::vector<SurfaceId> surface_of_file_node() const;  // [file_node_count], invalid where none
 };
-using physics::SurfaceId;
 
 enum class Load { kMeshOnly, kWithTensors };
 

@@ -1,0 +1,210 @@
+#include "organ/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <numeric>
+
+namespace omentum::organ {
+
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+// Pages, so that a mapped dataset begins at one.
+constexpr hsize_t kAlignment = 4096;
+// Only what is worth mapping is aligned: smaller objects would waste a page each.
+constexpr hsize_t kAlignFrom = 576;
+
+// Closes an HDF5 handle of any kind.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+  bool ok() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+template <class T>
+hid_t type_of();
+template <>
+hid_t type_of<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+hid_t type_of<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t type_of<std::int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+hid_t type_of<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+
+hid_t create_dataset(hid_t file, const std::string& name, hid_t type,
+                     const std::vector<std::uint64_t>& shape) {
+  const std::vector<hsize_t> dims(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links, 1);
+  const Handle storage(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_layout(storage, H5D_CONTIGUOUS);
+  H5Pset_alloc_time(storage, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(storage, H5D_FILL_TIME_NEVER);
+  return H5Dcreate2(file, name.c_str(), type, space, links, storage, H5P_DEFAULT);
+}
+
+std::vector<std::uint64_t> shape_of(hid_t dataset) {
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  std::vector<hsize_t> dims(std::max(0, H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+  return {dims.begin(), dims.end()};
+}
+
+std::uint64_t count_of(const std::vector<std::uint64_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
+}
+
+std::string words(const std::vector<std::uint64_t>& shape) {
+  std::string text;
+  for (const std::uint64_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
+  return text;
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  if (mode == Mode::kCreate) {
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_alignment(access, kAlignFrom, kAlignment);
+    file_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    if (file_ < 0) fail("cannot be created");
+    return;
+  }
+  if (!std::filesystem::exists(file)) fail("no such file");
+  file_ = H5Fopen(file.c_str(), mode == Mode::kRead ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT);
+  if (file_ < 0)
+    fail("is not a whole HDF5 file (damaged, truncated or of another kind); expected an organ file");
+}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::fail(const std::string& what) const {
+  throw geometry::InputError(path_.string() + ": " + what);
+}
+
+void Hdf5File::flush() {
+  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot be written (disk full?)");
+}
+
+template <class T>
+void Hdf5File::write(const std::string& dataset, std::span<const T> values,
+                     const std::vector<std::uint64_t>& shape) {
+  const Handle data(create_dataset(file_, dataset, type_of<T>(), shape), H5Dclose);
+  if (!data.ok() ||
+      (!values.empty() && H5Dwrite(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
+    fail("dataset '" + dataset + "' cannot be written (disk full?)");
+  }
+}
+
+template <class T>
+std::vector<T> Hdf5File::read(const std::string& dataset) const {
+  const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!data.ok()) fail("has no dataset '" + dataset + "'; expected an organ file");
+  std::vector<T> values(count_of(shape_of(data)));
+  if (!values.empty() && H5Dread(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    fail("dataset '" + dataset + "' cannot be read");
+  }
+  return values;
+}
+
+template <class T>
+Extent Hdf5File::reserve(const std::string& dataset, const std::vector<std::uint64_t>& shape) {
+  const Handle data(create_dataset(file_, dataset, type_of<T>(), shape), H5Dclose);
+  const haddr_t offset = data.ok() ? H5Dget_offset(data) : HADDR_UNDEF;
+  if (offset == HADDR_UNDEF) fail("dataset '" + dataset + "' cannot be made (disk full?)");
+  return {offset, count_of(shape) * sizeof(T)};
+}
+
+template <class T>
+Extent Hdf5File::locate(const std::string& dataset, const std::vector<std::uint64_t>& shape) const {
+  const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!data.ok()) fail("has no dataset '" + dataset + "'; expected an organ file");
+  if (shape_of(data) != shape) {
+    fail("dataset '" + dataset + "' is " + words(shape_of(data)) + "; expected " + words(shape));
+  }
+  const Handle type(H5Dget_type(data), H5Tclose);
+  const haddr_t offset = H5Dget_offset(data);
+  if (H5Tequal(type, type_of<T>()) <= 0 || offset == HADDR_UNDEF) {
+    fail("dataset '" + dataset + "' is of another number type or not contiguous");
+  }
+  return {offset, count_of(shape) * sizeof(T)};
+}
+
+void Hdf5File::write_text(const std::string& attribute, const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, value.size() + 1);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle data(H5Acreate2(file_, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!data.ok() || H5Awrite(data, type, value.c_str()) < 0) fail("'" + attribute + "' cannot be written");
+}
+
+void Hdf5File::write_number(const std::string& attribute, double value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle data(H5Acreate2(file_, attribute.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
+  if (!data.ok() || H5Awrite(data, H5T_NATIVE_DOUBLE, &value) < 0)
+    fail("'" + attribute + "' cannot be written");
+}
+
+bool Hdf5File::has_attribute(const std::string& attribute) const {
+  return H5Aexists(file_, attribute.c_str()) > 0;
+}
+
+std::string Hdf5File::read_text(const std::string& attribute) const {
+  const Handle data(H5Aopen(file_, attribute.c_str(), H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(data), H5Tclose);
+  std::string value(H5Tget_size(type), '\0');
+  if (!data.ok() || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
+      H5Aread(data, type, value.data()) < 0) {
+    fail("has no text '" + attribute + "'; expected an organ file");
+  }
+  return value.substr(0, value.find('\0'));
+}
+
+double Hdf5File::read_number(const std::string& attribute) const {
+  const Handle data(H5Aopen(file_, attribute.c_str(), H5P_DEFAULT), H5Aclose);
+  double value = 0;
+  if (!data.ok() || H5Aread(data, H5T_NATIVE_DOUBLE, &value) < 0) {
+    fail("has no number '" + attribute + "'; expected an organ file");
+  }
+  return value;
+}
+
+template void Hdf5File::write(const std::string&, std::span<const double>, const std::vector<std::uint64_t>&);
+template void Hdf5File::write(const std::string&, std::span<const std::int32_t>,
+                              const std::vector<std::uint64_t>&);
+template void Hdf5File::write(const std::string&, std::span<const std::uint8_t>,
+                              const std::vector<std::uint64_t>&);
+template std::vector<double> Hdf5File::read(const std::string&) const;
+template std::vector<std::int32_t> Hdf5File::read(const std::string&) const;
+template std::vector<std::uint8_t> Hdf5File::read(const std::string&) const;
+template Extent Hdf5File::reserve<float>(const std::string&, const std::vector<std::uint64_t>&);
+template Extent Hdf5File::reserve<double>(const std::string&, const std::vector<std::uint64_t>&);
+template Extent Hdf5File::locate<float>(const std::string&, const std::vector<std::uint64_t>&) const;
+template Extent Hdf5File::locate<double>(const std::string&, const std::vector<std::uint64_t>&) const;
+
+}  // namespace omentum::organ

@@ -1,0 +1,97 @@
+#include "organ/organ.h"
+
+#include "organ/hdf5_file.h"
+#include "organ/organ_hash.h"
+#include "organ/organ_layout.h"
+#include "organ/stored_tensors.h"
+
+#include <cstring>
+
+namespace omentum::organ {
+
+namespace {
+
+using geometry::InputError;
+
+// Numbers of the file as a list of Ts that are made of them (typed indices, vectors, triangles).
+template <class T, class Number>
+std::vector<T> read_as(const Hdf5File& file, const char* dataset) {
+  static_assert(sizeof(T) % sizeof(Number) == 0);
+  const std::vector<Number> numbers = file.read<Number>(dataset);
+  std::vector<T> values(numbers.size() * sizeof(Number) / sizeof(T));
+  if (!values.empty())
+    std::memcpy(static_cast<void*>(values.data()), numbers.data(), values.size() * sizeof(T));
+  return values;
+}
+
+void require_format(const Hdf5File& hdf5, const std::filesystem::path& file) {
+  if (!hdf5.has_attribute(layout::kFormat) || hdf5.read_text(layout::kFormat) != layout::kFormatName) {
+    throw InputError(file.string() + ": is an HDF5 file, but no organ file (organ_build makes them)");
+  }
+  const double version = hdf5.read_number(layout::kVersion);
+  if (version != kFormatVersion) {
+    throw InputError(file.string() + ": has format version " + std::to_string(static_cast<int>(version)) +
+                     "; expected " + std::to_string(kFormatVersion) + " (build it again with organ_build)");
+  }
+  if (!hdf5.has_attribute(layout::kFinished)) {
+    throw InputError(file.string() + ": is unfinished (an interrupted organ_build); build it again");
+  }
+}
+
+Organ read_contents(const Hdf5File& hdf5) {
+  Organ organ;
+  organ.name = hdf5.read_text(layout::kName);
+  organ.storage = hdf5.read_text(layout::kStorage) == "double" ? Storage::kDouble : Storage::kFloat;
+  organ.material = {hdf5.read_number(layout::kYoung), hdf5.read_number(layout::kPoisson),
+                    hdf5.read_number(layout::kDensity)};
+  organ.mesh.positions = read_as<geometry::Vec3, double>(hdf5, layout::kPositions);
+  organ.mesh.tetrahedra = read_as<geometry::Tetrahedron, std::int32_t>(hdf5, layout::kTetrahedra);
+  organ.mesh.file_node = hdf5.read<std::int32_t>(layout::kFileNode);
+  organ.mesh.file_node_count = static_cast<std::int32_t>(hdf5.read_number(layout::kFileNodes));
+  organ.surface.node = read_as<geometry::NodeId, std::int32_t>(hdf5, layout::kSurfaceNode);
+  organ.surface.triangles = read_as<geometry::Triangle, std::int32_t>(hdf5, layout::kTriangles);
+  organ.surface.tetrahedron = read_as<geometry::TetId, std::int32_t>(hdf5, layout::kBehind);
+  organ.surface.fan_start = hdf5.read<std::int32_t>(layout::kFanStart);
+  organ.surface.fan = read_as<geometry::TriangleId, std::int32_t>(hdf5, layout::kFan);
+  organ.surface.mobile_count = static_cast<std::int32_t>(hdf5.read_number(layout::kMobile));
+  organ.fixed = hdf5.read<std::uint8_t>(layout::kFixed);
+  return organ;
+}
+
+// Which surface node each mesh node is.
+std::vector<SurfaceId> invert(const std::vector<geometry::NodeId>& nodes, std::size_t node_count) {
+  std::vector<SurfaceId> of_node(node_count);
+  for (std::size_t s = 0; s < nodes.size(); ++s) of_node[nodes[s]] = SurfaceId(s);
+  return of_node;
+}
+
+}  // namespace
+
+std::vector<SurfaceId> Organ::surface_of_file_node() const {
+  std::vector<SurfaceId> of_file(mesh.file_node_count);
+  for (std::size_t s = 0; s < surface.node.size(); ++s)
+    of_file[mesh.file_node[surface.node[s]]] = SurfaceId(s);
+  return of_file;
+}
+
+Organ load_organ(const std::filesystem::path& file, Load what) {
+  Organ organ;
+  {
+    const Hdf5File hdf5(file, Hdf5File::Mode::kRead);
+    require_format(hdf5, file);
+    organ = read_contents(hdf5);
+    organ.hash = organ_hash(organ);
+    if (organ.hash != hdf5.read_text(layout::kHash)) {
+      throw InputError(
+          file.string() +
+          ": its mesh, material or supports are not those that its tensors were computed from (hash " +
+          organ.hash.substr(0, 12) + ", expected " + hdf5.read_text(layout::kHash).substr(0, 12) +
+          "); build it again");
+    }
+  }
+  organ.surface.of_node = invert(organ.surface.node, organ.mesh.positions.size());
+  if (what == Load::kWithTensors) organ.compliance = surface_compliance(map_tensors(file, organ));
+  return organ;
+}
+
+}  // namespace omentum::organ

@@ -1,0 +1,15 @@
+// What identifies an organ: everything that its tensors depend on.
+#pragma once
+
+#include "organ/organ.h"
+
+namespace omentum::organ {
+
+/// The organ file's layout and the numerics behind its tensors. A file of another version is built again.
+inline constexpr int kFormatVersion = 1;
+
+/// SHA-256, hexadecimal, over format version, storage, mesh (with the file's numbering), surface order,
+/// material and supports.
+std::string organ_hash(const Organ& organ);
+
+}  // namespace omentum::organ

@@ -1,0 +1,35 @@
+// The names inside an organ file: docs/notation.md has the symbols, this is where they lie.
+#pragma once
+
+namespace omentum::organ::layout {
+
+// Attributes of the root group.
+inline constexpr const char* kFormat = "format";      // kFormatName
+inline constexpr const char* kVersion = "version";    // kFormatVersion (organ_hash.h)
+inline constexpr const char* kFinished = "finished";  // written last: a file without it is not whole
+inline constexpr const char* kHash = "hash";          // organ_hash()
+inline constexpr const char* kStorage = "storage";    // "float" or "double"
+inline constexpr const char* kName = "name";
+inline constexpr const char* kYoung = "young_pa";
+inline constexpr const char* kPoisson = "poisson";
+inline constexpr const char* kDensity = "density_kg_m3";
+inline constexpr const char* kFileNodes = "file_node_count";
+inline constexpr const char* kMobile = "mobile_count";
+
+inline constexpr const char* kFormatName = "omentum organ";
+
+// Datasets.
+inline constexpr const char* kPositions = "mesh/positions";     // [N][3] double, m
+inline constexpr const char* kTetrahedra = "mesh/tetrahedra";   // [T][4] int32
+inline constexpr const char* kFileNode = "mesh/file_node";      // [N] int32
+inline constexpr const char* kSurfaceNode = "surface/node";     // [S] int32
+inline constexpr const char* kTriangles = "surface/triangles";  // [F][3] int32
+inline constexpr const char* kBehind = "surface/tetrahedron";   // [F] int32
+inline constexpr const char* kFanStart = "surface/fan_start";   // [S+1] int32
+inline constexpr const char* kFan = "surface/fan";              // [3F] int32
+inline constexpr const char* kFixed = "supports/fixed";         // [N] uint8
+inline constexpr const char* kCompliance =
+    "tensors/compliance";                                 // [mobile][clusters][9][16] float or double, m/N
+inline constexpr const char* kBounds = "tensors/bounds";  // [mobile][clusters] float, m/N
+
+}  // namespace omentum::organ::layout
