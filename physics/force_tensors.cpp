@@ -74,11 +74,13 @@ Plan plan_columns(const Supernodes& factor, const FreeDofs& free, const geometry
 template <class Scalar>
 class BlockWriter {
  public:
-  BlockWriter(const Supernodes& factor, const Plan& plan, const ComplianceTiles<Scalar>& tiles)
+  BlockWriter(const Supernodes& factor, const Plan& plan, const ComplianceTiles<Scalar>& tiles,
+              int block_nodes)
       : plan_(plan),
         tiles_(tiles),
-        solver_(factor, plan.wanted, 3 * kBlockNodes),
-        zero_(3 * kBlockNodes, 0.0) {}
+        block_nodes_(block_nodes),
+        solver_(factor, plan.wanted, 3 * block_nodes),
+        zero_(3 * block_nodes, 0.0) {}
 
   void run(std::int32_t first_rank) {
     const std::int32_t end = std::min<std::int32_t>(first_rank + block_nodes_, tiles_.mobile_count);
