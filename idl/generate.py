@@ -453,8 +453,9 @@ def with_note(declaration, note):
 
 def cpp_member(member):
     kind = member.type
-    initial = " = 0" if kind.kind == "primitive" else ""
-    initial = " = false" if kind.name == "boolean" else initial
+    initial = {"primitive": " = 0"}.get(kind.kind, "{}")
+    if kind.name == "boolean":
+        initial = " = false"
     note = list(member.note)
     if kind.kind in ("string", "sequence"):
         note = note or ["//"]

@@ -20,8 +20,8 @@ struct BusOptions {
   Vendor vendor = Vendor::kFast;
   int domain = 0;
   Profile profile = Profile::kLoopback;
-  std::string name;      // the participant's name, e.g. "haptic_node"
-  std::string keystore;  // DDS Security key store; empty: unsecured
+  std::string name{};      // the participant's name, e.g. "haptic_node"
+  std::string keystore{};  // DDS Security key store; empty: unsecured
 };
 
 /// What a reader or writer saw; read by any thread (it may wait for the vendor's locks: not in a

@@ -1,0 +1,88 @@
+// Runs the peer program and waits for conditions.
+#pragma once
+
+#include "transport/bus.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace omentum::test {
+
+inline const char* word(transport::Vendor vendor) {
+  return vendor == transport::Vendor::kFast ? "fast" : "cyclone";
+}
+
+/// A domain of this process's own; tests of one process that run one after the other get different ones.
+inline int own_domain() {
+  constexpr int kDomains = 231;
+  static int uses = 0;
+  return (getpid() + 97 * uses++) % kDomains;
+}
+
+/// The peer (peer.cpp), from the moment its writers exist until this object's end.
+class PeerProcess {
+ public:
+  PeerProcess(const std::string& what, transport::Vendor vendor, int domain) {
+    int to_peer[2], from_peer[2];
+    if (pipe(to_peer) != 0 || pipe(from_peer) != 0) throw std::runtime_error("no pipe");
+    const std::string program = std::string(OMENTUM_BIN_DIR) + "/transport_peer";
+    const std::string number = std::to_string(domain);
+    pid_ = fork();
+    if (pid_ == 0) {
+      dup2(to_peer[0], STDIN_FILENO);
+      dup2(from_peer[1], STDOUT_FILENO);
+      for (const int end : {to_peer[0], to_peer[1], from_peer[0], from_peer[1]}) close(end);
+      execl(program.c_str(), program.c_str(), what.c_str(), word(vendor), number.c_str(), nullptr);
+      _exit(127);
+    }
+    close(to_peer[0]);
+    close(from_peer[1]);
+    input_ = to_peer[1];
+    char letter = 0;
+    const bool ready = read(from_peer[0], &letter, 1) == 1;
+    close(from_peer[0]);
+    if (!ready) throw std::runtime_error(program + " did not start");
+  }
+  ~PeerProcess() { end(); }
+  PeerProcess(const PeerProcess&) = delete;
+  PeerProcess& operator=(const PeerProcess&) = delete;
+
+  /// Asks it to end; returns its exit code, or -1 when a signal ended it.
+  int end() {
+    if (pid_ <= 0) return exit_code_;
+    close(input_);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  void kill_it() {
+    kill(pid_, SIGKILL);
+    end();
+  }
+
+ private:
+  pid_t pid_ = 0;
+  int input_ = -1;
+  int exit_code_ = 0;
+};
+
+/// Waits until the condition holds; false when it does not within a time that only a failure takes.
+template <class Condition>
+bool eventually(Condition&& condition) {
+  constexpr auto kPatience = std::chrono::seconds(25);
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+}  // namespace omentum::test

@@ -1,0 +1,171 @@
+// The newest sample of each tool, for loops that must not wait.
+#pragma once
+
+#include "transport/bus.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <type_traits>
+
+namespace omentum::transport {
+
+/// CLOCK_MONOTONIC in ns, the clock of arrival times. Any thread.
+inline std::int64_t arrival_clock_ns() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// Holds the newest value of T. One thread writes, any number read; nobody waits or allocates.
+///
+/// Two slots: the writer fills the one that readers are not sent to, so that a writer suspended in the
+/// middle does not keep a real-time reader from the last finished value. A read fails only when two
+/// further values were finished while it copied.
+template <class T>
+class NewestCell {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  /// The writing thread.
+  void store(const T& value) noexcept {
+    const std::uint64_t count = count_.load(std::memory_order_relaxed) + 1;
+    Slot& slot = slots_[count % 2];
+    Words words{};
+    std::memcpy(words.data(), &value, sizeof(T));
+    slot.version.store(2 * count - 1, std::memory_order_relaxed);
+    // released one by one: who reads one of these words also sees the odd version above
+    for (std::size_t i = 0; i < kWords; ++i) slot.words[i].store(words[i], std::memory_order_release);
+    slot.version.store(2 * count, std::memory_order_release);
+    count_.store(count, std::memory_order_release);
+  }
+
+  /// False, with `value` untouched, when nothing was stored yet (or see above). Any thread.
+  bool load(T& value) const noexcept {
+    // every failed attempt means two further arrivals while 200 bytes were copied
+    constexpr int kAttempts = 4;
+    for (int attempt = 0; attempt < kAttempts; ++attempt)
+      if (try_load(value)) return true;
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
+  using Words = std::array<std::uint64_t, kWords>;
+  struct Slot {
+    std::atomic<std::uint64_t> version{0};  // 2n: holds value n whole; odd: being written
+    std::array<std::atomic<std::uint64_t>, kWords> words{};
+  };
+
+  bool try_load(T& value) const noexcept {
+    const std::uint64_t count = count_.load(std::memory_order_acquire);
+    const Slot& slot = slots_[count % 2];
+    if (count == 0 || slot.version.load(std::memory_order_acquire) != 2 * count) return false;
+    Words words;
+    for (std::size_t i = 0; i < kWords; ++i) words[i] = slot.words[i].load(std::memory_order_acquire);
+    if (slot.version.load(std::memory_order_relaxed) != 2 * count) return false;
+    std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+    return true;
+  }
+
+  std::array<Slot, 2> slots_;
+  std::atomic<std::uint64_t> count_{0};
+};
+
+/// How the samples of one tool came in, by their sequence numbers.
+struct SequenceCounters {
+  std::uint64_t received = 0;      // accepted as newest
+  std::uint64_t lost = 0;          // numbers that were skipped
+  std::uint64_t duplicates = 0;    // the newest number again; dropped
+  std::uint64_t out_of_order = 0;  // an older number; dropped
+  std::uint64_t restarts = 0;      // an older number after a silence: the sender began anew; accepted
+};
+
+/// Decides which samples of one tool are new. accept() is for one thread, counters() for any.
+class SequenceTracker {
+ public:
+  /// A sample with an older number is a late one while the newest is younger than this, and the first of a
+  /// restarted sender after it: networks do not reorder across 100 ms, and no process restarts within.
+  static constexpr std::int64_t kRestartSilenceNs = 100'000'000;
+
+  /// Whether the sample is newer than all before it. now_ns: when it arrived, on any steady clock.
+  bool accept(std::uint64_t seq, std::int64_t now_ns) noexcept {
+    const bool first = received_.load(std::memory_order_relaxed) == 0;
+    const bool restarted = !first && seq < newest_seq_ && now_ns - newest_ns_ > kRestartSilenceNs;
+    if (!first && !restarted && seq <= newest_seq_) {
+      count(seq == newest_seq_ ? duplicates_ : out_of_order_, 1);
+      return false;
+    }
+    if (restarted) count(restarts_, 1);
+    if (!first && !restarted) count(lost_, seq - newest_seq_ - 1);
+    count(received_, 1);
+    newest_seq_ = seq;
+    newest_ns_ = now_ns;
+    return true;
+  }
+
+  SequenceCounters counters() const noexcept {
+    return {received_.load(), lost_.load(), duplicates_.load(), out_of_order_.load(), restarts_.load()};
+  }
+
+ private:
+  using Counter = std::atomic<std::uint64_t>;
+  static void count(Counter& counter, std::uint64_t by) noexcept {
+    counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+  }
+
+  std::uint64_t newest_seq_ = 0;
+  std::int64_t newest_ns_ = 0;
+  Counter received_{0}, lost_{0}, duplicates_{0}, out_of_order_{0}, restarts_{0};
+};
+
+/// A sample and when it arrived.
+template <class M>
+struct Arrived {
+  M sample;
+  std::int64_t arrived_ns = 0;  // arrival_clock_ns()
+
+  std::int64_t age_ns(std::int64_t now_ns) const noexcept { return now_ns - arrived_ns; }
+};
+
+/// Reads a topic whose samples have `tool` and `seq` (ToolPose, ToolForce) and keeps each tool's newest.
+/// Duplicates and late samples are dropped; tools from msg::MAX_TOOLS on are ignored.
+template <class M>
+class LatestByTool {
+ public:
+  /// on_arrival (optional) is called on the vendor's thread, after the sample can be loaded; it must not
+  /// block.
+  explicit LatestByTool(Bus& bus, std::function<void(const M&)> on_arrival = {})
+      : on_arrival_(std::move(on_arrival)),
+        reader_(bus.reader<M>([this](const M& sample) { take(sample); })) {}
+
+  /// The tool's newest sample. False, with `out` untouched, when none came yet. Any thread; never waits.
+  bool load(std::uint32_t tool, Arrived<M>& out) const noexcept {
+    return tool < tools_.size() && tools_[tool].newest.load(out);
+  }
+
+  /// Any thread; never waits. Tool below msg::MAX_TOOLS.
+  SequenceCounters counters(std::uint32_t tool) const noexcept { return tools_[tool].sequence.counters(); }
+
+  EndpointStatus status() const { return reader_->status(); }
+
+ private:
+  struct Tool {
+    SequenceTracker sequence;
+    NewestCell<Arrived<M>> newest;
+  };
+
+  void take(const M& sample) {
+    const std::int64_t now_ns = arrival_clock_ns();
+    if (sample.tool >= tools_.size() || !tools_[sample.tool].sequence.accept(sample.seq, now_ns)) return;
+    tools_[sample.tool].newest.store({sample, now_ns});
+    if (on_arrival_) on_arrival_(sample);
+  }
+
+  std::array<Tool, msg::MAX_TOOLS> tools_;
+  std::function<void(const M&)> on_arrival_;
+  std::unique_ptr<Reader<M>> reader_;  // last: its callback uses the members above
+};
+
+}  // namespace omentum::transport
