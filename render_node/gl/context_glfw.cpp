@@ -1,0 +1,101 @@
+#include "render_node/gl/gl_context.h"
+
+#include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+namespace omentum::render::gl {
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+class GlfwContext final : public GlContext {
+ public:
+  GlfwContext(Size size, const std::string& title) {
+    if (!glfwInit()) throw DisplayError("window: " + last_glfw_error());
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // the scene is drawn into a framebuffer of our own
+    window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
+    if (!window_) {
+      const std::string reason = last_glfw_error();
+      glfwTerminate();
+      throw DisplayError("window: " + reason);
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(
+        0);  // the render loop keeps the pace; waiting for the screen would add its period to the latency
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
+      static_cast<GlfwContext*>(glfwGetWindowUserPointer(w))->scrolled_ += static_cast<float>(y);
+    });
+  }
+  ~GlfwContext() override {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+
+  Size size() const override {
+    Size size;
+    glfwGetFramebufferSize(window_, &size.width, &size.height);
+    return {std::max(size.width, 1), std::max(size.height, 1)};  // 0 while minimized
+  }
+  bool has_window() const override { return true; }
+  void start_panel() override {
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  }  // after our own callbacks: it chains them
+  void stop_panel() override { ImGui_ImplGlfw_Shutdown(); }
+
+  Input begin_frame() override {
+    glfwPollEvents();
+    ImGui_ImplGlfw_NewFrame();
+    Input input;
+    input.close = glfwWindowShouldClose(window_);
+    const Mouse mouse = read_mouse();
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!io.WantCaptureMouse) {
+      const auto dx = static_cast<float>(mouse.x - mouse_.x), dy = static_cast<float>(mouse.y - mouse_.y);
+      if (mouse.left && mouse_.left) input.orbit_x = dx, input.orbit_y = dy;
+      if (mouse.other && mouse_.other) input.pan_x = dx, input.pan_y = dy;
+      input.zoom = scrolled_;
+    }
+    mouse_ = mouse;
+    scrolled_ = 0;
+    return input;
+  }
+  void end_frame() override { glfwSwapBuffers(window_); }
+
+ private:
+  struct Mouse {
+    double x = 0, y = 0;
+    bool left = false, other = false;
+  };
+  Mouse read_mouse() const {
+    Mouse mouse;
+    glfwGetCursorPos(window_, &mouse.x, &mouse.y);
+    const auto down = [&](int button) { return glfwGetMouseButton(window_, button) == GLFW_PRESS; };
+    mouse.left = down(GLFW_MOUSE_BUTTON_LEFT);
+    mouse.other = down(GLFW_MOUSE_BUTTON_RIGHT) || down(GLFW_MOUSE_BUTTON_MIDDLE);
+    return mouse;
+  }
+
+  GLFWwindow* window_ = nullptr;
+  Mouse mouse_;
+  float scrolled_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> open_glfw_context(Size size, const std::string& title) {
+  return std::make_unique<GlfwContext>(size, title);
+}
+
+}  // namespace omentum::render::gl

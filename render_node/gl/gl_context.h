@@ -1,0 +1,35 @@
+// Where OpenGL draws to: a window (GLFW) or nothing but memory (EGL).
+#pragma once
+
+#include "render_node/renderer.h"
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace omentum::render::gl {
+
+/// No display, no driver, or one without OpenGL 3.3 core: the message says which.
+class DisplayError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A current OpenGL 3.3 core context. One thread, the one that made it.
+class GlContext {
+ public:
+  virtual ~GlContext() = default;
+  /// Of the picture, pixels; a window's may change between frames.
+  virtual Size size() const = 0;
+  virtual bool has_window() const = 0;
+  virtual void start_panel() = 0;  // Dear ImGui's platform part; its context exists
+  virtual void stop_panel() = 0;
+  virtual Input begin_frame() = 0;
+  virtual void end_frame() = 0;
+};
+
+/// Throws DisplayError.
+std::unique_ptr<GlContext> open_egl_context(Size size);
+std::unique_ptr<GlContext> open_glfw_context(Size size, const std::string& title);
+
+}  // namespace omentum::render::gl

@@ -1,0 +1,249 @@
+#include "render_node/gl/gl_renderer.h"
+
+#include "render_node/gl/gl_context.h"
+#include "render_node/gl/mesh_buffer.h"
+#include "render_node/gl/panel_backend.h"
+#include "render_node/gl/program.h"
+#include "render_node/gl/render_target.h"
+#include "render_node/tissue_pattern.h"
+#include "shader_sources.h"  // generated from gl/shaders/
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+namespace omentum::render::gl {
+namespace {
+
+constexpr int kSamples = 4;                       // per pixel: smooth edges of instruments
+constexpr int kShadowSide = 1024;                 // texels; a texel is 0.3 mm on a liver (shaders: lit())
+constexpr int kPatternSide = 64;                  // texels: 1 MB
+constexpr int kShadowUnit = 0, kPatternUnit = 1;  // texture units
+constexpr float kSignalDepth =
+    0.02f;  // share of the depth range that is kept for what is drawn over the world
+constexpr float kShadowSlope = 2.0f, kShadowBias = 4.0f;  // glPolygonOffset, against self-shadowing
+
+class NoiseTexture {
+ public:
+  explicit NoiseTexture(const TissuePattern& pattern) {
+    glGenTextures(1, &texture_);
+    glBindTexture(GL_TEXTURE_3D, texture_);
+    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, pattern.side, pattern.side, pattern.side, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, pattern.texels.data());
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  }
+  ~NoiseTexture() { glDeleteTextures(1, &texture_); }
+  NoiseTexture(const NoiseTexture&) = delete;
+  NoiseTexture& operator=(const NoiseTexture&) = delete;
+  void bind(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<unsigned>(unit));
+    glBindTexture(GL_TEXTURE_3D, texture_);
+  }
+
+ private:
+  unsigned texture_ = 0;
+};
+
+// The programs, by what they draw.
+struct Programs {
+  Program shadow{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
+  Program backdrop{"backdrop", shaders::screen_vert, shaders::common_glsl, shaders::backdrop_frag};
+  Program lens{"lens", shaders::screen_vert, shaders::common_glsl, shaders::lens_frag};
+  Program tissue{"tissue", shaders::surface_vert, shaders::common_glsl, shaders::tissue_frag};
+  Program solid{"solid", shaders::surface_vert, shaders::common_glsl, shaders::solid_frag};
+  Program ground{"ground", shaders::surface_vert, shaders::common_glsl, shaders::ground_frag};
+  Program signal{"signal", shaders::surface_vert, shaders::common_glsl, shaders::signal_frag};
+
+  const Program& of(Look look) const {
+    switch (look) {
+      case Look::kTissue:
+        return tissue;
+      case Look::kGround:
+        return ground;
+      case Look::kSignal:
+        return signal;
+      default:
+        return solid;
+    }
+  }
+};
+
+class GlRenderer final : public Renderer {
+ public:
+  explicit GlRenderer(std::unique_ptr<GlContext> context)
+      : context_(std::move(context)), pattern_(make_tissue_pattern(kPatternSide)), shadow_(kShadowSide) {
+    glGenVertexArrays(1, &no_vertices_);
+    panel_.emplace(*context_);
+  }
+  ~GlRenderer() override { glDeleteVertexArrays(1, &no_vertices_); }
+
+  MeshId add_mesh(const MeshData& mesh) override {
+    meshes_.emplace_back(mesh);
+    return static_cast<MeshId>(meshes_.size() - 1);
+  }
+  void update_vertices(MeshId mesh, std::span<const Vertex> vertices) override {
+    meshes_[static_cast<std::size_t>(mesh)].update(vertices);
+  }
+
+  Input begin_frame() override { return panel_->begin_frame(); }
+
+  void draw(const Frame& frame) override {
+    fit_targets();
+    cast_shadows(frame);
+    draw_scene(frame);
+    resolve();
+    panel_->draw();
+  }
+
+  Picture read_back() override {
+    Picture picture{context_->size(), {}};
+    const auto [width, height] = picture.size;
+    const std::size_t row = 4 * static_cast<std::size_t>(width);
+    std::vector<std::uint8_t> upward(row * static_cast<std::size_t>(height));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, output());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upward.data());
+    picture.rgba.resize(upward.size());
+    for (int y = 0; y < height; ++y) {  // OpenGL's rows go upwards
+      std::memcpy(&picture.rgba[row * static_cast<std::size_t>(y)],
+                  &upward[row * static_cast<std::size_t>(height - 1 - y)], row);
+    }
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
+    return picture;
+  }
+
+  void end_frame() override { context_->end_frame(); }
+
+  Size size() const override { return context_->size(); }
+  bool has_window() const override { return context_->has_window(); }
+  std::string description() const override {
+    const auto [width, height] = context_->size();
+    const auto* driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return std::string(has_window() ? "window " : "off-screen ") + std::to_string(width) + "x" +
+           std::to_string(height) + ", " + (driver ? driver : "unknown driver");
+  }
+
+ private:
+  unsigned output() const { return output_ ? output_->framebuffer() : 0; }
+
+  void fit_targets() {
+    const Size size = context_->size();
+    if (scene_ && scene_->size() == size) return;
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    scene_.emplace(size, std::min(kSamples, most), true);
+    if (!has_window()) output_.emplace(size, 0, false);
+  }
+
+  void cast_shadows(const Frame& frame) {
+    shadow_.begin();
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(kShadowSlope, kShadowBias);
+    programs_.shadow.use();
+    programs_.shadow.set("clip_from_W", frame.lighting.clip_from_W);
+    for (const DrawItem& item : frame.items) {
+      if (item.look == Look::kGround || item.look == Look::kSignal) continue;
+      programs_.shadow.set("W_from_mesh", item.W_from_mesh);
+      mesh(item.mesh).draw();
+    }
+    glDisable(GL_POLYGON_OFFSET_FILL);
+  }
+
+  void draw_scene(const Frame& frame) {
+    glBindFramebuffer(GL_FRAMEBUFFER, scene_->framebuffer());
+    glViewport(0, 0, scene_->size().width, scene_->size().height);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    shadow_.bind_texture(kShadowUnit);
+    pattern_.bind(kPatternUnit);
+
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    // what hides the rest comes first: hidden pixels are never shaded
+    for (const Look look : {Look::kSolid, Look::kTissue, Look::kGround, Look::kSignal})
+      draw_items(frame, look);
+    glDisable(GL_CULL_FACE);
+    glDepthFunc(GL_LEQUAL);
+    fill_screen(programs_.backdrop, frame);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_DEPTH_TEST);
+
+    if (frame.through_endoscope) {
+      glEnable(GL_BLEND);
+      glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+      fill_screen(programs_.lens, frame);
+      glDisable(GL_BLEND);
+    }
+  }
+
+  void draw_items(const Frame& frame, Look look) {
+    const Program& program = programs_.of(look);
+    program.use();
+    set_scene(program, frame);
+    program.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
+    const bool over = look == Look::kSignal;
+    glDepthRange(over ? 0 : kSignalDepth, over ? kSignalDepth : 1);
+    for (const DrawItem& item : frame.items) {
+      if (item.look != look) continue;
+      program.set("W_from_mesh", item.W_from_mesh);
+      program.set("material_colour", item.material.colour);
+      program.set("material_metalness", item.material.metalness);
+      program.set("material_roughness", item.material.roughness);
+      mesh(item.mesh).draw();
+    }
+  }
+
+  void set_scene(const Program& program, const Frame& frame) {
+    program.set("eye", frame.view.eye);
+    program.set("towards_key", frame.lighting.towards_key);
+    program.set("light_from_W", frame.lighting.clip_from_W);
+    program.set("unit_length", frame.lighting.radius_m);
+    program.set("picture_size", static_cast<float>(scene_->size().width),
+                static_cast<float>(scene_->size().height));
+    program.set("scope", frame.through_endoscope ? 1.0f : 0.0f);
+    program.set("shadow_map", kShadowUnit);
+    program.set("pattern", kPatternUnit);
+  }
+
+  void fill_screen(const Program& program, const Frame& frame) {
+    program.use();
+    set_scene(program, frame);
+    glBindVertexArray(no_vertices_);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void resolve() {
+    const auto [width, height] = scene_->size();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, scene_->framebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, output());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, output());
+  }
+
+  const MeshBuffer& mesh(MeshId id) const { return meshes_[static_cast<std::size_t>(id)]; }
+
+  // the context comes first and goes last: everything below lives in it
+  std::unique_ptr<GlContext> context_;
+  Programs programs_;
+  NoiseTexture pattern_;
+  ShadowMap shadow_;
+  unsigned no_vertices_ = 0;
+  std::vector<MeshBuffer> meshes_;
+  std::optional<RenderTarget> scene_, output_;
+  std::optional<PanelBackend> panel_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> open_window(Size size, const std::string& title) {
+  return std::make_unique<GlRenderer>(open_glfw_context(size, title));
+}
+
+std::unique_ptr<Renderer> open_offscreen(Size size) {
+  return std::make_unique<GlRenderer>(open_egl_context(size));
+}
+
+}  // namespace omentum::render::gl

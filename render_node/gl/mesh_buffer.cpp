@@ -1,0 +1,58 @@
+#include "render_node/gl/mesh_buffer.h"
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <utility>
+
+namespace omentum::render::gl {
+namespace {
+
+void attribute(unsigned location, int components, std::size_t offset) {
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                        reinterpret_cast<void*>(offset));
+}
+
+}  // namespace
+
+MeshBuffer::MeshBuffer(const MeshData& mesh) : index_count_(static_cast<int>(3 * mesh.triangles.size())) {
+  glGenVertexArrays(1, &array_);
+  glGenBuffers(1, &vertices_);
+  glGenBuffers(1, &indices_);
+  glBindVertexArray(array_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(MeshTriangle)),
+               mesh.triangles.data(), GL_STATIC_DRAW);
+  update(mesh.vertices);
+  attribute(0, 3, offsetof(Vertex, position));
+  attribute(1, 3, offsetof(Vertex, normal));
+  attribute(2, 3, offsetof(Vertex, rest));
+  attribute(3, 1, offsetof(Vertex, openness));
+  glBindVertexArray(0);
+}
+
+MeshBuffer::MeshBuffer(MeshBuffer&& other) noexcept
+    : array_(std::exchange(other.array_, 0)),
+      vertices_(std::exchange(other.vertices_, 0)),
+      indices_(std::exchange(other.indices_, 0)),
+      index_count_(other.index_count_) {}
+
+MeshBuffer::~MeshBuffer() {
+  glDeleteVertexArrays(1, &array_);
+  glDeleteBuffers(1, &vertices_);
+  glDeleteBuffers(1, &indices_);
+}
+
+void MeshBuffer::update(std::span<const Vertex> vertices) {
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size_bytes()), vertices.data(),
+               GL_STREAM_DRAW);
+}
+
+void MeshBuffer::draw() const {
+  glBindVertexArray(array_);
+  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace omentum::render::gl

@@ -1,0 +1,37 @@
+#include "render_node/gl/panel_backend.h"
+
+#include "render_node/gl/gl_context.h"
+#include "render_node/panel_style.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+namespace omentum::render::gl {
+
+PanelBackend::PanelBackend(GlContext& context) : context_(context) {
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // leaves no file where somebody happened to start it
+  style_panel();
+  context_.start_panel();
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+PanelBackend::~PanelBackend() {
+  ImGui_ImplOpenGL3_Shutdown();
+  context_.stop_panel();
+  ImGui::DestroyContext();
+}
+
+Input PanelBackend::begin_frame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  const Input input = context_.begin_frame();
+  ImGui::NewFrame();
+  return input;
+}
+
+void PanelBackend::draw() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace omentum::render::gl

@@ -1,0 +1,12 @@
+// The lights: an assistant's lamp over the camera's left shoulder, and the camera's own.
+#pragma once
+
+#include "render_node/camera.h"
+
+namespace omentum::render {
+
+/// The key light follows the camera, as an endoscope's does, but from the upper left, so that instruments
+/// throw shadows that show their height. Its shadow box holds `ball` exactly.
+Lighting light_scene(const Camera& camera, const Ball& ball);
+
+}  // namespace omentum::render

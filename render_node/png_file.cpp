@@ -1,0 +1,49 @@
+#include "render_node/png_file.h"
+
+#include <png.h>
+
+#include <stdexcept>
+#include <system_error>
+
+namespace omentum::render {
+
+void write_png(const Picture& picture, const std::filesystem::path& file) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(picture.size.width);
+  header.height = static_cast<png_uint_32>(picture.size.height);
+  header.format = PNG_FORMAT_RGBA;
+  header.flags = PNG_IMAGE_FLAG_FAST;  // a third of the time for a tenth more bytes
+
+  std::filesystem::path unfinished = file;
+  unfinished += ".part";
+  const auto refuse = [&](const std::string& reason) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw std::runtime_error(file.string() + ": cannot write the picture: " + reason);
+  };
+  if (!png_image_write_to_file(&header, unfinished.c_str(), 0, picture.rgba.data(), 0, nullptr)) {
+    refuse(header.message);
+  }
+  std::error_code error;
+  std::filesystem::rename(unfinished, file, error);
+  if (error) refuse(error.message());
+}
+
+Picture read_png(const std::filesystem::path& file) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  const auto refuse = [&] {
+    const std::string reason = header.message;
+    png_image_free(&header);
+    throw std::runtime_error(file.string() + ": not a readable PNG picture: " + reason);
+  };
+  if (!png_image_begin_read_from_file(&header, file.c_str())) refuse();
+  header.format = PNG_FORMAT_RGBA;
+  Picture picture{{static_cast<int>(header.width), static_cast<int>(header.height)}, {}};
+  picture.rgba.resize(PNG_IMAGE_SIZE(header));
+  if (!png_image_finish_read(&header, nullptr, picture.rgba.data(), 0, nullptr)) refuse();
+  return picture;
+}
+
+}  // namespace omentum::render

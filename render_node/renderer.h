@@ -1,0 +1,122 @@
+// What can be drawn, and the seam behind which it is drawn. render_node/gl/ draws with OpenGL; tests record.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace omentum::render {
+
+using Vec3f = Eigen::Vector3f;
+using Mat4f = Eigen::Matrix4f;
+
+struct Size {
+  int width = 0, height = 0;
+  friend bool operator==(Size, Size) = default;
+  float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
+};
+
+/// A corner of a triangle. `rest` is where it was before any deformation: patterns stick to it.
+/// `openness` is the fraction of ambient light that reaches it, 0 to 1.
+struct Vertex {
+  Vec3f position;
+  Vec3f normal;  // outward, unit
+  Vec3f rest;
+  float openness = 1;
+};
+static_assert(sizeof(Vertex) == 10 * sizeof(float), "uploaded as it lies in memory");
+
+using MeshTriangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
+
+struct MeshData {
+  std::vector<Vertex> vertices;
+  std::vector<MeshTriangle> triangles;
+};
+
+/// A mesh that a renderer holds.
+enum class MeshId : std::uint32_t {};
+
+/// How light meets a surface.
+enum class Look : std::uint8_t {
+  kTissue,  // wet, translucent, patterned
+  kSolid,   // metal or plastic
+  kGround,  // the drape below, fading into the background
+  kSignal,  // arrows and markers: not part of the world, drawn over it, nearly unlit
+};
+
+/// Colours are linear (not gamma-encoded) sRGB primaries.
+struct Material {
+  Vec3f colour{0.5f, 0.5f, 0.5f};
+  float metalness = 0;
+  float roughness = 0.5f;
+};
+
+struct DrawItem {
+  MeshId mesh{};
+  Look look = Look::kSolid;
+  Mat4f W_from_mesh = Mat4f::Identity();
+  Material material{};
+};
+
+/// Where from: world to eye, eye to clip (OpenGL's: z from -1 to 1), and the eye's place in W, m.
+struct View {
+  Mat4f eye_from_W = Mat4f::Identity();
+  Mat4f clip_from_eye = Mat4f::Identity();
+  Vec3f eye = Vec3f::Zero();
+};
+
+/// The key light throws shadows inside the box of `clip_from_W`; the fill light sits at the eye.
+struct Lighting {
+  Vec3f towards_key = Vec3f::UnitZ();  // unit, in W
+  Mat4f clip_from_W = Mat4f::Identity();
+  float radius_m = 0.1f;  // of what is lit: lengths in shading are shares of it
+};
+
+/// One picture of the scene.
+struct Frame {
+  View view;
+  Lighting lighting;
+  std::vector<DrawItem> items;
+  bool through_endoscope = false;  // round field of view
+};
+
+/// Eight-bit sRGB with opaque alpha, rows from top to bottom.
+struct Picture {
+  Size size;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// What the person at the window did since the last frame. Off-screen: nothing, ever.
+struct Input {
+  float orbit_x = 0, orbit_y = 0;  // pixels dragged with the left button
+  float pan_x = 0, pan_y = 0;      // pixels dragged with the right or middle button
+  float zoom = 0;                  // wheel steps, positive towards the target
+  bool close = false;
+};
+
+/// Draws frames into a window or an off-screen target. One thread, the one that made it.
+///
+/// A frame is: begin_frame(), lay out the panel with Dear ImGui, draw(), read_back() if a picture is
+/// wanted, end_frame().
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  virtual MeshId add_mesh(const MeshData& mesh) = 0;
+  /// As many vertices as the mesh was added with.
+  virtual void update_vertices(MeshId mesh, std::span<const Vertex> vertices) = 0;
+
+  virtual Input begin_frame() = 0;
+  virtual void draw(const Frame& frame) = 0;  // the scene, then the panel over it
+  virtual Picture read_back() = 0;
+  virtual void end_frame() = 0;
+
+  virtual Size size() const = 0;
+  virtual bool has_window() const = 0;
+  virtual std::string description() const = 0;  // e.g. "off-screen 960x600, llvmpipe"
+};
+
+}  // namespace omentum::render

@@ -1,0 +1,167 @@
+#include "render_node/scene_view.h"
+
+#include "render_node/lighting.h"
+#include "render_node/solids.h"
+
+#include <algorithm>
+
+namespace omentum::render {
+namespace {
+
+// Liver: the hue of its reflectance in clinical photographs, linear.
+const Material kLiver{{0.300f, 0.052f, 0.036f}, 0.0f, 0.27f};
+const Material kDrape{{0.020f, 0.085f, 0.098f}, 0.0f, 0.9f};
+
+constexpr double kArrowRadiusM = 0.0013, kHeadRadiusM = 0.0034, kHeadLengthM = 0.009;
+constexpr double kMarkerRadiusM = 0.0011;
+constexpr double kShadowReach =
+    1.45;  // of the organs' radius: the instruments' near parts and the shadow beside the organ
+
+// An endoscope without a tool or pose of its own looks from here.
+constexpr double kScopeDistance = 0.42;  // of the orbit camera's start
+constexpr double kScopeFieldDeg = 62;    // a laparoscope's, bottom to top
+
+constexpr double kLeastHeight = 0.45;  // of the unit viewing direction: never from under the table
+
+// From where a whole scene is best seen: the side on which it is pressed, from above.
+Vec3 viewing_direction(const runtime::Scene& scene) {
+  Vec3 pressed = Vec3::Zero();
+  for (const auto& hand : scene.hands) pressed += Vec3(hand.press_normal.data());
+  Vec3 along(pressed.x(), pressed.y(), 0);
+  along = along.norm() > 0.3 * std::max(1.0, pressed.norm()) ? along.normalized() : Vec3(0, -1, 0);
+  const Vec3 side = along.cross(Vec3::UnitZ());
+  Vec3 from = (along + 0.45 * side).normalized();
+  const double height = std::clamp(pressed.norm() > 0 ? pressed.normalized().z() : 0.5, kLeastHeight, 0.62);
+  return std::sqrt(1 - height * height) * from + height * Vec3::UnitZ();
+}
+
+double area_of(std::span<const geometry::Triangle> triangles, std::span<const Vec3> p) {
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) area += 0.5 * (p[b] - p[a]).cross(p[c] - p[a]).norm();
+  return area;
+}
+
+// z of the mesh along `direction`, scaled.
+Mat4f placed(const Vec3& origin, const Vec3& direction, double width, double length) {
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), direction).toRotationMatrix();
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topLeftCorner<3, 3>() = turn * Vec3(width, width, length).asDiagonal();
+  pose.topRightCorner<3, 1>() = origin;
+  return pose.cast<float>();
+}
+
+Material signal_material(std::uint32_t tool) {
+  return {tool_colour(tool), 0, 1};
+}
+
+}  // namespace
+
+std::optional<std::size_t> scope_of(const runtime::Scene& scene) {
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (scene.tools[t].name == "endoscope") return t;
+  }
+  return std::nullopt;
+}
+
+SceneView::SceneView(const runtime::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer)
+    : renderer_(renderer), scene_(scene) {
+  std::vector<Vec3> all;
+  std::vector<Vec3f> normals;
+  double area = 0;
+  for (const OrganShape& shape : organs) {
+    DrawnOrgan& drawn =
+        organs_.emplace_back(DrawnOrgan{{shape.surface, shape.rest}, shape.surface_of_file_node});
+    drawn.mesh = renderer.add_mesh(drawn.skin.mesh());
+    all.insert(all.end(), shape.rest.begin(), shape.rest.end());
+    for (std::int32_t s = 0; s < shape.surface.node_count(); ++s) {
+      normals.push_back(drawn.skin.normal(geometry::SurfaceId(s)));
+    }
+    area += area_of(shape.surface.triangles, shape.rest);
+  }
+  ball_ = ball_around(all);
+  for (const auto& tool : scene.tools) {
+    auto& parts = instruments_.emplace_back();
+    for (auto& part : instrument_parts(tool, tool_colour(tool.id))) {
+      const MeshId mesh = renderer.add_mesh(part.mesh);
+      parts.push_back({std::move(part), mesh});
+    }
+  }
+  ground_ = renderer.add_mesh(ground_under(all, normals, ball_, area));
+  arrow_shaft_ = renderer.add_mesh(unit_shaft());
+  arrow_head_ = renderer.add_mesh(unit_head());
+  marker_ = renderer.add_mesh(unit_ball());
+}
+
+void SceneView::deform(std::size_t organ, std::span<const float> displacements) {
+  organs_[organ].skin.deform(displacements);
+  renderer_.update_vertices(organs_[organ].mesh, organs_[organ].skin.mesh().vertices);
+}
+
+Camera SceneView::first_camera() const {
+  return start_camera(scene_.camera, ball_, viewing_direction(scene_), renderer_.size().aspect());
+}
+
+Camera SceneView::camera(const ViewChoices& choices, std::span<const ToolNow> tools) const {
+  if (!choices.endoscope) return choices.orbit;
+  if (const auto scope = scope_of(scene_); scope && tools[*scope].seen) {
+    return scope_camera(tools[*scope].p_WT, tools[*scope].q_WT, kScopeFieldDeg);
+  }
+  Camera fixed = first_camera();
+  if (scene_.camera.mode == "endoscope") return fixed;
+  fixed.eye = fixed.target + kScopeDistance * (fixed.eye - fixed.target);
+  fixed.field_of_view_deg = kScopeFieldDeg;
+  return fixed;
+}
+
+Frame SceneView::frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const {
+  const Camera from = camera(choices, tools);
+  Frame frame;
+  frame.view = view_of(from, ball_, renderer_.size().aspect(), choices.endoscope ? 0 : panel_share / 2);
+  frame.lighting = light_scene(from, {ball_.centre, kShadowReach * ball_.radius});
+  frame.through_endoscope = choices.endoscope;
+  frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
+  for (const DrawnOrgan& organ : organs_)
+    frame.items.push_back({organ.mesh, Look::kTissue, Mat4f::Identity(), kLiver});
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    if (!tools[t].seen) continue;
+    add_instrument(t, tools[t], frame.items);
+    if (choices.arrows) add_arrow(t, tools[t], frame.items);
+    if (choices.markers) add_markers(t, tools[t], frame.items);
+  }
+  return frame;
+}
+
+void SceneView::add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
+  if (scope_of(scene_) == tool) return;  // nobody sees the scope: the others would see through it
+  for (const auto& [part, mesh] : instruments_[tool]) {
+    items.push_back({mesh, Look::kSolid, part_pose(part, now.p_WT, now.q_WT, now.grip_rad), part.material});
+  }
+}
+
+void SceneView::add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
+  const double force = now.force_n.norm();
+  if (!(force >= kLeastArrowN)) return;
+  const Vec3 direction = now.force_n / force;
+  const double length = std::min(force * kArrowMetresPerNewton, kLongestArrowM);
+  const double head = std::min(kHeadLengthM, 0.6 * length), shaft = length - head;
+  const double scale = head / kHeadLengthM;  // a weak force has a small arrow, not a squashed one
+  const Material material = signal_material(scene_.tools[tool].id);
+  items.push_back(
+      {arrow_shaft_, Look::kSignal, placed(now.p_WT, direction, scale * kArrowRadiusM, shaft), material});
+  items.push_back({arrow_head_, Look::kSignal,
+                   placed(now.p_WT + shaft * direction, direction, scale * kHeadRadiusM, head), material});
+}
+
+void SceneView::add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
+  if (now.contact_organ >= organs_.size()) return;
+  const DrawnOrgan& organ = organs_[now.contact_organ];
+  for (const std::uint32_t node : now.contact_nodes) {
+    if (node >= organ.surface_of_file_node.size() || !organ.surface_of_file_node[node].valid()) continue;
+    const Vec3 at = organ.skin.position(organ.surface_of_file_node[node]).cast<double>();
+    items.push_back({marker_, Look::kSignal, placed(at, Vec3::UnitZ(), kMarkerRadiusM, kMarkerRadiusM),
+                     signal_material(scene_.tools[tool].id)});
+  }
+}
+
+}  // namespace omentum::render

@@ -1,0 +1,32 @@
+// Shapes that are made of a few numbers: turned parts, a unit arrow, a ball, the ground.
+#pragma once
+
+#include "render_node/camera.h"
+#include "render_node/renderer.h"
+
+namespace omentum::render {
+
+/// Smooth normals except over edges sharper than the crease angle, where corners are doubled.
+MeshData creased(const std::vector<Vec3f>& points, const std::vector<MeshTriangle>& triangles);
+
+/// A profile (radius, height along z), m, turned about z; listed so that the outside lies on its right when
+/// it is drawn with the radius to the right and z up, i.e. from the bottom upwards for a solid. Radius 0
+/// closes it.
+struct ProfilePoint {
+  float radius, z;
+};
+MeshData turned(std::span<const ProfilePoint> profile, int segments);
+
+/// Along +z: a shaft of radius 1 from z = 0 to 1, and a head (cone) from z = 0, radius 1, to z = 1. Drawn
+/// scaled.
+MeshData unit_shaft();
+MeshData unit_head();
+/// Radius 1 about the origin.
+MeshData unit_ball();
+
+/// A round drape under an organ, in W: `openness` is the share of the sky that the organ leaves free (the sum
+/// of the form factors of its surface elements), so that it seems to rest on it.
+MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
+                      const Ball& ball, double surface_area_m2);
+
+}  // namespace omentum::render
