@@ -18,7 +18,10 @@ class Mailbox {
   /// Writer: the slot to fill. Call post() when it is complete.
   T& draft() { return slots_[write_]; }
   void post() noexcept { write_ = newest_.exchange(write_ | kFresh, std::memory_order_acq_rel) & kSlot; }
-  void post(const T& value) { draft() = value; post(); }
+  void post(const T& value) {
+    draft() = value;
+    post();
+  }
 
   /// Reader: takes the newest value if one came since the last call. Returns whether one came.
   bool fetch() noexcept {

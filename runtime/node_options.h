@@ -5,19 +5,21 @@
 #include <functional>
 #include <string>
 
-namespace CLI { class App; }
+namespace CLI {
+class App;
+}
 
 namespace omentum::runtime {
 
 struct NodeOptions {
-  std::filesystem::path scene;    // --scene
-  std::filesystem::path organ;    // --organ: overrides the scene's organ file
-  std::string dds = "fast";       // --dds fast|cyclone
-  int domain = 0;                 // --domain 0..230
+  std::filesystem::path scene;       // --scene
+  std::filesystem::path organ;       // --organ: overrides the scene's organ file
+  std::string dds = "fast";          // --dds fast|cyclone
+  int domain = 0;                    // --domain 0..230
   std::string profile = "loopback";  // --profile loopback|lan
-  std::string keystore;           // --secure KEYSTORE
-  std::filesystem::path report;   // --report FILE
-  std::filesystem::path log;      // --log FILE: loop samples as CSV
+  std::string keystore;              // --secure KEYSTORE
+  std::filesystem::path report;      // --report FILE
+  std::filesystem::path log;         // --log FILE: loop samples as CSV
 };
 
 /// Adds the shared options to `app`.

@@ -8,7 +8,7 @@ namespace omentum::runtime {
 struct RealtimeGrant {
   bool fifo = false;
   bool locked = false;
-  std::string warning;   // empty when everything was granted; else what was refused and what to set
+  std::string warning;  // empty when everything was granted; else what was refused and what to set
 };
 
 /// Asks for SCHED_FIFO for the calling thread, and for locked memory for the process. Never throws.
