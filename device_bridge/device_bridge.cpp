@@ -1,0 +1,165 @@
+#include "device_bridge/device_bridge.h"
+
+#include "runtime/clock.h"
+#include "runtime/report.h"
+
+#include <array>
+#include <chrono>
+#include <iostream>
+#include <utility>
+
+#include <unistd.h>
+
+namespace omentum::device {
+namespace {
+
+constexpr int kPriority = 80;  // above ordinary threads, below the kernel's own (99)
+constexpr std::chrono::milliseconds kStatusPause{500};
+constexpr double kRecordPeriod_s = 0.4;  // a fresh loop record is ready for each status
+
+msg::Percentiles to_message(const runtime::Percentiles& p) {
+  return {p.p50, p.p99, p.p999, p.max, p.count};
+}
+
+std::string host_name() {
+  std::array<char, 65> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+}  // namespace
+
+DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique_ptr<Device>> devices,
+                           runtime::RateLoop& loop)
+    : options_(options),
+      loop_(loop),
+      answers_(runtime::steady_now_ns()),
+      instance_(static_cast<std::uint64_t>(runtime::steady_now_ns()) ^
+                (static_cast<std::uint64_t>(getpid()) << 40)) {
+  const runtime::NodeOptions& node = options.node;
+  if (!node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(node.log);
+  if (log_) loop_.log_to(*log_);
+  if (!options.record.empty()) record_ = std::make_unique<TraceLog>(options.record);
+  for (auto& device : devices) {
+    channels_.push_back(std::make_unique<ToolChannel>(std::move(device), faults_));
+    answers_.serve(channels_.back()->tool());
+  }
+
+  bus_ = transport::Bus::open({transport::parse_vendor(node.dds), node.domain,
+                               transport::parse_profile(node.profile), "virtual_device", node.keystore});
+  info_writer_ = bus_->writer<msg::DeviceInfo>();
+  pose_writer_ = bus_->writer<msg::ToolPose>();
+  status_writer_ = bus_->writer<msg::NodeStatus>();
+  force_reader_ = bus_->reader<msg::ToolForce>([this](const msg::ToolForce& answer) { receive(answer); });
+  status_reader_ = bus_->reader<msg::NodeStatus>(
+      [this](const msg::NodeStatus& status) { answers_.add(status, runtime::steady_now_ns()); });
+  command_reader_ =
+      bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& command) { receive(command); });
+  for (const auto& channel : channels_) info_writer_->write(channel->info());
+  status_ = std::make_unique<runtime::Background>(kStatusPause, [this] { publish_status(); });
+}
+
+DeviceBridge::~DeviceBridge() = default;
+
+void DeviceBridge::run() {
+  realtime_ = runtime::request_realtime(kPriority);
+  if (!realtime_.warning.empty()) std::cerr << "virtual_device: " << realtime_.warning << std::endl;
+  const std::int64_t begin_ns = runtime::steady_now_ns();
+  std::int64_t recorded_ns = begin_ns;
+
+  while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {
+    obey();
+    for (const auto& channel : channels_) exchange(*channel);
+    loop_.finish_tick();
+
+    const std::int64_t now_ns = loop_.tick_start_ns();
+    if (1e-9 * static_cast<double>(now_ns - recorded_ns) >= kRecordPeriod_s) {
+      status_record_.post(loop_.record());
+      recorded_ns = now_ns;
+    }
+    if (options_.seconds > 0 && 1e-9 * static_cast<double>(now_ns - begin_ns) >= options_.seconds) break;
+  }
+  leave();
+}
+
+void DeviceBridge::exchange(ToolChannel& channel) noexcept {
+  const msg::ToolPose& pose = channel.tick(runtime::steady_now_ns());
+  if (!pose_writer_->write(pose)) faults_.raise("a pose could not be sent");
+  if (record_) record_->push(pose);
+}
+
+void DeviceBridge::obey() noexcept {
+  const bool restart = restart_.exchange(false);
+  for (const auto& channel : channels_) {
+    channel->device().pause(paused_);
+    if (restart) channel->device().restart();
+  }
+}
+
+void DeviceBridge::leave() noexcept {
+  for (const auto& channel : channels_) pose_writer_->write(channel->farewell(runtime::steady_now_ns()));
+}
+
+void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
+  const std::int64_t now_ns = runtime::steady_now_ns();
+  for (const auto& channel : channels_) {
+    if (channel->tool() == answer.tool) channel->receive(answer, now_ns);
+  }
+  answers_.add(answer, now_ns);
+}
+
+void DeviceBridge::receive(const msg::SessionCommand& command) noexcept {
+  if (command.command == msg::COMMAND_START) paused_ = false;
+  if (command.command == msg::COMMAND_PAUSE) paused_ = true;
+  if (command.command == msg::COMMAND_RESET) restart_ = true;
+}
+
+void DeviceBridge::publish_status() {
+  status_record_.fetch();
+  const runtime::LoopRecord& record = status_record_.value();
+  msg::NodeStatus status;
+  status.kind = msg::NODE_DEVICE;
+  status.instance = instance_;
+  status.host = host_name();
+  for (const auto& channel : channels_) status.tools_served |= 1U << channel->tool();
+  status.paused = paused_;
+  status.rate_hz = loop_.rate_hz();
+  status.ticks = record.ticks;
+  status.missed = record.missed;
+  status.period_us = to_message(record.period.percentiles());
+  status.compute_us = to_message(record.compute.percentiles());
+  status.faults = faults_.lines();
+  status_writer_->write(status);
+}
+
+nlohmann::json DeviceBridge::report() const {
+  const AnswerReport answers = answers_.report();
+  std::uint64_t sent = 0, expired = 0;
+  double energy_j = 0;
+  nlohmann::json hands = nlohmann::json::array();
+  for (const auto& channel : channels_) {
+    sent += channel->sent();
+    expired += channel->expired();
+    energy_j += channel->energy_j();
+    nlohmann::json hand = channel->device().report();
+    hand.update({{"tool", channel->tool()}, {"energy_j", channel->energy_j()}});
+    hands.push_back(hand);
+  }
+  const nlohmann::json round_trip = to_json(answers.to_force);
+  return {{"dds", options_.node.dds},
+          {"loop", to_json(loop_.record(), loop_.rate_hz())},
+          {"realtime", {{"fifo", realtime_.fifo}, {"locked", realtime_.locked}}},
+          {"round_trip_us", round_trip},
+          {"sent", sent},
+          {"lost", answers.lost},
+          {"expired", expired},
+          {"energy_j", energy_j},
+          {"hands", hands},
+          {"faults", faults_.lines()},
+          {"link",
+           {{"tool_to_force_us", round_trip},
+            {"tool_to_organ_us", to_json(answers.to_organ)},
+            {"tool_to_picture_us", to_json(answers.to_picture)}}}};
+}
+
+}  // namespace omentum::device

@@ -1,0 +1,76 @@
+// Devices on the wire: the loop that a device's program runs.
+#pragma once
+
+#include "device_bridge/answer_book.h"
+#include "device_bridge/tool_channel.h"
+#include "device_bridge/trace.h"
+#include "runtime/background.h"
+#include "runtime/faults.h"
+#include "runtime/loop_log.h"
+#include "runtime/node_options.h"
+#include "runtime/rate_loop.h"
+#include "runtime/realtime.h"
+#include "transport/bus.h"
+
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace omentum::device {
+
+struct BridgeOptions {
+  runtime::NodeOptions node;
+  double seconds = 0;            // 0: until stopped
+  std::filesystem::path record;  // the poses as a trace; empty: none
+};
+
+/// Publishes DeviceInfo once, ToolPose every tick and NodeStatus twice a second; receives ToolForce, the
+/// statuses that echo its poses, and SessionCommand. Asks for real-time priority.
+class DeviceBridge {
+ public:
+  /// Joins the domain. Throws std::runtime_error saying what was refused. `loop` must outlive this.
+  DeviceBridge(const BridgeOptions& options, std::vector<std::unique_ptr<Device>> devices,
+               runtime::RateLoop& loop);
+  ~DeviceBridge();
+
+  /// Until loop.stop() or the end of `seconds`; the last poses say that the devices left.
+  void run();
+
+  /// After run(): virtual_device's object of report.json (DESIGN 5).
+  nlohmann::json report() const;
+
+ private:
+  void obey() noexcept;
+  void exchange(ToolChannel& channel) noexcept;
+  void leave() noexcept;
+  void receive(const msg::ToolForce& answer) noexcept;
+  void receive(const msg::SessionCommand& command) noexcept;
+  void publish_status();
+
+  BridgeOptions options_;
+  runtime::RateLoop& loop_;
+  runtime::FaultList faults_;
+  AnswerBook answers_;
+  std::vector<std::unique_ptr<ToolChannel>> channels_;
+  runtime::RealtimeGrant realtime_;
+  std::unique_ptr<runtime::LoopLog> log_;
+  std::unique_ptr<TraceLog> record_;
+  std::atomic<bool> paused_{false};
+  std::atomic<bool> restart_{false};
+  runtime::Mailbox<runtime::LoopRecord> status_record_;  // from the loop to the status
+  std::uint64_t instance_;
+
+  // declared last: callbacks end before what they touch
+  std::unique_ptr<transport::Bus> bus_;
+  std::unique_ptr<transport::Writer<msg::DeviceInfo>> info_writer_;
+  std::unique_ptr<transport::Writer<msg::ToolPose>> pose_writer_;
+  std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
+  std::unique_ptr<transport::Reader<msg::ToolForce>> force_reader_;
+  std::unique_ptr<transport::Reader<msg::NodeStatus>> status_reader_;
+  std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
+  std::unique_ptr<runtime::Background> status_;
+};
+
+}  // namespace omentum::device

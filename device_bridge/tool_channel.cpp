@@ -1,0 +1,71 @@
+#include "device_bridge/tool_channel.h"
+
+#include <cmath>
+#include <utility>
+
+namespace omentum::device {
+namespace {
+
+bool finite(const Measurement& m) {
+  return m.position.allFinite() && m.orientation.coeffs().allFinite() && m.linear_velocity.allFinite() &&
+         m.angular_velocity.allFinite() && std::isfinite(m.grip);
+}
+
+}  // namespace
+
+ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults)
+    : device_(std::move(device)),
+      info_(device_->info()),
+      faults_(faults),
+      bad_force_("tool " + std::to_string(info_.tool) +
+                 ": a force that is not finite arrived and was ignored"),
+      bad_measurement_("tool " + std::to_string(info_.tool) +
+                       ": the device measured a pose that is not finite"),
+      hold_(info_.max_force_n, info_.max_torque_nm) {
+  pose_.tool = info_.tool;
+  pose_.orientation.w = 1;
+}
+
+void ToolChannel::receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept {
+  received_.draft() = {answer, now_ns};
+  received_.post();
+}
+
+const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
+  if (received_.fetch() && !hold_.take(received_.value().answer, received_.value().at_ns)) {
+    faults_.raise(bad_force_);
+  }
+  const Wrench wrench = hold_.at(now_ns);
+  device_->command(wrench);
+
+  const Vec3 before = from_message(pose_.position);
+  const bool moved_from_there = pose_.valid;
+  fill(device_->measure(), now_ns);
+  if (moved_from_there && pose_.valid) {
+    energy_j_ += wrench.force.dot(from_message(pose_.position) - before);
+  }
+  return pose_;
+}
+
+void ToolChannel::fill(const Measurement& m, std::int64_t now_ns) noexcept {
+  ++pose_.seq;
+  pose_.stamp_ns = now_ns;
+  pose_.valid = m.valid && finite(m);
+  if (m.valid && !pose_.valid) faults_.raise(bad_measurement_);
+  if (!pose_.valid) return;
+  const Quat q = m.orientation.normalized();
+  pose_.buttons = m.buttons;
+  pose_.position = to_message(m.position);
+  pose_.orientation = {q.w(), q.x(), q.y(), q.z()};
+  pose_.linear_velocity = to_message(m.linear_velocity);
+  pose_.angular_velocity = to_message(m.angular_velocity);
+  pose_.grip = m.grip;
+}
+
+const msg::ToolPose& ToolChannel::farewell(std::int64_t now_ns) noexcept {
+  device_->command({});
+  fill({}, now_ns);
+  return pose_;
+}
+
+}  // namespace omentum::device

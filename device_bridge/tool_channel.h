@@ -1,0 +1,61 @@
+// One tool's half of the hand's loop: forces in, poses out.
+#pragma once
+
+#include "device_bridge/device.h"
+#include "device_bridge/force_hold.h"
+#include "runtime/faults.h"
+#include "runtime/mailbox.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace omentum::device {
+
+/// Between a Device and its topics. Reads no clock.
+class ToolChannel {
+ public:
+  /// `faults` must outlive the channel.
+  ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults);
+
+  std::uint32_t tool() const { return info_.tool; }
+  const msg::DeviceInfo& info() const { return info_; }
+  Device& device() { return *device_; }
+  const Device& device() const { return *device_; }
+
+  /// An answer of haptic_node. One thread (the reader's) at a time.
+  void receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept;
+
+  /// Once a period, the loop's thread: commands the newest force and returns the pose to publish. A
+  /// measurement that is not finite goes out with its valid flag down and raises a fault.
+  const msg::ToolPose& tick(std::int64_t now_ns) noexcept;
+
+  /// The pose that tells the node that this device leaves: its valid flag is down.
+  const msg::ToolPose& farewell(std::int64_t now_ns) noexcept;
+
+  std::uint64_t sent() const { return pose_.seq; }
+  /// Given to the hand by the forces' work along the way of the tip, J: negative where the hand gave.
+  double energy_j() const { return energy_j_; }
+  /// How many times answers did not come in time, so that the force decayed.
+  std::uint64_t expired() const { return hold_.expired(); }
+
+ private:
+  struct Received {
+    msg::ToolForce answer;
+    std::int64_t at_ns = 0;
+  };
+
+  void fill(const Measurement& measured, std::int64_t now_ns) noexcept;
+
+  std::unique_ptr<Device> device_;
+  msg::DeviceInfo info_;
+  runtime::FaultList& faults_;
+  std::string bad_force_, bad_measurement_;  // fault texts, made beforehand
+  runtime::Mailbox<Received> received_;
+  ForceHold hold_;
+  msg::ToolPose pose_;
+  double energy_j_ = 0;
+};
+
+}  // namespace omentum::device

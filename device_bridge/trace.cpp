@@ -1,0 +1,180 @@
+#include "device_bridge/trace.h"
+
+#include "device_bridge/hand_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+namespace omentum::device {
+namespace {
+
+constexpr double kUnitTolerance = 1e-3;  // three written digits of a quaternion
+constexpr int kTool = 9;                 // the optional column
+constexpr std::array<std::string_view, 10> kColumns{"t_s", "px", "py", "pz",   "qw",
+                                                    "qx",  "qy", "qz", "grip", "tool"};
+constexpr const char* kHeader = "t_s,px,py,pz,qw,qx,qy,qz,grip";
+
+std::string quoted(std::string_view text) {
+  std::string result("'");
+  return result.append(text).append("'");
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    std::string_view field = line.substr(begin, end - begin);
+    while (!field.empty() && std::isspace(static_cast<unsigned char>(field.front()))) field.remove_prefix(1);
+    while (!field.empty() && std::isspace(static_cast<unsigned char>(field.back()))) field.remove_suffix(1);
+    fields.push_back(field);
+    begin = end + 1;
+  }
+  return fields;
+}
+
+// One file while it is read.
+class TraceReader {
+ public:
+  explicit TraceReader(const std::filesystem::path& file) : file_(file), in_(file) {
+    if (!in_ || std::filesystem::is_directory(file)) {
+      throw std::runtime_error(file.string() + ": found no readable file, expected a trace (" + kHeader +
+                               ")");
+    }
+  }
+
+  std::map<std::uint32_t, Trace> read() {
+    std::map<std::uint32_t, Trace> traces;
+    if (!next_line()) refuse("nothing", std::string("a header ") + kHeader);
+    read_header();
+    while (next_line()) read_point(traces);
+    if (traces.empty()) refuse("no pose", "at least one line of numbers");
+    return traces;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    throw std::runtime_error(file_.string() + ":" + std::to_string(line_number_) + ": found " + found +
+                             ", expected " + expected);
+  }
+
+  bool next_line() {
+    while (std::getline(in_, line_)) {
+      ++line_number_;
+      const auto text = line_.find_first_not_of(" \t\r");
+      if (text != std::string::npos && line_[text] != '#') return true;
+    }
+    return false;
+  }
+
+  void read_header() {
+    std::array<int, kColumns.size()> seen{};
+    for (const std::string_view name : split(line_)) {
+      const auto column = std::find(kColumns.begin(), kColumns.end(), name);
+      if (column == kColumns.end() || seen[column - kColumns.begin()]++ > 0) {
+        refuse("column " + quoted(name), std::string(kHeader) + " and perhaps tool, each once");
+      }
+      order_.push_back(static_cast<int>(column - kColumns.begin()));
+    }
+    for (int column = 0; column < kTool; ++column) {
+      if (seen[column] == 0)
+        refuse("no column " + std::string(kColumns[column]), std::string("the columns ") + kHeader);
+    }
+  }
+
+  void read_point(std::map<std::uint32_t, Trace>& traces) {
+    const auto fields = split(line_);
+    if (fields.size() != order_.size()) {
+      refuse(std::to_string(fields.size()) + " fields", std::to_string(order_.size()) + " as in the header");
+    }
+    std::array<double, kColumns.size()> v{};
+    for (std::size_t i = 0; i < fields.size(); ++i) v[order_[i]] = number(fields[i], kColumns[order_[i]]);
+
+    Quat q(v[4], v[5], v[6], v[7]);
+    if (std::abs(q.norm() - 1) > kUnitTolerance) {
+      refuse("an orientation of length " + std::to_string(q.norm()), "a unit quaternion qw,qx,qy,qz");
+    }
+    Trace& trace = traces[tool(v[kTool])];
+    if (!trace.empty() && v[0] <= trace.back().t_s) {
+      refuse("t_s " + std::to_string(v[0]) + " after " + std::to_string(trace.back().t_s), "times that grow");
+    }
+    trace.push_back({v[0], {v[1], v[2], v[3]}, q.normalized(), v[8]});
+  }
+
+  double number(std::string_view field, std::string_view column) const {
+    double value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+      refuse(quoted(field) + " in column " + std::string(column), "a number");
+    }
+    return value;
+  }
+
+  std::uint32_t tool(double value) const {
+    if (value != std::floor(value) || value < 0 || value >= msg::MAX_TOOLS) {
+      refuse("tool " + std::to_string(value),
+             "a whole number from 0 to " + std::to_string(msg::MAX_TOOLS - 1));
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+
+  std::filesystem::path file_;
+  std::ifstream in_;
+  std::string line_;
+  int line_number_ = 0;
+  std::vector<int> order_;  // the column of each field
+};
+
+Measurement at_rest(const TracePoint& point) {
+  return {.valid = true, .position = point.position, .orientation = point.orientation, .grip = point.grip};
+}
+
+void write_pose(std::ostream& out, const msg::ToolPose& pose, std::int64_t begin_ns) {
+  const auto& [p, q] = std::tie(pose.position, pose.orientation);
+  std::array<char, 256> line{};
+  const double t_s = 1e-9 * static_cast<double>(pose.stamp_ns - begin_ns);
+  std::snprintf(line.data(), line.size(), "%.9f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.6g,%u\n", t_s, p.x, p.y,
+                p.z, q.w, q.x, q.y, q.z, pose.grip, pose.tool);
+  out << line.data();
+}
+
+}  // namespace
+
+std::map<std::uint32_t, Trace> read_trace(const std::filesystem::path& file) {
+  return TraceReader(file).read();
+}
+
+Measurement trace_at(const Trace& trace, double t_s) noexcept {
+  const auto after = std::upper_bound(trace.begin(), trace.end(), t_s,
+                                      [](double t, const TracePoint& point) { return t < point.t_s; });
+  if (after == trace.begin()) return at_rest(trace.front());
+  if (after == trace.end()) return at_rest(trace.back());
+  const TracePoint &a = *(after - 1), &b = *after;
+  const double span_s = b.t_s - a.t_s;
+  const double share = (t_s - a.t_s) / span_s;
+  return {.valid = true,
+          .position = a.position + share * (b.position - a.position),
+          .orientation = a.orientation.slerp(share, b.orientation),
+          .linear_velocity = (b.position - a.position) / span_s,
+          .angular_velocity = angular_velocity(a.orientation, b.orientation, span_s),
+          .grip = a.grip + share * (b.grip - a.grip)};
+}
+
+TraceLog::TraceLog(const std::filesystem::path& file)
+    : SampleLog(
+          file, std::string(kHeader) + ",tool",
+          [begin_ns = std::int64_t{-1}](std::ostream& out, std::uint64_t, const msg::ToolPose& pose) mutable {
+            if (!pose.valid) return;
+            if (begin_ns < 0) begin_ns = pose.stamp_ns;
+            write_pose(out, pose, begin_ns);
+          }) {}
+
+}  // namespace omentum::device

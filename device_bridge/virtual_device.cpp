@@ -1,0 +1,81 @@
+// A simulated hand, or a recorded one, on the wire: the example to copy for a real device (docs/devices.md).
+// Replace make_devices() by your own implementation of device_bridge/device.h.
+#include "device_bridge/device_bridge.h"
+#include "device_bridge/trace_player.h"
+#include "device_bridge/virtual_hand.h"
+#include "runtime/report.h"
+#include "runtime/scene.h"
+#include "runtime/signals.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace {
+
+using namespace omentum;
+using Devices = std::vector<std::unique_ptr<device::Device>>;
+
+struct Options {
+  device::BridgeOptions bridge;
+  std::filesystem::path trace;
+  double rate_hz = 1000;
+};
+
+const runtime::ToolSpec& tool_of(const runtime::Scene& scene, std::uint32_t id, const std::string& who) {
+  const auto tool =
+      std::find_if(scene.tools.begin(), scene.tools.end(), [id](const auto& t) { return t.id == id; });
+  if (tool == scene.tools.end()) {
+    throw std::runtime_error(who + ": found tool " + std::to_string(id) + ", expected one of " +
+                             scene.file.string());
+  }
+  return *tool;
+}
+
+Devices make_devices(const Options& options, const runtime::Scene& scene) {
+  Devices devices;
+  if (!options.trace.empty()) {
+    for (auto& [id, trace] : device::read_trace(options.trace)) {
+      tool_of(scene, id, options.trace.string());
+      devices.push_back(std::make_unique<device::TracePlayer>(id, trace, options.rate_hz));
+    }
+    return devices;
+  }
+  for (const runtime::HandSpec& hand : scene.hands) {
+    const runtime::ToolSpec& tool = tool_of(scene, hand.tool, scene.file.string());
+    devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, options.rate_hz));
+  }
+  if (devices.empty()) {
+    throw std::runtime_error(scene.file.string() +
+                             ": hands: found none, expected at least one [[hands]], or --trace FILE");
+  }
+  return devices;
+}
+
+void run(const Options& options) {
+  const runtime::Scene scene = runtime::load_scene(options.bridge.node.scene);
+  runtime::RateLoop loop(options.rate_hz);
+  runtime::StopSignal stop_signal([&loop] { loop.stop(); });
+  device::DeviceBridge bridge(options.bridge, make_devices(options, scene), loop);
+  bridge.run();
+  if (!options.bridge.node.report.empty()) runtime::write_report(bridge.report(), options.bridge.node.report);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"A simulated hand that presses the scene's organ and feels its force, or a recorded hand"};
+  Options options;
+  runtime::add_node_options(app, options.bridge.node);
+  app.add_option("--trace", options.trace, "play this recorded hand instead of the scene's script")
+      ->type_name("FILE");
+  app.add_option("--record", options.bridge.record, "record the poses as a trace")->type_name("FILE");
+  app.add_option("--rate-hz", options.rate_hz, "poses per second")
+      ->check(CLI::Range(10.0, 10000.0))
+      ->capture_default_str();
+  app.add_option("--seconds", options.bridge.seconds, "end after this time; 0: run until stopped")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  return runtime::node_main(app, argc, argv, [&] { run(options); });
+}

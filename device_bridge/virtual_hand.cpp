@@ -1,0 +1,115 @@
+#include "device_bridge/virtual_hand.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace omentum::device {
+namespace {
+
+// A person's hand moves continuously: steps much finer than any device rate make it feel the same at every
+// rate.
+constexpr double kLongestSubstep_s = 0.25e-3;
+constexpr double kPaceChange_s =
+    0.1;                           // to stop or to go on: no jerk in the hand, and soon enough for a person
+constexpr double kReturn_s = 1.0;  // to glide back to the start: below 0.1 m/s for a path of 5 cm
+
+// Limits of a common table-top device; the stiffness is what such devices render at 1 kHz.
+constexpr double kMaxForce_n = 20;
+constexpr double kMaxTorque_nm = 1;
+constexpr double kMaxStiffness_n_m = 3000;
+constexpr double kReach_m = 0.5;
+
+}  // namespace
+
+VirtualHand::VirtualHand(const runtime::HandSpec& hand, const runtime::ToolSpec& tool, double rate_hz)
+    : hand_(hand),
+      tool_(tool),
+      period_s_(1 / rate_hz),
+      substeps_(static_cast<int>(std::ceil(period_s_ / kLongestSubstep_s - 1e-9))),
+      script_(script_at(hand, 0)),
+      target_(target_of(hand, script_)),
+      tip_(target_),
+      orientation_(orientation()),
+      return_s_(kReturn_s) {}
+
+msg::DeviceInfo VirtualHand::info() const {
+  const Vec3 middle(hand_.press_point.data());
+  msg::DeviceInfo info;
+  info.tool = hand_.tool;
+  info.name = "virtual hand";
+  info.max_force_n = kMaxForce_n;
+  info.max_torque_nm = kMaxTorque_nm;
+  info.max_stiffness_n_m = kMaxStiffness_n_m;
+  info.damping_n_s_m = hand_.damping_n_s_m;
+  info.workspace_min = to_message(middle - Vec3::Constant(kReach_m));
+  info.workspace_max = to_message(middle + Vec3::Constant(kReach_m));
+  info.actuated_axes = msg::AXIS_X | msg::AXIS_Y | msg::AXIS_Z;
+  info.sensed_axes = info.actuated_axes | msg::AXIS_PITCH | msg::AXIS_YAW | msg::AXIS_ROLL | msg::AXIS_GRIP;
+  return info;
+}
+
+Measurement VirtualHand::measure() noexcept {
+  const double dt_s = period_s_ / substeps_;
+  for (int i = 0; i < substeps_; ++i) {
+    target_ = advance_target(dt_s);
+    tip_ = step_hand(hand_, tip_, target_, wrench_.force, dt_s);
+  }
+  const Quat before = orientation_;
+  orientation_ = orientation();
+  record();
+  return {.valid = true,
+          .position = tip_.position,
+          .orientation = orientation_,
+          .linear_velocity = tip_.velocity,
+          .angular_velocity = angular_velocity(before, orientation_, period_s_)};
+}
+
+Motion VirtualHand::advance_target(double dt_s) noexcept {
+  pace_ = std::clamp(pace_ + (paused_ ? -dt_s : dt_s) / kPaceChange_s, 0.0, 1.0);
+  // the way back to the start comes first, then the script
+  return_s_ += dt_s * pace_;
+  if (return_s_ > kReturn_s) script_s_ += dt_s * pace_;
+  script_ = script_at(hand_, script_s_);
+  Motion target = target_of(hand_, script_);
+  const double share = return_s_ / kReturn_s;
+  target.position += return_from_ * (1 - minimum_jerk(share));
+  target.velocity -= return_from_ * minimum_jerk_rate(share) / kReturn_s;
+  target.velocity *= pace_;
+  return target;
+}
+
+void VirtualHand::restart() noexcept {
+  return_from_ = target_.position - target_of(hand_, script_at(hand_, 0)).position;
+  return_s_ = 0;
+  script_s_ = 0;
+}
+
+Quat VirtualHand::orientation() const noexcept {
+  const Vec3 normal(hand_.press_normal.data());
+  if (!tool_.trocar) return shaft_orientation(normal);
+  const Vec3 shaft = Vec3(tool_.trocar->data()) - tip_.position;
+  return shaft_orientation(shaft.squaredNorm() > 0 ? shaft : normal);
+}
+
+void VirtualHand::record() noexcept {
+  const Vec3 press_point(hand_.press_point.data()), normal(hand_.press_normal.data());
+  const double force_n = wrench_.force.norm();
+  peak_force_n_ = std::max(peak_force_n_, force_n);
+  deepest_target_m_ = std::max(deepest_target_m_, (press_point - target_.position).dot(normal));
+  deepest_tip_m_ = std::max(deepest_tip_m_, (press_point - tip_.position).dot(normal));
+  if (script_.height_m < 0) press_force_n_.add(force_n);
+  if (script_.phase == Phase::kHold && script_.phase_share >= 0.5) hold_force_n_.add(force_n);
+}
+
+nlohmann::json VirtualHand::report() const {
+  return {{"tool", hand_.tool},
+          {"peak_force_n", peak_force_n_},
+          {"mean_force_n", press_force_n_.value()},
+          {"hold_force_n", hold_force_n_.value()},
+          {"deepest_target_m", deepest_target_m_},
+          {"deepest_tip_m", deepest_tip_m_}};
+}
+
+}  // namespace omentum::device

@@ -1,0 +1,59 @@
+// A simulated hand on a simulated device: moves by its script and yields to the force that it feels.
+#pragma once
+
+#include "device_bridge/device.h"
+#include "device_bridge/hand_script.h"
+#include "runtime/scene.h"
+
+namespace omentum::device {
+
+/// The hand's motion is integrated, not played: the loop hand - node - hand is closed physically, so that an
+/// unstable force would be seen as an oscillation. Time advances by one period per measure().
+class VirtualHand : public Device {
+ public:
+  VirtualHand(const runtime::HandSpec& hand, const runtime::ToolSpec& tool, double rate_hz);
+
+  msg::DeviceInfo info() const override;
+  void command(const Wrench& wrench) noexcept override { wrench_ = wrench; }
+  Measurement measure() noexcept override;
+
+  /// The target comes to rest, or goes on, within a tenth of a second.
+  void pause(bool paused) noexcept override { paused_ = paused; }
+  /// The target glides back to the start of its script.
+  void restart() noexcept override;
+
+  /// {"tool", "peak_force_n", "mean_force_n", "hold_force_n", "deepest_target_m", "deepest_tip_m"}: the mean
+  /// while the target is below the rest surface; "hold_force_n" the mean over the second halves of the holds,
+  /// the steady force; depths below the rest surface along the press normal.
+  nlohmann::json report() const override;
+
+ private:
+  struct Mean {
+    double sum = 0;
+    std::uint64_t count = 0;
+    void add(double value) { sum += value, ++count; }
+    double value() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
+  };
+
+  Motion advance_target(double dt_s) noexcept;
+  Quat orientation() const noexcept;
+  void record() noexcept;
+
+  runtime::HandSpec hand_;
+  runtime::ToolSpec tool_;
+  double period_s_;
+  int substeps_;
+  ScriptPoint script_;
+  Motion target_, tip_;
+  Quat orientation_;
+  Wrench wrench_;
+  bool paused_ = false;
+  double pace_ = 1;                  // of the script: 0 at rest, 1 at its own speed
+  double script_s_ = 0;              // script time
+  double return_s_ = 0;              // since restart()
+  Vec3 return_from_ = Vec3::Zero();  // the target at restart() relative to the script's start
+  double peak_force_n_ = 0, deepest_target_m_ = 0, deepest_tip_m_ = 0;
+  Mean press_force_n_, hold_force_n_;
+};
+
+}  // namespace omentum::device
