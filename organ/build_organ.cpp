@@ -99,7 +99,7 @@ BuildResult build_organ(const Organ& organ, const std::filesystem::path& file, c
   }
   const auto report = [&](const std::string& stage, double fraction) {
     if (options.on_progress) options.on_progress(stage, fraction);
-    if (options.stop.stop_requested())
+    if (options.stopped && options.stopped())
       throw Interrupted("interrupted; " + file.string() + " was not written");
   };
 
@@ -114,7 +114,7 @@ BuildResult build_organ(const Organ& organ, const std::filesystem::path& file, c
   const auto on_columns = [&](double fraction) {
     if (options.on_progress) options.on_progress("columns", fraction);
   };
-  const bool whole = fill(writer, organ, factor, free, {options.threads, on_columns, options.stop});
+  const bool whole = fill(writer, organ, factor, free, {options.threads, on_columns, options.stopped});
   result.columns_s = seconds_since(columns_start);
 
   report("writing", 0);

@@ -4,7 +4,7 @@
 #include "organ/organ.h"
 
 #include <functional>
-#include <stop_token>
+#include <stdexcept>
 
 namespace omentum::organ {
 
@@ -12,7 +12,7 @@ struct BuildOptions {
   bool force = false;  // build even when the file is up to date
   int threads = 1;     // workers over the columns
   std::function<void(const std::string& stage, double fraction)> on_progress;  // may be empty
-  std::stop_token stop;
+  std::function<bool()> stopped;  // asked every few milliseconds, by several threads; may be empty
 };
 
 struct BuildResult {
@@ -23,7 +23,7 @@ struct BuildResult {
   double total_s = 0;        // with writing to the disk
 };
 
-/// The build was stopped by its stop token; no file was made or changed.
+/// The build was stopped; no file was made or changed.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -154,16 +154,74 @@ class BlockWriter {
   std::vector<Positions> columns_;  // [nodes of the block] columns of their components
 };
 
-// Hands out 0, 1, .. count - 1 to the workers, which call work(worker, item); stops early on request.
+// Hands out 0, 1, .. count - 1 to the workers, which call work(worker, item). Returns false when it was
+// stopped.
 template <class Work>
-void share_out(int threads, std::int32_t count, std::stop_token stop, Work work) {
+bool share_out(int threads, std::int32_t count, const std::function<bool()>& stopped, Work work) {
   std::atomic<std::int32_t> next{0};
-  std::vector<std::jthread> workers;
-  for (int w = 0; w < threads; ++w) {
-    workers.emplace_back([&, w] {
-      for (std::int32_t item; !stop.stop_requested() && (item = next++) < count;) work(w, item);
-    });
+  std::atomic<bool> whole{true};
+  {
+    std::vector<std::jthread> workers;
+    for (int w = 0; w < threads; ++w) {
+      workers.emplace_back([&, w] {
+        for (std::int32_t item; (item = next++) < count;) {
+          if (stopped && stopped()) {
+            whole = false;
+            return;
+          }
+          work(w, item);
+        }
+      });
+    }
   }
+  return whole;
+}
+
+// Counts finished blocks for whoever wants to know how far it is.
+class Progress {
+ public:
+  Progress(std::int32_t count, const std::function<void(double)>& report) : count_(count), report_(report) {}
+
+  void one_more() {
+    if (!report_) return;
+    const std::lock_guard lock(reporting_);
+    report_(static_cast<double>(++done_) / count_);
+  }
+
+ private:
+  const std::int32_t count_;
+  const std::function<void(double)>& report_;
+  std::mutex reporting_;
+  std::int32_t done_ = 0;
+};
+
+// Every pair of nodes once: C_nk for rank[n] >= rank[k], a block of columns at a time.
+template <class Scalar>
+bool solve_columns(const Supernodes& factor, const Plan& plan, const ComplianceTiles<Scalar>& tiles,
+                   const TensorOptions& options) {
+  const int threads = std::max(1, options.threads);
+  const int block_nodes = choose_block_nodes(tiles.size() * sizeof(Scalar), factor.size, threads);
+  const std::int32_t blocks = (tiles.mobile_count + block_nodes - 1) / block_nodes;
+  std::vector<BlockWriter<Scalar>> writers;
+  writers.reserve(threads);
+  for (int w = 0; w < threads; ++w) writers.emplace_back(factor, plan, tiles, block_nodes);
+  Progress progress(blocks, options.on_progress);
+  return share_out(threads, blocks, options.stopped, [&](int w, std::int32_t block) {
+    writers[w].run(block * block_nodes);
+    progress.one_more();
+  });
+}
+
+template <class Scalar>
+bool bound_columns(const geometry::Surface& surface, const ComplianceTiles<Scalar>& tiles,
+                   std::span<float> bounds, const TensorOptions& options) {
+  const int threads = std::max(1, options.threads);
+  const std::int32_t clusters = tiles.cluster_count();
+  const ClusterReach reach = cluster_reach(surface);
+  std::vector<std::vector<float>> scratch(threads, std::vector<float>(clusters * kClusterSize));
+  return share_out(threads, tiles.mobile_count, options.stopped, [&](int w, std::int32_t k) {
+    bound_column(tiles, reach, k, bounds.data() + static_cast<std::size_t>(k) * clusters, scratch[w]);
+  });
 }
 
 }  // namespace
@@ -175,34 +233,14 @@ bool compute_force_tensors(const StiffnessFactor& factor, const FreeDofs& free,
   const BlasThreads one_per_worker(1);
   const Supernodes supernodes = factor.supernodes();
   const Plan plan = plan_columns(supernodes, free, surface);
-  const int threads = std::max(1, options.threads);
-  const int block_nodes = choose_block_nodes(tiles.size() * sizeof(Scalar), supernodes.size, threads);
-  const std::int32_t blocks = (surface.mobile_count + block_nodes - 1) / block_nodes;
-
-  {
-    std::vector<BlockWriter<Scalar>> writers;
-    writers.reserve(threads);
-    for (int w = 0; w < threads; ++w) writers.emplace_back(supernodes, plan, tiles, block_nodes);
-    std::mutex reporting;
-    std::int32_t done = 0;
-    share_out(threads, blocks, options.stop, [&](int w, std::int32_t block) {
-      writers[w].run(block * block_nodes);
-      const std::lock_guard lock(reporting);
-      ++done;
-      if (options.on_progress) options.on_progress(static_cast<double>(done) / blocks);
-    });
-  }
+  if (!solve_columns(supernodes, plan, tiles, options)) return false;
   // The last clusters have the most pairs: they go first.
   const std::int32_t clusters = tiles.cluster_count();
-  share_out(threads, clusters, options.stop,
-            [&](int, std::int32_t item) { mirror_cluster<Scalar>(tiles, plan.rank, clusters - 1 - item); });
-
-  const ClusterReach reach = cluster_reach(surface);
-  std::vector<std::vector<float>> scratch(threads, std::vector<float>(clusters * kClusterSize));
-  share_out(threads, surface.mobile_count, options.stop, [&](int w, std::int32_t k) {
-    bound_column(tiles, reach, k, bounds.data() + static_cast<std::size_t>(k) * clusters, scratch[w]);
-  });
-  return !options.stop.stop_requested();
+  const auto mirror = [&](int, std::int32_t item) {
+    mirror_cluster<Scalar>(tiles, plan.rank, clusters - 1 - item);
+  };
+  if (!share_out(std::max(1, options.threads), clusters, options.stopped, mirror)) return false;
+  return bound_columns(surface, tiles, bounds, options);
 }
 
 template bool compute_force_tensors(const StiffnessFactor&, const FreeDofs&, const geometry::Surface&,

@@ -6,15 +6,14 @@
 #include "physics/stiffness_factor.h"
 
 #include <functional>
-#include <stop_token>
 
 namespace omentum::physics {
 
 struct TensorOptions {
   int threads = 1;  // workers over blocks of columns; they share the factor
   std::function<void(double fraction)>
-      on_progress;       // called by one worker at a time, from 0 to 1; may be empty
-  std::stop_token stop;  // looked at between blocks
+      on_progress;                // called by one worker at a time, from 0 to 1; may be empty
+  std::function<bool()> stopped;  // asked by all workers between blocks; may be empty
 };
 
 /// Fills `tiles` with C_nk for all mobile surface nodes, and `bounds` ([mobile][clusters], as
