@@ -18,19 +18,12 @@ int bin_of(std::uint64_t ns) {
   return (shift + 1) * kBins + static_cast<int>((ns >> shift) - kBins);
 }
 
-double bin_middle_ns(int bin) {
-  if (bin < kBins) return bin;
-  const int shift = bin / kBins - 1;
-  const double lower = std::ldexp(kBins + bin % kBins, shift);
-  return lower + 0.5 * (std::ldexp(1.0, shift) - 1);
-}
-
 }  // namespace
 
 void Histogram::add_ns(std::int64_t duration_ns) noexcept {
   const std::int64_t ns = std::max<std::int64_t>(duration_ns, 0);
-  const int bin = std::min(bin_of(static_cast<std::uint64_t>(ns)), static_cast<int>(bins_.size()) - 1);
-  ++bins_[bin];
+  Bin& bin = bins_[std::min(bin_of(static_cast<std::uint64_t>(ns)), static_cast<int>(bins_.size()) - 1)];
+  bin.mean_ns += (static_cast<float>(ns) - bin.mean_ns) / static_cast<float>(++bin.count);
   ++count_;
   max_ns_ = std::max(max_ns_, ns);
 }
@@ -40,9 +33,9 @@ double Histogram::percentile_us(double fraction) const {
   const auto rank = std::clamp<std::uint64_t>(
       static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(count_))), 1, count_);
   std::uint64_t below = 0;
-  for (int bin = 0; bin < static_cast<int>(bins_.size()); ++bin) {
-    below += bins_[bin];
-    if (below >= rank) return 1e-3 * std::min(bin_middle_ns(bin), static_cast<double>(max_ns_));
+  for (const Bin& bin : bins_) {
+    below += bin.count;
+    if (below >= rank) return 1e-3 * std::min<double>(bin.mean_ns, static_cast<double>(max_ns_));
   }
   return 1e-3 * static_cast<double>(max_ns_);
 }

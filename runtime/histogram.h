@@ -12,8 +12,9 @@ struct Percentiles {
   std::uint64_t count = 0;
 };
 
-/// Log-linear bins from 1 ns to an hour with at most 1.6 % relative width (64 bins an octave).
-/// add() is O(1), allocates nothing and never fails; max is exact. One thread at a time.
+/// Log-linear bins from 1 ns to an hour with at most 1.6 % relative width (64 bins an octave). A percentile
+/// is the mean of the values in its bin, so that a steady period reads as what it is; max is exact. add() is
+/// O(1), allocates nothing and never fails. One thread at a time.
 class Histogram {
  public:
   void add_ns(std::int64_t duration_ns) noexcept;  // negative counts as 0
@@ -25,7 +26,11 @@ class Histogram {
  private:
   static constexpr int kBinsPerOctave = 64;
   static constexpr int kOctaves = 42;
-  std::array<std::uint32_t, kBinsPerOctave * kOctaves> bins_{};
+  struct Bin {
+    std::uint32_t count = 0;
+    float mean_ns = 0;
+  };
+  std::array<Bin, kBinsPerOctave * kOctaves> bins_{};
   std::uint64_t count_ = 0;
   std::int64_t max_ns_ = 0;
 };
