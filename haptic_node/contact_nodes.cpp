@@ -1,0 +1,84 @@
+#include "haptic_node/contact_nodes.h"
+
+#include "haptic_node/cluster_kernels.h"
+
+#include <cassert>
+#include <memory>
+
+namespace omentum::haptic {
+
+static_assert(kernels::kBlockStride == 16);
+
+ContactNodes::ContactNodes(const physics::SurfaceCompliance& compliance)
+    : compliance_(compliance),
+      slot_of_node_(static_cast<std::size_t>(compliance.mobile_count()), -1),
+      memory_(kSlots * kSlots * kStride + kStride, 0.0f) {
+  constexpr std::size_t kLine = 64;
+  void* begin = memory_.data();
+  std::size_t size = memory_.size() * sizeof(float);
+  blocks_ = static_cast<float*>(std::align(kLine, size - kLine, begin, size));
+}
+
+int ContactNodes::slot_of(SurfaceId node) noexcept {
+  int slot = slot_of_node_[node];
+  if (slot < 0) {
+    slot = free_slot();
+    if (slots_[slot].node.valid()) slot_of_node_[slots_[slot].node] = -1;
+    slots_[slot].node = node;
+    slot_of_node_[node] = static_cast<std::int16_t>(slot);
+    gather(slot);
+  }
+  slots_[slot].used = tick_;
+  return slot;
+}
+
+int ContactNodes::free_slot() noexcept {
+  int oldest = 0;
+  for (int s = 0; s < kSlots; ++s) {
+    if (!slots_[s].node.valid()) return s;
+    if (slots_[s].used < slots_[oldest].used) oldest = s;
+  }
+  assert(slots_[oldest].used < tick_ && "more nodes in contact than slots");
+  return oldest;
+}
+
+void ContactNodes::gather(int slot) noexcept {
+  const SurfaceId k = slots_[slot].node;
+  for (int s = 0; s < kSlots; ++s) {
+    if (!slots_[s].node.valid()) continue;
+    // C is symmetric as a whole: the new column serves both blocks
+    const Eigen::Matrix3f C_nk = compliance_.block(slots_[s].node, k).cast<float>();
+    Eigen::Map<Eigen::Matrix3f>(blocks_ + (s * kSlots + slot) * kStride) = C_nk;
+    Eigen::Map<Eigen::Matrix3f>(blocks_ + (slot * kSlots + s) * kStride) = C_nk.transpose();
+  }
+}
+
+Share share_of(const geometry::Surface& surface, const SurfacePoint& point, ContactNodes& nodes) noexcept {
+  Share share;
+  const geometry::Triangle& t = surface.triangles[point.triangle];
+  for (int v = 0; v < 3; ++v) {
+    if (t[v] >= surface.mobile_count || point.barycentric[v] <= 0) continue;
+    share.slot[share.count] = nodes.slot_of(t[v]);
+    share.weight[share.count] = point.barycentric[v];
+    ++share.count;
+  }
+  return share;
+}
+
+Eigen::Matrix3d contact_compliance(const ContactNodes& nodes, const Share& i, const Share& j) noexcept {
+  std::array<const float*, 9> blocks;
+  std::array<double, 9> weights;
+  int count = 0;
+  for (int a = 0; a < i.count; ++a) {
+    for (int b = 0; b < j.count; ++b) {
+      blocks[count] = nodes.block(i.slot[a], j.slot[b]);
+      weights[count] = i.weight[a] * j.weight[b];
+      ++count;
+    }
+  }
+  std::array<double, kernels::kBlockStride> sum;
+  kernels::combine_blocks(blocks.data(), weights.data(), count, sum.data());
+  return Eigen::Map<const Eigen::Matrix3d>(sum.data());
+}
+
+}  // namespace omentum::haptic

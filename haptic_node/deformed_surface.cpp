@@ -1,0 +1,340 @@
+#include "haptic_node/deformed_surface.h"
+
+#include "geometry/closest_points.h"
+#include "haptic_node/cluster_kernels.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace omentum::haptic {
+namespace {
+
+using geometry::kClusterSize;
+
+// Above the rounding of float coordinates within 8 m of W's origin and of superposed displacements, m.
+constexpr float kRounding_m = 1e-6f;
+// Tilt of a contact normal against its direction at rest. Linear elasticity under a point load dips into a
+// funnel whose walls are no surface to lean on.
+constexpr double kCosMaxTilt = std::numbers::sqrt2 / 2;  // 45 degrees
+constexpr double kSinMaxTilt = std::numbers::sqrt2 / 2;
+// Triangles that a sliding contact may cross in one tick; a fast instrument crosses three.
+constexpr int kMaxSlideSteps = 64;
+// Barycentric coordinates below this lie on the opposite edge.
+constexpr double kOnEdge = 1e-12;
+
+Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b - a).cross(c - a);
+}
+
+Vec3 limit_tilt(const Vec3& direction, const Vec3& rest) {
+  const double length = direction.norm();
+  if (!(length > 0)) return rest;
+  const Vec3 n = direction / length;
+  const double along = n.dot(rest);
+  if (along >= kCosMaxTilt) return n;
+  const Vec3 across = n - along * rest;
+  const double side = across.norm();
+  return side > 0 ? Vec3(kCosMaxTilt * rest + kSinMaxTilt / side * across) : rest;
+}
+
+double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
+  const Vec3 u = a - corner, v = b - corner;
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+}  // namespace
+
+DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
+                                 const physics::SurfaceCompliance& compliance)
+    : surface_(surface),
+      rest_(rest),
+      compliance_(compliance),
+      clusters_(compliance.cluster_count()),
+      positions_(rest.begin(), rest.end()),
+      index_of_(rest.size(), -1),
+      grid_(surface, rest, geometry::BucketGrid::suitable_slack(surface, rest)),
+      binning_margin_(grid_.slack() / 2) {
+  nodes_.reserve(kMaxForces);
+  forces_.reserve(kMaxForces);
+  index_clusters();
+  restore_rest();
+}
+
+void DeformedSurface::index_clusters() {
+  std::vector<std::vector<std::int32_t>> outer(clusters_), owned(clusters_);
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+    const geometry::Triangle& triangle = surface_.triangles[t];
+    std::array<std::int32_t, 3> home;
+    for (int v = 0; v < 3; ++v) home[v] = triangle[v] / kClusterSize;
+    const std::int32_t owner = *std::min_element(home.begin(), home.end());
+    if (owner < clusters_) owned[owner].push_back(static_cast<std::int32_t>(t));
+    for (int v = 0; v < 3; ++v) {
+      for (int w = 0; w < 3; ++w) {
+        if (home[v] < clusters_ && home[w] != home[v]) outer[home[v]].push_back(triangle[w]);
+      }
+    }
+  }
+  for (std::int32_t c = 0; c < clusters_; ++c) {
+    std::sort(outer[c].begin(), outer[c].end());
+    outer[c].erase(std::unique(outer[c].begin(), outer[c].end()), outer[c].end());
+    outer_start_.push_back(static_cast<std::int32_t>(outer_.size()));
+    owned_start_.push_back(static_cast<std::int32_t>(owned_.size()));
+    outer_.insert(outer_.end(), outer[c].begin(), outer[c].end());
+    owned_.insert(owned_.end(), owned[c].begin(), owned[c].end());
+  }
+  outer_start_.push_back(static_cast<std::int32_t>(outer_.size()));
+  owned_start_.push_back(static_cast<std::int32_t>(owned_.size()));
+}
+
+void DeformedSurface::restore_rest() {
+  const auto clusters = static_cast<std::size_t>(clusters_);
+  for (int i = 0; i < 3; ++i) {
+    low_[i].resize(clusters);
+    high_[i].resize(clusters);
+  }
+  moved_.assign(clusters, 0);
+  moved_since_binning_.assign(clusters, 0);
+  step_.assign(clusters, 0);
+  marks_.assign(clusters, 0);
+  pending_.reserve(clusters);
+  cluster_version_.assign(clusters, version_);
+  normal_version_.assign(rest_.size(), 0);
+  normals_.resize(rest_.size());
+  for (std::int32_t c = 0; c < clusters_; ++c) box_and_bin(c);
+  for (std::int32_t n = 0; n < surface_.node_count(); ++n) vertex_normal(SurfaceId(n));
+  rest_normals_ = normals_;
+}
+
+bool DeformedSurface::fresh(std::int32_t cluster) const noexcept {
+  return cluster >= clusters_ || cluster_version_[cluster] == version_;
+}
+
+bool DeformedSurface::fresh(TriangleId triangle) const noexcept {
+  const geometry::Triangle& t = surface_.triangles[triangle];
+  return fresh(t[0] / kClusterSize) && fresh(t[1] / kClusterSize) && fresh(t[2] / kClusterSize);
+}
+
+void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
+  assert(nodes.size() == forces.size() && nodes.size() <= kMaxForces);
+  std::array<const float*, 2 * kMaxForces> rows;
+  std::array<float, 2 * kMaxForces> changes;
+  int count = 0;
+  const auto add_change = [&](SurfaceId node, const Vec3& change) {
+    if (change.isZero(0)) return;
+    rows[count] = compliance_.bounds(node).data();
+    // float rounding of the sums must not lose any of it
+    changes[count++] = static_cast<float>(change.norm() * 1.00001);
+  };
+  for (std::size_t q = 0; q < nodes.size(); ++q) {
+    const std::int16_t old = index_of_[nodes[q]];
+    add_change(nodes[q], old < 0 ? forces[q] : Vec3(forces[q] - forces_[old]));
+    index_of_[nodes[q]] = -1;
+  }
+  for (std::size_t q = 0; q < nodes_.size(); ++q) {
+    if (index_of_[nodes_[q]] >= 0) add_change(nodes_[q], forces_[q]);
+    index_of_[nodes_[q]] = -1;
+  }
+  nodes_.assign(nodes.begin(), nodes.end());
+  forces_.assign(forces.begin(), forces.end());
+  for (std::size_t q = 0; q < nodes_.size(); ++q) index_of_[nodes_[q]] = static_cast<std::int16_t>(q);
+  evaluated_clusters_ = 0;
+  last_motion_ = 0;
+  kernels::weighted_sum(rows.data(), changes.data(), count, clusters_, step_.data());
+  if (count == 0) return;
+  last_motion_ = *std::max_element(step_.begin(), step_.end());
+  kernels::add_to_both(step_.data(), clusters_, moved_.data(), moved_since_binning_.data());
+  ++version_;
+}
+
+void DeformedSurface::evaluate(const Region& region) noexcept {
+  const Eigen::Vector3f low = region.low.cast<float>().array() - kRounding_m;
+  const Eigen::Vector3f high = region.high.cast<float>().array() + kRounding_m;
+  const kernels::Boxes boxes{{low_[0].data(), low_[1].data(), low_[2].data()},
+                             {high_[0].data(), high_[1].data(), high_[2].data()}};
+  kernels::mark_meeting(boxes, moved_.data(), low.data(), high.data(), clusters_, marks_.data());
+  pending_.clear();
+  for (std::int32_t c = 0; c < clusters_; ++c) {
+    if (marks_[c] && !fresh(c)) pending_.push_back(c);
+  }
+  // all positions first: boxes and buckets then see their neighbours' exact ones
+  for (const std::int32_t c : pending_) superpose(c);
+  for (const std::int32_t c : pending_) box_and_bin(c);
+}
+
+void DeformedSurface::ensure(std::int32_t cluster) noexcept {
+  if (fresh(cluster)) return;
+  superpose(cluster);
+  box_and_bin(cluster);
+}
+
+void DeformedSurface::superpose(std::int32_t cluster) noexcept {
+  float u[3 * kClusterSize];
+  physics::superpose_cluster(compliance_, cluster, nodes_, forces_, u);
+  const std::int32_t first = cluster * kClusterSize;
+  const std::int32_t count = std::min(kClusterSize, surface_.mobile_count - first);
+  for (std::int32_t l = 0; l < count; ++l) {
+    positions_[first + l] = rest_[first + l] + Vec3(u[l], u[kClusterSize + l], u[2 * kClusterSize + l]);
+  }
+  cluster_version_[cluster] = version_;
+  ++evaluated_clusters_;
+}
+
+void DeformedSurface::box_and_bin(std::int32_t cluster) noexcept {
+  const std::int32_t first = cluster * kClusterSize;
+  const std::int32_t last = std::min(first + kClusterSize, surface_.node_count());
+  Eigen::Array3d low = positions_[first].array(), high = low;
+  for (std::int32_t n = first + 1; n < last; ++n) {
+    low = low.min(positions_[n].array());
+    high = high.max(positions_[n].array());
+  }
+  // neighbours that were not superposed with these forces may be anywhere within what they moved since
+  float stale = 0;
+  for (std::int32_t o = outer_start_[cluster]; o < outer_start_[cluster + 1]; ++o) {
+    const std::int32_t n = outer_[o], home = n / kClusterSize;
+    const float moved = fresh(home) ? 0.0f : moved_[home];
+    stale = std::max(stale, moved);
+    low = low.min(positions_[n].array() - moved);
+    high = high.max(positions_[n].array() + moved);
+  }
+  for (int i = 0; i < 3; ++i) {
+    low_[i][cluster] = static_cast<float>(low[i]) - kRounding_m;
+    high_[i][cluster] = static_cast<float>(high[i]) + kRounding_m;
+  }
+  moved_[cluster] = 0;
+  // queries reach further by the margin, so that buckets need a look only when that is used up
+  if (moved_since_binning_[cluster] <= binning_margin_) return;
+  for (std::int32_t o = owned_start_[cluster]; o < owned_start_[cluster + 1]; ++o) {
+    grid_.update(TriangleId(owned_[o]), positions_);
+  }
+  moved_since_binning_[cluster] = stale;
+}
+
+const Vec3& DeformedSurface::position(SurfaceId node) noexcept {
+  ensure(node / kClusterSize);
+  return positions_[node];
+}
+
+Vec3 DeformedSurface::position(const SurfacePoint& point) noexcept {
+  const geometry::Triangle& t = surface_.triangles[point.triangle];
+  const Vec3& k = point.barycentric;
+  return k[0] * position(t[0]) + k[1] * position(t[1]) + k[2] * position(t[2]);
+}
+
+Vec3 DeformedSurface::rest_position(const SurfacePoint& point) const noexcept {
+  const geometry::Triangle& t = surface_.triangles[point.triangle];
+  const Vec3& k = point.barycentric;
+  return k[0] * rest_[t[0]] + k[1] * rest_[t[1]] + k[2] * rest_[t[2]];
+}
+
+DeformedSurface::Corners DeformedSurface::stored_corners(TriangleId triangle) const noexcept {
+  const geometry::Triangle& t = surface_.triangles[triangle];
+  return {&positions_[t[0]], &positions_[t[1]], &positions_[t[2]]};
+}
+
+const Vec3& DeformedSurface::vertex_normal(SurfaceId node) noexcept {
+  if (normal_version_[node] == version_) return normals_[node];
+  Vec3 sum = Vec3::Zero();
+  for (const TriangleId around : surface_.triangles_of(node)) {
+    const geometry::Triangle& t = surface_.triangles[around];
+    sum += area_normal(position(t[0]), position(t[1]), position(t[2]));
+  }
+  const double length = sum.norm();
+  normals_[node] = length > 0 ? Vec3(sum / length) : rest_normals_[node];
+  normal_version_[node] = version_;
+  return normals_[node];
+}
+
+Vec3 DeformedSurface::normal(const SurfacePoint& point) noexcept {
+  const geometry::Triangle& t = surface_.triangles[point.triangle];
+  Vec3 deformed = Vec3::Zero(), rest = Vec3::Zero();
+  for (int v = 0; v < 3; ++v) {
+    deformed += point.barycentric[v] * vertex_normal(t[v]);
+    rest += point.barycentric[v] * rest_normals_[t[v]];
+  }
+  return limit_tilt(deformed, rest.normalized());
+}
+
+std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) noexcept {
+  std::optional<Entry> first;
+  grid_.visit_segment(p, q, binning_margin_, [&](TriangleId triangle) {
+    if (!fresh(triangle)) return;  // evaluate() found that it cannot be here
+    const auto [a, b, c] = stored_corners(triangle);
+    if ((q - p).dot(area_normal(*a, *b, *c)) >= 0) return;
+    const auto hit = geometry::intersect_segment_triangle(p, q, *a, *b, *c);
+    if (hit && (!first || hit->parameter < first->parameter)) {
+      first = Entry{hit->parameter, {triangle, hit->barycentric}};
+    }
+  });
+  return first;
+}
+
+std::optional<SurfacePoint> DeformedSurface::nearest_if_inside(const Vec3& p, double reach_m) noexcept {
+  std::optional<SurfacePoint> nearest;
+  double best = reach_m * reach_m;
+  grid_.visit_segment(p, p, reach_m + binning_margin_, [&](TriangleId triangle) {
+    if (!fresh(triangle)) return;
+    const auto [a, b, c] = stored_corners(triangle);
+    const geometry::TrianglePoint point = geometry::closest_point_on_triangle(p, *a, *b, *c);
+    if (point.squared_distance > best) return;
+    best = point.squared_distance;
+    nearest = SurfacePoint{triangle, point.barycentric};
+  });
+  if (nearest && outside_of_feature(*nearest, p)) nearest.reset();
+  return nearest;
+}
+
+// The sign of a distance follows from the normal of the face, from the sum of both faces' normals on an edge,
+// from their angle-weighted sum at a vertex (Baerentzen and Aanaes 2005).
+bool DeformedSurface::outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept {
+  const geometry::Triangle& t = surface_.triangles[nearest.triangle];
+  std::array<SurfaceId, 3> feature;
+  int size = 0;
+  for (int v = 0; v < 3; ++v) {
+    if (nearest.barycentric[v] > kOnEdge) feature[size++] = t[v];
+  }
+  Vec3 normal = Vec3::Zero();
+  for (const TriangleId around : surface_.triangles_of(feature[0])) {
+    const geometry::Triangle& face = surface_.triangles[around];
+    const auto holds = [&](SurfaceId n) { return std::find(face.begin(), face.end(), n) != face.end(); };
+    if ((size > 1 && !holds(feature[1])) || (size > 2 && !holds(feature[2]))) continue;
+    const Vec3 face_normal =
+        area_normal(position(face[0]), position(face[1]), position(face[2])).normalized();
+    double weight = 1;
+    if (size == 1) {
+      const auto corner = std::find(face.begin(), face.end(), feature[0]) - face.begin();
+      weight = angle_at(position(face[corner]), position(face[(corner + 1) % 3]),
+                        position(face[(corner + 2) % 3]));
+    }
+    normal += weight * face_normal;
+  }
+  return normal.dot(p - position(nearest)) >= 0;
+}
+
+SurfacePoint DeformedSurface::slide(SurfacePoint from, const Vec3& p) noexcept {
+  const auto closest_on = [&](TriangleId triangle) {
+    const geometry::Triangle& t = surface_.triangles[triangle];
+    return geometry::closest_point_on_triangle(p, position(t[0]), position(t[1]), position(t[2]));
+  };
+  geometry::TrianglePoint best = closest_on(from.triangle);
+  TriangleId here = from.triangle;
+  for (int step = 0; step < kMaxSlideSteps; ++step) {
+    const TriangleId origin = here;
+    // only where the closest point lies on an edge or a vertex can a neighbour be nearer
+    const geometry::Triangle& t = surface_.triangles[origin];
+    const Vec3 k = best.barycentric;
+    if (k.minCoeff() > kOnEdge) break;
+    for (int v = 0; v < 3; ++v) {
+      if (k[v] <= kOnEdge) continue;
+      for (const TriangleId next : surface_.triangles_of(t[v])) {
+        const geometry::TrianglePoint point = closest_on(next);
+        if (point.squared_distance < best.squared_distance) best = point, here = next;
+      }
+    }
+    if (here == origin) break;
+  }
+  return {here, best.barycentric};
+}
+
+}  // namespace omentum::haptic

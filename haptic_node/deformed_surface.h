@@ -1,0 +1,131 @@
+// The surface the hand touches: this tick's own superposition, exact wherever a tool can be.
+#pragma once
+
+#include "geometry/bucket_grid.h"
+#include "physics/surface_compliance.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace omentum::haptic {
+
+using geometry::SurfaceId;
+using geometry::TriangleId;
+using geometry::Vec3;
+
+/// A material point of the surface: a triangle and barycentric coordinates in it.
+struct SurfacePoint {
+  TriangleId triangle;
+  Vec3 barycentric = Vec3::Zero();
+};
+
+/// Where something enters the organ: the parameter along the segment and the material point.
+struct Entry {
+  double parameter;
+  SurfacePoint point;
+};
+
+struct Region {
+  Vec3 low, high;  // m, in W
+};
+
+/// The organ's surface under the forces of the last solve: x = X + C_:A f_A (Cotin 1999, eq. 9 in force
+/// form).
+///
+/// Clusters of 16 nodes are superposed only when they are looked at. For all others a box of their triangles
+/// is kept, together with a bound of how far they moved since it was exact: sum over ticks of sum_k bounds(k)
+/// |df_k|. So evaluate(region) finds rigorously every cluster that may have a triangle in the region, at the
+/// cost of one dot product per cluster, whatever the mesh's size. Triangles of evaluated clusters are kept in
+/// Cotin's bucket grid.
+///
+/// No allocation after construction. One thread at a time. Surface, positions and compliance must outlive it.
+class DeformedSurface {
+ public:
+  /// Nodes that may carry a force at a time.
+  static constexpr int kMaxForces = 96;
+
+  DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
+                  const physics::SurfaceCompliance& compliance);
+
+  /// The forces from now on: `nodes` mobile and distinct, at most kMaxForces, `forces` in N. Once per tick.
+  void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
+
+  /// Makes exact every cluster of which a triangle may meet the region.
+  void evaluate(const Region& region) noexcept;
+
+  /// Exact positions, m; the node's cluster is evaluated when it was not.
+  const Vec3& position(SurfaceId node) noexcept;
+  Vec3 position(const SurfacePoint& point) noexcept;
+  /// Rest position X of a material point, m.
+  Vec3 rest_position(const SurfacePoint& point) const noexcept;
+
+  /// Unit outward normal at a material point: vertex normals (of the triangles around, weighted by area),
+  /// interpolated, so that it is continuous across edges; at most 45 degrees away from the same at rest.
+  Vec3 normal(const SurfacePoint& point) noexcept;
+
+  /// The first place where the segment p -> q, inside an evaluated region, passes a triangle from outside to
+  /// inside. Looks through every bucket that it crosses.
+  std::optional<Entry> first_entry(const Vec3& p, const Vec3& q) noexcept;
+
+  /// The nearest material point when p, inside an evaluated region, lies inside the organ, at most `reach_m`
+  /// deep.
+  std::optional<SurfacePoint> nearest_if_inside(const Vec3& p, double reach_m) noexcept;
+
+  /// The closest material point to p that is reached from `from` by going from triangle to touching
+  /// triangle, always nearer: sliding without search.
+  SurfacePoint slide(SurfacePoint from, const Vec3& p) noexcept;
+
+  /// How far any triangle may have moved by the last set_forces at most, m.
+  double last_motion() const noexcept { return last_motion_; }
+  /// Nodes superposed since the last set_forces.
+  int evaluated_nodes() const noexcept { return evaluated_clusters_ * geometry::kClusterSize; }
+
+  const geometry::Surface& surface() const noexcept { return surface_; }
+
+ private:
+  using Corners = std::array<const Vec3*, 3>;
+
+  void index_clusters();
+  void restore_rest();
+  bool fresh(std::int32_t cluster) const noexcept;
+  bool fresh(TriangleId triangle) const noexcept;
+  void ensure(std::int32_t cluster) noexcept;
+  void superpose(std::int32_t cluster) noexcept;
+  void box_and_bin(std::int32_t cluster) noexcept;
+  Corners stored_corners(TriangleId triangle) const noexcept;
+  const Vec3& vertex_normal(SurfaceId node) noexcept;
+  bool outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept;
+
+  const geometry::Surface& surface_;
+  std::span<const Vec3> rest_;
+  const physics::SurfaceCompliance& compliance_;
+  std::int32_t clusters_;  // of mobile nodes
+
+  // constant: which nodes and triangles hang on a cluster
+  std::vector<std::int32_t> outer_start_, outer_;  // nodes of its triangles in other clusters
+  std::vector<std::int32_t> owned_start_, owned_;  // triangles binned with it
+  std::vector<Vec3> rest_normals_;                 // [S] unit
+
+  std::vector<Vec3> positions_;             // [S] exact when last superposed
+  std::vector<float> low_[3], high_[3];     // [clusters] box of all triangles that touch the cluster ...
+  std::vector<float> moved_;                // ... and how far these may have moved since
+  std::vector<float> moved_since_binning_;  // the same since their buckets were looked at
+  std::vector<float> step_;                 // how far they may have moved by the last set_forces
+  std::vector<std::uint8_t> marks_;
+  std::vector<std::int32_t> pending_;
+  std::vector<std::uint32_t> cluster_version_;  // of the forces it was superposed with
+  std::vector<std::uint32_t> normal_version_;   // [S]
+  std::vector<Vec3> normals_;                   // [S]
+  std::uint32_t version_ = 1;
+
+  std::vector<SurfaceId> nodes_;
+  std::vector<Vec3> forces_;
+  std::vector<std::int16_t> index_of_;  // [S] position in nodes_, -1
+  geometry::BucketGrid grid_;
+  double binning_margin_;
+  double last_motion_ = 0;
+  int evaluated_clusters_ = 0;
+};
+
+}  // namespace omentum::haptic

@@ -1,0 +1,28 @@
+#include "haptic_node/haptic_model.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace omentum::haptic {
+
+void require_solvable(const std::vector<ToolModel>& tools) {
+  std::size_t points = 0;
+  for (const ToolModel& tool : tools) points += tool.points.size();
+  if (points > 0 && points <= physics::kMaxContacts) return;
+  throw std::runtime_error("the tools have " + std::to_string(points) + " points together; expected 1 to " +
+                           std::to_string(physics::kMaxContacts));
+}
+
+HapticState::HapticState(const HapticModel& model) {
+  for (const ToolModel& tool : model.tools) {
+    ToolState state;
+    state.before.assign(tool.points.size(), Vec3::Zero());
+    state.now = state.before;
+    tools.push_back(std::move(state));
+  }
+}
+
+HapticWorkspace::HapticWorkspace(const HapticModel& model)
+    : surface(model.surface, model.rest, model.compliance), nodes(model.compliance) {}
+
+}  // namespace omentum::haptic

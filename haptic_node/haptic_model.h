@@ -1,0 +1,100 @@
+// What the haptic step works on: a constant model, a state that changes, and scratch.
+#pragma once
+
+#include "haptic_node/contact_nodes.h"
+#include "haptic_node/deformed_surface.h"
+#include "haptic_node/spread_contact.h"
+#include "haptic_node/tool_kinematics.h"
+#include "physics/contact_problem.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace omentum::haptic {
+
+/// An instrument as collision sees it.
+struct ToolModel {
+  std::vector<Vec3> points;    // [P] p_TP, m
+  bool grasps = false;         // has jaws
+  std::optional<Vec3> trocar;  // pivot in W, m
+};
+
+/// How a tool's point deforms the triangle that it touches.
+enum class ContactMode {
+  kPoint,  // the material point follows the tool's: forces shared by barycentric coordinates, continuous over
+           // edges
+  kSpread,  // the paper's alpha_v: three imposed nodes per contact (Cotin 1999, section 5)
+};
+
+/// Constant while the node runs; any thread may read.
+struct HapticModel {
+  geometry::Surface surface;
+  std::vector<Vec3> rest;  // [S] m
+  physics::SurfaceCompliance compliance;
+  std::vector<std::uint32_t> file_node;  // [S] number in the mesh file
+  std::vector<ToolModel> tools;          // their points together: at most physics::kMaxContacts
+  double friction = 0;                   // Coulomb coefficient
+  ContactMode mode = ContactMode::kPoint;
+};
+
+/// Throws std::runtime_error when the tools have more points than contacts can be solved for, or none.
+void require_solvable(const std::vector<ToolModel>& tools);
+
+/// One tool's point and the material point that it holds.
+struct ToolContact {
+  std::int32_t tool = 0, point = 0;
+  SurfacePoint held;
+  Vec3 normal = Vec3::UnitZ();  // outward at the material point
+  Vec3 force = Vec3::Zero();    // lambda, on the tissue, N
+  Vec3 offset = Vec3::Zero();   // gap that a grasp keeps, m
+  bool sliding = false;         // friction was used up: the material point moves on
+  bool grasped = false;
+
+  bool touches() const { return !force.isZero(0); }
+};
+
+/// A force on a surface node, by one tool.
+struct NodeForce {
+  SurfaceId node;
+  std::int32_t tool;
+  Vec3 force;  // on the tissue, N
+};
+
+struct ToolState {
+  bool engaged = false;
+  ToolFrame frame;
+  std::vector<Vec3> before, now;  // [P] points at the last tick and at this one, in W
+  bool opened = false;            // the jaws were open since the last grasp
+  bool grasping = false;
+  std::uint64_t grasp_count = 0;
+};
+
+/// Everything that one tick hands to the next.
+struct HapticState {
+  explicit HapticState(const HapticModel& model);
+
+  std::vector<ToolState> tools;
+  std::array<ToolContact, physics::kMaxContacts> contacts;
+  int contact_count = 0;
+  std::array<NodeForce, DeformedSurface::kMaxForces> node_forces;  // distinct (node, tool)
+  int node_force_count = 0;
+
+  std::span<ToolContact> active() { return {contacts.data(), static_cast<std::size_t>(contact_count)}; }
+  std::span<const NodeForce> forces() const {
+    return {node_forces.data(), static_cast<std::size_t>(node_force_count)};
+  }
+};
+
+/// Scratch, and what can be recomputed from model and state. The model must outlive it.
+struct HapticWorkspace {
+  explicit HapticWorkspace(const HapticModel& model);
+
+  DeformedSurface surface;
+  ContactNodes nodes;
+  std::array<Share, physics::kMaxContacts> shares;
+  physics::ContactProblem problem;
+  physics::ContactWorkspace solver;
+  SpreadWorkspace spread;
+};
+
+}  // namespace omentum::haptic

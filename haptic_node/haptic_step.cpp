@@ -1,0 +1,187 @@
+#include "haptic_node/haptic_step.h"
+
+#include <algorithm>
+
+namespace omentum::haptic {
+namespace {
+
+using Gaps = std::array<Vec3, physics::kMaxContacts>;
+
+void pose_problem(const HapticModel& model, HapticState& state, HapticWorkspace& work) {
+  const std::span<const ToolContact> contacts = state.active();
+  work.problem.count = static_cast<int>(contacts.size());
+  work.problem.friction = model.friction;
+  for (int i = 0; i < work.problem.count; ++i) {
+    const ToolContact& contact = contacts[i];
+    work.shares[i] = share_of(model.surface, contact.held, work.nodes);
+    work.problem.contacts[i] = {contact.normal, free_gap(state, contact, work.surface), contact.grasped};
+    for (int j = 0; j <= i; ++j) {
+      work.problem.W(i, j) = contact_compliance(work.nodes, work.shares[i], work.shares[j]);
+      work.problem.W(j, i) = work.problem.W(i, j).transpose();
+    }
+  }
+}
+
+Vec3 gap_of(const HapticWorkspace& work, std::span<const Vec3> forces, int i) {
+  Vec3 gap = work.problem.contacts[i].free_gap - physics::kContactCompliance_m_n * forces[i];
+  for (int j = 0; j < work.problem.count; ++j) gap -= work.problem.W(i, j) * forces[j];
+  return gap;
+}
+
+// Adds a force on a node; the same node's from the same tool are one entry.
+void add_node_force(HapticState& state, SurfaceId node, std::int32_t tool, const Vec3& force) {
+  for (int q = 0; q < state.node_force_count; ++q) {
+    NodeForce& entry = state.node_forces[q];
+    if (entry.node == node && entry.tool == tool) {
+      entry.force += force;
+      return;
+    }
+  }
+  state.node_forces[state.node_force_count++] = {node, tool, force};
+}
+
+// f_v = k_v lambda: the force at a material point is shared by its vertices.
+void share_force(const HapticModel& model, HapticState& state, const ToolContact& contact) {
+  const geometry::Triangle& t = model.surface.triangles[contact.held.triangle];
+  for (int v = 0; v < 3; ++v) {
+    const double k = contact.held.barycentric[v];
+    if (t[v] < model.surface.mobile_count && k > 0)
+      add_node_force(state, t[v], contact.tool, k * contact.force);
+  }
+}
+
+void solve_points(const HapticModel& model, HapticState& state, HapticWorkspace& work, StepResult& result,
+                  Gaps& gaps) {
+  std::array<Vec3, physics::kMaxContacts> forces;
+  const std::span<ToolContact> contacts = state.active();
+  for (std::size_t i = 0; i < contacts.size(); ++i) forces[i] = contacts[i].force;
+  const physics::ContactSolution solution = physics::solve_contacts(work.problem, forces, work.solver);
+  result.status = solution.status;
+  result.residual_m = solution.residual_m;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    ToolContact& contact = contacts[i];
+    contact.force = forces[i];
+    gaps[i] = gap_of(work, forces, static_cast<int>(i));
+    const Vec3 slip = gaps[i] - gaps[i].dot(contact.normal) * contact.normal;
+    contact.sliding = slip.norm() > physics::kGapTolerance_m;
+    if (contact.touches()) share_force(model, state, contact);
+  }
+}
+
+// d: all of the gap where the tissue sticks (friction, grasp), its normal part where it slides freely.
+SpreadContact spread_of(const HapticModel& model, HapticState& state, HapticWorkspace& work,
+                        const ToolContact& contact) {
+  SpreadContact spread;
+  const geometry::Triangle& t = model.surface.triangles[contact.held.triangle];
+  const Vec3 alpha = spread_weights(contact.held.barycentric);
+  for (int v = 0; v < 3; ++v) {
+    if (t[v] >= model.surface.mobile_count) continue;
+    spread.slot[spread.count] = work.nodes.slot_of(t[v]);
+    spread.alpha[spread.count++] = alpha[v];
+  }
+  const Vec3 gap = free_gap(state, contact, work.surface);
+  const bool sticks = contact.grasped || model.friction > 0;
+  spread.displacement = sticks ? gap : Vec3(gap.dot(contact.normal) * contact.normal);
+  spread.normal = contact.normal;
+  spread.may_pull = contact.grasped;
+  return spread;
+}
+
+void solve_spread_contacts(const HapticModel& model, HapticState& state, HapticWorkspace& work, Gaps& gaps) {
+  std::array<SpreadContact, physics::kMaxContacts> spreads;
+  std::array<SpreadForce, ContactNodes::kSlots> solved;
+  const std::span<ToolContact> contacts = state.active();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    spreads[i] = spread_of(model, state, work, contacts[i]);
+    contacts[i].force.setZero();
+    contacts[i].sliding = false;
+  }
+  const int count = solve_spread(work.nodes, {spreads.data(), contacts.size()}, work.spread, solved);
+  for (int a = 0; a < count; ++a) {
+    ToolContact& contact = contacts[solved[a].contact];
+    contact.force += solved[a].force;
+    add_node_force(state, work.nodes.node_at(solved[a].slot), contact.tool, solved[a].force);
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    gaps[i] = contacts[i].touches() ? Vec3::Zero() : spreads[i].displacement;
+  }
+}
+
+void measure(const HapticState& state, const Gaps& free_gaps, const Gaps& gaps,
+             std::span<ToolOutput> outputs) {
+  for (std::size_t t = 0; t < outputs.size(); ++t) {
+    outputs[t] = {};
+    outputs[t].grasping = state.tools[t].grasping;
+    outputs[t].grasp_count = state.tools[t].grasp_count;
+  }
+  for (int i = 0; i < state.contact_count; ++i) {
+    const ToolContact& contact = state.contacts[i];
+    if (!contact.touches()) continue;
+    const ToolState& tool = state.tools[contact.tool];
+    ToolOutput& output = outputs[contact.tool];
+    ++output.touching;
+    output.force -= contact.force;
+    output.torque -= (tool.now[contact.point] - tool.frame.p_WT).cross(contact.force);
+    output.stored_j += 0.5 * contact.force.dot(free_gaps[i] - gaps[i]);
+  }
+}
+
+// The surface of the next tick: all tools' forces together.
+int hand_over_forces(const HapticState& state, DeformedSurface& surface) {
+  std::array<SurfaceId, DeformedSurface::kMaxForces> nodes;
+  std::array<Vec3, DeformedSurface::kMaxForces> forces;
+  int count = 0;
+  for (const NodeForce& entry : state.forces()) {
+    const auto at = std::find(nodes.begin(), nodes.begin() + count, entry.node) - nodes.begin();
+    if (at < count) {
+      forces[at] += entry.force;
+    } else {
+      nodes[count] = entry.node;
+      forces[count++] = entry.force;
+    }
+  }
+  const auto size = static_cast<std::size_t>(count);
+  surface.set_forces({nodes.data(), size}, {forces.data(), size});
+  return count;
+}
+
+}  // namespace
+
+StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
+                       HapticWorkspace& work, std::span<ToolOutput> outputs) noexcept {
+  StepResult result;
+  Gaps free_gaps, gaps;
+  work.nodes.begin_tick();
+  place_tools(model, inputs, state, work.surface);
+  evaluate_neighbourhood(state, work.surface);
+  follow_surface(model, state, work.surface);
+  find_contacts(state, work.surface);
+  result.neighbourhood = work.surface.evaluated_nodes();
+
+  state.node_force_count = 0;
+  for (int i = 0; i < state.contact_count; ++i)
+    free_gaps[i] = free_gap(state, state.contacts[i], work.surface);
+  if (model.mode == ContactMode::kPoint) {
+    pose_problem(model, state, work);
+    solve_points(model, state, work, result, gaps);
+  } else {
+    solve_spread_contacts(model, state, work, gaps);
+  }
+  measure(state, free_gaps, gaps, outputs);
+  for (const ToolOutput& output : outputs) result.contacts += output.touching;
+  release_contacts(state, {gaps.data(), static_cast<std::size_t>(state.contact_count)});
+  result.nodes = hand_over_forces(state, work.surface);
+  return result;
+}
+
+Vec3 contact_displacement(SurfaceId node, const HapticState& state, HapticWorkspace& work) noexcept {
+  const int n = work.nodes.slot_of(node);
+  Vec3 u = Vec3::Zero();
+  for (const NodeForce& entry : state.forces()) {
+    const float* block = work.nodes.block(n, work.nodes.slot_of(entry.node));
+    u += Eigen::Map<const Eigen::Matrix3f>(block).cast<double>() * entry.force;
+  }
+  return u;
+}
+
+}  // namespace omentum::haptic

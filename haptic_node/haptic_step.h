@@ -1,0 +1,38 @@
+// One tick of the hand's loop, without threads, topics or clocks.
+#pragma once
+
+#include "haptic_node/tool_contact.h"
+
+namespace omentum::haptic {
+
+/// The model's own answer to one tool, before force safety.
+struct ToolOutput {
+  Vec3 force = Vec3::Zero();   // on the hand at the tip, in W, N
+  Vec3 torque = Vec3::Zero();  // on the hand about the tip, in W, N m
+  double stored_j = 0;         // elastic energy that its contacts hold
+  int touching = 0;            // contacts with a force
+  bool grasping = false;
+  std::uint64_t grasp_count = 0;
+};
+
+/// One entry per tool of the model.
+struct StepResult {
+  int contacts = 0;       // contacts with a force, all tools
+  int nodes = 0;          // nodes with a force, all tools
+  int neighbourhood = 0;  // nodes superposed in this tick
+  physics::ContactStatus status = physics::ContactStatus::kConverged;
+  double residual_m = 0;
+};
+
+/// Poses in, forces out: collides with the surface under the last tick's forces, solves the contacts of all
+/// tools together on C_AA (Cotin 1999, section 4-2), and hands the new forces to the surface. The force on a
+/// hand is minus the sum of its contacts' forces on the tissue. Quasi-static: no time step enters.
+///
+/// `inputs` and `outputs`: [tools]. No allocation, no lock, no file. One thread.
+StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
+                       HapticWorkspace& work, std::span<ToolOutput> outputs) noexcept;
+
+/// u_A = C_AA f_A of one node in contact, all tools' forces together, m; in double.
+Vec3 contact_displacement(SurfaceId node, const HapticState& state, HapticWorkspace& work) noexcept;
+
+}  // namespace omentum::haptic

@@ -1,0 +1,174 @@
+#include "haptic_node/tool_contact.h"
+
+#include <algorithm>
+
+namespace omentum::haptic {
+namespace {
+
+// Jaws closer than this hold tissue, wider open than that let go, rad: apart, so that a trembling hand does
+// not drop and grasp again.
+constexpr double kGraspBelow_rad = 0.10;
+constexpr double kReleaseAbove_rad = 0.20;
+
+// An open contact is kept as a hint up to here, m: a tenth of a voxel of the scans that organs come from.
+constexpr double kReleaseGap_m = 1e-4;
+
+// A surface that moves over a resting point moves less than this in one tick, m (2 m/s at 1 kHz). A point
+// found deeper came there otherwise (a tool that was switched on inside an organ) and feels nothing until it
+// leaves.
+constexpr double kMaxOvertake_m = 2e-3;
+
+// Room around a path for the rounding of positions, m.
+constexpr double kHair_m = 1e-5;
+
+template <class Predicate>
+void drop_contacts(HapticState& state, Predicate&& gone) {
+  const std::span<ToolContact> active = state.active();
+  const auto end = std::remove_if(active.begin(), active.end(), gone);
+  state.contact_count = static_cast<int>(end - active.begin());
+}
+
+void end_grasp(HapticState& state, std::int32_t tool) {
+  state.tools[tool].grasping = false;
+  for (ToolContact& contact : state.active()) {
+    if (contact.tool == tool) contact.grasped = false;
+  }
+}
+
+void begin_grasp(HapticState& state, std::int32_t tool, DeformedSurface& surface) {
+  bool holds = false;
+  for (ToolContact& contact : state.active()) {
+    if (contact.tool != tool) continue;
+    holds = true;
+    contact.grasped = true;
+    // what is between jaw and tissue when they close stays there: no force comes from closing alone
+    contact.offset = state.tools[tool].before[contact.point] - surface.position(contact.held);
+  }
+  if (!holds) return;
+  state.tools[tool].grasping = true;
+  state.tools[tool].opened = false;
+  ++state.tools[tool].grasp_count;
+}
+
+void follow_grip(HapticState& state, std::int32_t tool, double grip, DeformedSurface& surface) {
+  ToolState& jaws = state.tools[tool];
+  if (grip > kReleaseAbove_rad) {
+    jaws.opened = true;
+    if (jaws.grasping) end_grasp(state, tool);
+  } else if (grip < kGraspBelow_rad && jaws.opened && !jaws.grasping) {
+    begin_grasp(state, tool, surface);
+    // jaws that closed on nothing are a blunt probe until they were open again
+    if (!jaws.grasping) jaws.opened = false;
+  }
+}
+
+Region path_of(const ToolState& tool, double margin) {
+  Region region{tool.now[0], tool.now[0]};
+  for (const auto* points : {&tool.before, &tool.now}) {
+    for (const Vec3& p : *points) {
+      region.low = region.low.cwiseMin(p);
+      region.high = region.high.cwiseMax(p);
+    }
+  }
+  region.low.array() -= margin;
+  region.high.array() += margin;
+  return region;
+}
+
+double overtake_reach(const DeformedSurface& surface) {
+  return std::min(surface.last_motion(), kMaxOvertake_m) + kHair_m;
+}
+
+ToolContact* contact_of(HapticState& state, std::int32_t tool, std::int32_t point) {
+  for (ToolContact& contact : state.active()) {
+    if (contact.tool == tool && contact.point == point) return &contact;
+  }
+  return nullptr;
+}
+
+std::optional<SurfacePoint> touched(const Vec3& before, const Vec3& now, DeformedSurface& surface) {
+  if (const auto overtaken = surface.nearest_if_inside(before, overtake_reach(surface))) return overtaken;
+  if (const auto entry = surface.first_entry(before, now)) return entry->point;
+  return std::nullopt;
+}
+
+}  // namespace
+
+void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
+                 DeformedSurface& surface) noexcept {
+  for (std::size_t i = 0; i < state.tools.size(); ++i) {
+    const auto index = static_cast<std::int32_t>(i);
+    ToolState& tool = state.tools[i];
+    const ToolInput& input = inputs[i];
+    const bool moved_here = input.engaged && tool.engaged && !input.relocated;
+    if (!moved_here) {
+      end_grasp(state, index);
+      drop_contacts(state, [&](const ToolContact& contact) { return contact.tool == index; });
+    }
+    tool.engaged = input.engaged;
+    if (!input.engaged) continue;
+    const auto& trocar = model.tools[i].trocar;
+    tool.frame = trocar ? through_trocar(input.frame, *trocar) : input.frame;
+    std::swap(tool.before, tool.now);
+    for (std::size_t p = 0; p < tool.now.size(); ++p)
+      tool.now[p] = to_world(tool.frame, model.tools[i].points[p]);
+    if (!moved_here) tool.before = tool.now;
+    if (model.tools[i].grasps) follow_grip(state, index, input.grip, surface);
+  }
+}
+
+void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) noexcept {
+  for (const ToolState& tool : state.tools) {
+    if (tool.engaged) surface.evaluate(path_of(tool, overtake_reach(surface)));
+  }
+}
+
+void follow_surface(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept {
+  for (ToolContact& contact : state.active()) {
+    if (contact.grasped) continue;
+    const ToolState& tool = state.tools[contact.tool];
+    if (model.friction == 0 || !contact.touches()) {
+      contact.held = surface.slide(contact.held, tool.now[contact.point]);
+    } else if (contact.sliding) {
+      // friction is back inside its cone where the tool was; from there it moves on
+      contact.held = surface.slide(contact.held, tool.before[contact.point]);
+    }
+    contact.normal = surface.normal(contact.held);
+  }
+}
+
+void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
+  for (std::size_t i = 0; i < state.tools.size(); ++i) {
+    const ToolState& tool = state.tools[i];
+    if (!tool.engaged) continue;
+    for (std::size_t p = 0; p < tool.now.size(); ++p) {
+      ToolContact* known = contact_of(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
+      if (known && (known->touches() || known->grasped)) continue;
+      const auto found = touched(tool.before[p], tool.now[p], surface);
+      if (!found) continue;
+      if (!known) {
+        known = &state.contacts[state.contact_count++];
+        *known = ToolContact{};
+        known->tool = static_cast<std::int32_t>(i);
+        known->point = static_cast<std::int32_t>(p);
+      }
+      known->held = *found;
+      known->normal = surface.normal(*found);
+    }
+  }
+}
+
+void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept {
+  std::size_t i = 0;
+  drop_contacts(state, [&](const ToolContact& contact) {
+    const double open = gaps[i++].dot(contact.normal);
+    return !contact.grasped && !contact.touches() && open > kReleaseGap_m;
+  });
+}
+
+Vec3 free_gap(const HapticState& state, const ToolContact& contact, const DeformedSurface& surface) noexcept {
+  const Vec3 offset = contact.grasped ? contact.offset : Vec3::Zero();
+  return state.tools[contact.tool].now[contact.point] - surface.rest_position(contact.held) - offset;
+}
+
+}  // namespace omentum::haptic

@@ -1,0 +1,38 @@
+// Which points of the tools touch the surface, and where: found by sweeping, followed by sliding.
+#pragma once
+
+#include "haptic_node/haptic_model.h"
+
+namespace omentum::haptic {
+
+/// A tool in this tick.
+struct ToolInput {
+  bool engaged = false;    // a pose is known; else the tool touches nothing
+  bool relocated = false;  // it did not come here by moving: contacts are let go, nothing is swept
+  ToolFrame frame;         // as measured
+  double grip = 0;         // jaw opening, rad
+};
+
+/// Moves the tools' points to this tick's poses, lets go of what disengaged or relocated tools held, and
+/// begins or ends grasps.
+void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
+                 DeformedSurface& surface) noexcept;
+
+/// Makes the neighbourhood of every tool's path exact.
+void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) noexcept;
+
+/// Moves the material points of contacts that slide to the nearest point of the deformed surface, and renews
+/// normals.
+void follow_surface(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept;
+
+/// Adds contacts for points without force that the surface passed over since the last tick, or that entered
+/// it on their way (swept segment against every triangle in the buckets that it crosses).
+void find_contacts(HapticState& state, DeformedSurface& surface) noexcept;
+
+/// Lets go of contacts without force that are open by more than a hair.
+void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept;
+
+/// p - X: the tool's point minus the rest position of its material point, m; less what a grasp keeps.
+Vec3 free_gap(const HapticState& state, const ToolContact& contact, const DeformedSurface& surface) noexcept;
+
+}  // namespace omentum::haptic
