@@ -1,0 +1,27 @@
+// A labelled volume of the implicit liver, as a segmented scan would give it.
+#pragma once
+
+#include "geometry/types.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace omentum::phantom {
+
+/// Labels of voxels; x runs fastest. 0: outside, 1: liver.
+struct LabelVolume {
+  std::array<std::int16_t, 3> size;
+  geometry::Vec3 origin;  // centre of voxel (0,0,0), m
+  double spacing_m;
+  std::vector<std::uint8_t> labels;  // [size[0] * size[1] * size[2]]
+};
+
+/// Samples the liver at voxel centres.
+LabelVolume sample_liver(double spacing_m);
+
+/// Writes NIfTI-1 (https://nifti.nimh.nih.gov/nifti-1), a single uncompressed .nii, in millimetres as is
+/// usual there. Throws geometry::InputError when the file cannot be written.
+void write_nifti(const LabelVolume& volume, const std::filesystem::path& file);
+
+}  // namespace omentum::phantom

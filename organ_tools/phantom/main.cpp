@@ -1,0 +1,64 @@
+// organ_phantom: makes the project's own liver, as a tetrahedral mesh and as a labelled volume.
+#include "organ_tools/phantom/label_volume.h"
+#include "organ_tools/phantom/tetrahedralize.h"
+
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace {
+
+using namespace omentum;
+
+constexpr double kVoxelSpacing = 1.5e-3;  // m: that of a good abdominal scan
+
+// Writes beside the file and renames: whoever finds the file finds all of it.
+template <class Write>
+void write_whole(const std::filesystem::path& file, Write&& write) {
+  std::filesystem::path unfinished = file;
+  unfinished += ".unfinished" + std::to_string(::getpid());
+  try {
+    write(unfinished);
+    std::filesystem::rename(unfinished, file);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Makes the phantom liver: about 18 cm, in metres, z up, the inferior edge towards -y."};
+  std::string size = "paper";
+  std::filesystem::path mesh_file, labels_file;
+  app.add_option("--size", size, "paper (1,500-1,800 nodes) or fine (above 16,000)")
+      ->check(CLI::IsMember({"paper", "fine"}));
+  app.add_option("-o,--output", mesh_file, "the mesh, Gmsh 2.2 (.msh)")->required();
+  app.add_option("--labels", labels_file, "also the labelled volume, NIfTI-1 (.nii)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "organ_phantom: %s\n", error.what());
+    return 2;
+  }
+  try {
+    const geometry::TetraMesh mesh =
+        phantom::tetrahedralize_liver(size == "fine" ? phantom::fine_size() : phantom::paper_size());
+    write_whole(mesh_file, [&](const auto& file) { geometry::write_mesh(mesh, file); });
+    std::printf("%s: %zu nodes, %zu tetrahedra, smallest dihedral angle %.1f degrees\n", mesh_file.c_str(),
+                mesh.positions.size(), mesh.tetrahedra.size(), phantom::smallest_dihedral_angle(mesh));
+    if (!labels_file.empty()) {
+      write_whole(labels_file, [&](const auto& file) {
+        phantom::write_nifti(phantom::sample_liver(kVoxelSpacing), file);
+      });
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "organ_phantom: %s\n", error.what());
+    return 2;
+  }
+}

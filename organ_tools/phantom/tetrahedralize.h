@@ -1,0 +1,28 @@
+// Tetrahedra inside the implicit liver. This pair of files alone uses CGAL.
+#pragma once
+
+#include "geometry/tetra_mesh.h"
+
+namespace omentum::phantom {
+
+/// Bounds on a mesh's size, both ends included.
+struct MeshSize {
+  std::size_t fewest_nodes, most_nodes;
+  std::size_t fewest_tetrahedra, most_tetrahedra;
+  double first_edge_m;  // where the search for the right edge length starts
+};
+
+/// The papers' size: 1,500-1,800 nodes, 6,500-8,000 tetrahedra.
+MeshSize paper_size();
+/// Above 16,000 nodes.
+MeshSize fine_size();
+
+/// Fills the liver (liver_shape.h) with a valid mesh within the bounds: Delaunay refinement with a manifold
+/// boundary, then sliver removal, with the edge length adjusted until the counts fit. The same input gives
+/// the same mesh. Throws std::runtime_error when no edge length tried gives one.
+geometry::TetraMesh tetrahedralize_liver(const MeshSize& size);
+
+/// Smallest dihedral angle of all tetrahedra, degrees.
+double smallest_dihedral_angle(const geometry::TetraMesh& mesh);
+
+}  // namespace omentum::phantom
