@@ -1,0 +1,140 @@
+#include "organ/support_spec.h"
+
+#include "organ/csv.h"
+
+#include <cstdio>
+#include <functional>
+#include <optional>
+
+namespace omentum::organ {
+
+namespace {
+
+using geometry::InputError;
+using geometry::TetraMesh;
+using geometry::Vec3;
+
+[[noreturn]] void refuse(const std::string& spec, const std::string& what) {
+  throw InputError("--fixed " + spec + ": " + what);
+}
+
+struct Spec {
+  std::string whole;
+  std::string place;  // without the components
+  std::uint8_t components = physics::kPinned;
+};
+
+// Splits a trailing ":xz" off.
+Spec split_components(const std::string& text) {
+  Spec spec{text, text, physics::kPinned};
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos) return spec;
+  const std::string letters = text.substr(colon + 1);
+  if (letters.empty() || letters.size() > 3 || letters.find_first_not_of("xyz") != std::string::npos)
+    return spec;
+  spec.place = text.substr(0, colon);
+  spec.components = 0;
+  for (const char c : letters) spec.components |= static_cast<std::uint8_t>(1 << (c - 'x'));
+  return spec;
+}
+
+bool starts_with(const std::string& text, const char* head) {
+  return text.rfind(head, 0) == 0;
+}
+
+// The numbers of "a,b,c" or none.
+std::optional<std::vector<double>> parse_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& field : split_fields(text)) {
+    const std::optional<double> number = parse_number(field);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+using Match = std::function<bool(const Vec3&)>;
+
+Match plane_match(const Spec& spec) {
+  const std::string body = spec.place.substr(std::string("plane:").size());
+  const auto limit = body.size() > 2 ? parse_number(body.substr(2)) : std::nullopt;
+  if (!limit || body[0] < 'x' || body[0] > 'z' || (body[1] != '<' && body[1] != '>')) {
+    refuse(spec.whole, "not a plane; expected one such as plane:x<0.03 (x, y or z; < or >; metres)");
+  }
+  const int axis = body[0] - 'x';
+  if (body[1] == '<') return [axis, limit](const Vec3& p) { return p[axis] < *limit; };
+  return [axis, limit](const Vec3& p) { return p[axis] > *limit; };
+}
+
+Match box_match(const Spec& spec) {
+  const auto corners = parse_numbers(spec.place.substr(std::string("box:").size()));
+  if (!corners || corners->size() != 6) {
+    refuse(spec.whole, "not a box; expected box:x0,y0,z0,x1,y1,z1 (metres)");
+  }
+  const Vec3 a((*corners)[0], (*corners)[1], (*corners)[2]), b((*corners)[3], (*corners)[4], (*corners)[5]);
+  const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
+  return [low, high](const Vec3& p) {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  };
+}
+
+// Which numbers of the mesh file a CSV lists, [file_node_count].
+std::vector<bool> listed_nodes(const Spec& spec, const TetraMesh& mesh) {
+  std::vector<bool> listed(mesh.file_node_count);
+  for (const CsvLine& line : read_csv(spec.place)) {
+    for (const std::string& field : line.fields) {
+      const auto number = parse_integer(field);
+      if (!number || *number < 0 || *number >= mesh.file_node_count) {
+        throw InputError(line.where + ": found '" + field + "'; expected a node number from 0 to " +
+                         std::to_string(mesh.file_node_count - 1));
+      }
+      listed[*number] = true;
+    }
+  }
+  return listed;
+}
+
+std::string extent_of(const TetraMesh& mesh) {
+  Vec3 low = mesh.positions.front(), high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    char part[80];
+    std::snprintf(part, sizeof part, "%s%c %.6g .. %.6g", axis == 0 ? "" : ", ", 'x' + axis, low[axis],
+                  high[axis]);
+    text += part;
+  }
+  return text + " m";
+}
+
+void add_supports(const Spec& spec, const TetraMesh& mesh, physics::FixedComponents& fixed) {
+  std::vector<bool> listed;
+  Match matches;
+  if (starts_with(spec.place, "plane:")) {
+    matches = plane_match(spec);
+  } else if (starts_with(spec.place, "box:")) {
+    matches = box_match(spec);
+  } else {
+    listed = listed_nodes(spec, mesh);
+  }
+  std::int32_t held = 0;
+  for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+    if (!(matches ? matches(mesh.positions[n]) : listed[mesh.file_node[n]])) continue;
+    fixed[n] |= spec.components;
+    ++held;
+  }
+  if (held == 0) refuse(spec.whole, "holds no node; the mesh extends over " + extent_of(mesh));
+}
+
+}  // namespace
+
+physics::FixedComponents parse_supports(std::span<const std::string> specs, const TetraMesh& mesh) {
+  physics::FixedComponents fixed(mesh.positions.size(), 0);
+  for (const std::string& spec : specs) add_supports(split_components(spec), mesh, fixed);
+  return fixed;
+}
+
+}  // namespace omentum::organ

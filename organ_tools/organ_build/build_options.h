@@ -1,0 +1,36 @@
+// The command line of organ_build (DESIGN 5).
+#pragma once
+
+#include "organ/organ.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace omentum::organ_tools {
+
+struct BuildCommand {
+  std::filesystem::path mesh;
+  std::filesystem::path output;
+  physics::Material material;
+  double metres_per_unit = 0;
+  std::vector<std::string> fixed;
+  organ::Storage storage = organ::Storage::kFloat;
+  std::string name;  // empty: the output file's stem
+  int threads = 0;   // 0: one per processor
+  bool force = false;
+  std::string law;      // refused
+  std::string dynamic;  // refused
+};
+
+/// Adds the options to `app`.
+void add_build_options(CLI::App& app, BuildCommand& command);
+
+/// Throws geometry::InputError for what this version does not offer, rather than ignoring it.
+void require_offered(const BuildCommand& command);
+
+}  // namespace omentum::organ_tools

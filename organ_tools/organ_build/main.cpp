@@ -1,0 +1,74 @@
+// organ_build: a tetrahedral mesh, a material and supports become an organ file with its force tensors.
+#include "organ/build_organ.h"
+#include "organ/support_spec.h"
+#include "organ_tools/organ_build/build_options.h"
+#include "organ_tools/organ_build/interruption.h"
+#include "organ_tools/organ_build/progress_line.h"
+#include "physics/blas_threads.h"
+#include "runtime/node_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+namespace {
+
+using namespace omentum;
+
+constexpr int kExitInterrupted = 130;  // what shells expect after Ctrl-C
+constexpr double kBytesPerMegabyte = 1e6;
+
+void warn(const std::string& what) {
+  std::cerr << "organ_build: warning: " << what << std::endl;
+}
+
+organ::Organ read_organ(const organ_tools::BuildCommand& command) {
+  geometry::CheckedMesh checked =
+      geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit);
+  for (const std::string& warning : checked.warnings) warn(warning);
+  physics::FixedComponents fixed = organ::parse_supports(command.fixed, checked.mesh);
+  const std::string name = command.name.empty() ? command.output.stem().string() : command.name;
+  return organ::make_organ(name, std::move(checked.mesh), command.material, std::move(fixed),
+                           command.storage);
+}
+
+void print_summary(const organ::Organ& organ, const organ::BuildResult& built,
+                   const std::filesystem::path& file) {
+  const double megabytes = static_cast<double>(std::filesystem::file_size(file)) / kBytesPerMegabyte;
+  std::printf("%s: %s: %zu nodes, %zu tetrahedra, %d surface nodes (%d mobile), %d columns, %.1f MB",
+              file.c_str(), built.up_to_date ? "up to date" : "built", organ.mesh.positions.size(),
+              organ.mesh.tetrahedra.size(), organ.surface.node_count(), organ.surface.mobile_count,
+              built.columns, megabytes);
+  if (!built.up_to_date) {
+    std::printf("; factorized in %.2f s, columns in %.2f s, in all %.2f s", built.factor_s, built.columns_s,
+                built.total_s);
+  }
+  std::printf("\n");
+}
+
+void build(const organ_tools::BuildCommand& command) {
+  organ_tools::require_offered(command);
+  if (const std::string warning = physics::blas_warning(); !warning.empty()) warn(warning);
+  organ_tools::ProgressLine progress("organ_build");
+  const organ::Organ organ = read_organ(command);
+
+  organ::BuildOptions options;
+  options.force = command.force;
+  options.threads = command.threads > 0 ? command.threads : std::max(1u, std::thread::hardware_concurrency());
+  options.on_progress = [&](const std::string& stage, double fraction) { progress(stage, fraction); };
+  options.stopped = organ_tools::interrupted;
+  print_summary(organ, organ::build_organ(organ, command.output, options), command.output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  organ_tools::watch_for_interruption();
+  CLI::App app("Computes the force tensors of an organ from its mesh, material and supports.");
+  organ_tools::BuildCommand command;
+  organ_tools::add_build_options(app, command);
+  const int code = runtime::node_main(app, argc, argv, [&] { build(command); });
+  return organ_tools::interrupted() && code != 0 ? kExitInterrupted : code;
+}
