@@ -1,9 +1,9 @@
 #include "deform_node/deform_loop.h"
 
+#include "node/node_identity.h"
 #include "runtime/clock.h"
 #include "runtime/report.h"
 
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -13,15 +13,7 @@ namespace omentum::deform {
 
 namespace {
 
-constexpr double kStatusRateHz = 10;      // DESIGN 2: 1-10 Hz
-constexpr std::size_t kFaultBytes = 160;  // string<160> of the IDL
-constexpr std::size_t kHostBytes = 64;    // string<64> of the IDL
-
-runtime::Scene read_scene(const runtime::NodeOptions& options) {
-  runtime::Scene scene = runtime::load_scene(options.scene);
-  if (!options.organ.empty() && !scene.organs.empty()) scene.organs.front().file = options.organ;
-  return scene;
-}
+constexpr double kStatusRateHz = 10;  // DESIGN 2: 1-10 Hz
 
 std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs) {
   std::vector<OrganNumbers> numbers;
@@ -29,43 +21,20 @@ std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs)
   return numbers;
 }
 
-transport::BusOptions bus_options(const runtime::NodeOptions& options) {
-  return {.vendor = transport::parse_vendor(options.dds),
-          .domain = options.domain,
-          .profile = transport::parse_profile(options.profile),
-          .name = "deform_node",
-          .keystore = options.keystore};
-}
-
-std::string host_name() {
-  char name[kHostBytes + 1] = {};
-  gethostname(name, kHostBytes);
-  return name;
-}
-
-msg::Percentiles to_message(const runtime::Percentiles& p) {
-  return {.p50 = p.p50, .p99 = p.p99, .p999 = p.p999, .max = p.max, .count = p.count};
-}
-
 }  // namespace
 
 DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
     : options_(options),
-      scene_(read_scene(options.node)),
+      scene_(node::load_scene(options.node)),
       organs_(load_organs(scene_, transport::parse_profile(options.node.profile))),
       book_(numbers_of_all(organs_), faults_),
       loop_(loop),
-      bus_(transport::Bus::open(bus_options(options.node))) {
+      status_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
+      bus_(transport::Bus::open(node::bus_options(options.node, "deform_node"))) {
   if (!options.node.log.empty()) {
     log_ = std::make_unique<runtime::LoopLog>(options.node.log);
     loop_.log_to(*log_);
   }
-  status_.kind = msg::NODE_DEFORM;
-  status_.instance =
-      (static_cast<std::uint64_t>(getpid()) << 32) ^ static_cast<std::uint64_t>(runtime::steady_now_ns());
-  status_.host = host_name();
-  status_.rate_hz = options_.rate_hz;
-
   scene_writer_ = bus_->writer<msg::SceneInfo>();
   topology_writer_ = bus_->writer<msg::Topology>();
   state_writer_ = bus_->writer<msg::OrganState>();
@@ -116,16 +85,9 @@ void DeformLoop::publish(std::int64_t now_ns) noexcept {
 }
 
 void DeformLoop::publish_status() noexcept {
-  const runtime::LoopRecord& record = loop_.record();
   status_.paused = paused_.load(std::memory_order_relaxed);
-  status_.ticks = record.ticks;
-  status_.missed = record.missed;
-  status_.period_us = to_message(record.period.percentiles());
-  status_.compute_us = to_message(record.compute.percentiles());
   status_.echoes.assign(book_.echoes().begin(), book_.echoes().end());
-  status_.faults.clear();
-  if (faults_.any())
-    for (const std::string& fault : faults_.lines()) status_.faults.push_back(fault.substr(0, kFaultBytes));
+  node::fill_status(loop_.record(), faults_, status_);
   status_writer_->write(status_);
 }
 

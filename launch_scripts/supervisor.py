@@ -18,6 +18,9 @@ def run(arguments):
         return 0
     signal.signal(signal.SIGTERM, interrupt)
     scene, name = organs.prepare(chosen)
+    if chosen.prepare_only:
+        print(f"run: {scene}")
+        return 0
     session = Session(chosen, scene, name)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: session.stop())

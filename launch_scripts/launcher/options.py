@@ -36,6 +36,7 @@ class Options:
     restart: bool = False
     programs: pathlib.Path = REPOSITORY / "build" / "release" / "bin"
     check_only: bool = False
+    prepare_only: bool = False
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -68,6 +69,7 @@ def build_parser():
     add("--paused", action="store_true", help="start paused")
     add("--restart", action="store_true", help="start a node again when it crashed")
     add("--secure", action="store_true", help="secured topics (not part of this version)")
+    add("--prepare", action="store_true", help="make the organ file and DIR/scene.toml, and end")
     add("--check", action="store_true", help=argparse.SUPPRESS)
     return parser
 
@@ -81,7 +83,7 @@ def parse(arguments):
         scene=find_scene(given.scene), seconds=given.seconds, out=pathlib.Path(given.out), dds=parse_dds(given.dds),
         scale=given.scale, fixed=given.fixed, rate_hz=given.rate_hz, headless=given.headless, domain=given.domain,
         log=given.log, profile=given.profile, split=given.split, paused=given.paused, restart=given.restart,
-        check_only=given.check)
+        check_only=given.check, prepare_only=given.prepare)
     options.device, options.trace = parse_device(given.device)
     options.organ = existing(given.organ, "--organ") if given.organ else None
     if os.environ.get("OMENTUM_BIN"):
@@ -142,8 +144,8 @@ def check_values(options):
         raise Refusal(f"--seconds: found {options.seconds:g}, expected more than 0")
     if options.scale is not None and not options.scale > 0:
         raise Refusal(f"--scale: found {options.scale:g}, expected more than 0")
-    if options.rate_hz is not None and not 1 <= options.rate_hz <= 10000:
-        raise Refusal(f"--rate-hz: found {options.rate_hz:g}, expected 1 to 10000")
+    if options.rate_hz is not None and not 10 <= options.rate_hz <= 10000:
+        raise Refusal(f"--rate-hz: found {options.rate_hz:g}, expected 10 to 10000")
     if options.domain is not None and not 0 <= options.domain <= LAST_DOMAIN:
         raise Refusal(f"--domain: found {options.domain}, expected 0 to {LAST_DOMAIN}")
     if (options.scale or options.fixed) and not options.organ:

@@ -51,12 +51,14 @@ class Session:
     # starting
     def make_nodes(self):
         own = {"haptic_node": [], "deform_node": [], "render_node": ["--out", str(self.options.out.resolve())]}
-        if self.options.rate_hz:
-            own["haptic_node"] += ["--rate-hz", f"{self.options.rate_hz:g}"]
-        if self.headless:
-            own["render_node"].append("--headless")
         if self.options.device != "none":
             own["virtual_device"] = ["--trace", str(self.options.trace)] if self.options.trace else []
+        if self.options.rate_hz:
+            # the loop is stepped by the hand's poses: both keep the rate
+            for name in {"haptic_node", "virtual_device"} & own.keys():
+                own[name] += ["--rate-hz", f"{self.options.rate_hz:g}"]
+        if self.headless:
+            own["render_node"].append("--headless")
         processors = processors_of(self.options.split)
         return [processes.Node(name, self.command(name) + extra, processors.get(name)) for name, extra in own.items()]
 
