@@ -1,0 +1,254 @@
+#include "haptic_node/haptic_loop.h"
+
+#include "node/node_identity.h"
+#include "runtime/clock.h"
+#include "runtime/report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <condition_variable>
+#include <iostream>
+
+namespace omentum::haptic {
+namespace {
+
+// SCHED_FIFO, above everything that is not the kernel's own; the loop sleeps most of each period.
+constexpr int kPriority = 60;
+
+// How long to listen for a node that serves these tools already: discovery takes up to a second (DESIGN 2).
+constexpr std::int64_t kListen_ns = 1'000'000'000;
+
+// Contacts for picture and organ, which are slower; changes are told at once.
+constexpr std::int64_t kContactPeriod_ns = 4'000'000;
+
+constexpr std::int64_t kStatusPeriod_ns = 100'000'000;
+
+// A tick never counts for longer than this: after a stall forces go on from where they were, s.
+constexpr double kLongestTick_s = 0.02;
+
+// A tool without a new pose is answered again after this many periods: the decay of a force must be told too.
+constexpr double kAnswerAgainPeriods = 1.5;
+
+std::uint32_t bits_of(const std::vector<std::uint32_t>& tools) {
+  std::uint32_t bits = 0;
+  for (const std::uint32_t tool : tools) bits |= 1u << tool;
+  return bits;
+}
+
+}  // namespace
+
+HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
+    : options_(options),
+      setup_(make_setup(node::load_scene(options.node))),
+      loop_(loop),
+      state_(setup_.model),
+      work_(setup_.model),
+      bus_(transport::Bus::open(node::bus_options(options.node, "haptic_node"))),
+      status_(node::introduce(msg::NODE_HAPTIC, options.rate_hz)) {
+  status_.tools_served = bits_of(setup_.tool_ids);
+  claim_ = {status_.instance, status_.tools_served, setup_.organ_hash};
+  if (!options.node.log.empty()) {
+    log_ = std::make_unique<runtime::LoopLog>(options.node.log);
+    loop_.log_to(*log_);
+  }
+  for (const std::uint32_t id : setup_.tool_ids) {
+    lines_.push_back(std::make_unique<ToolLine>(id, setup_.limits, faults_));
+    contacts_.push_back(make_contact_message(id));
+  }
+  inputs_.resize(lines_.size());
+  outputs_.resize(lines_.size());
+  fresh_.resize(lines_.size());
+  touched_.resize(lines_.size());
+  grasped_.resize(lines_.size());
+  answered_ns_.resize(lines_.size());
+  connect();
+}
+
+HapticLoop::~HapticLoop() = default;
+
+void HapticLoop::connect() {
+  force_writer_ = bus_->writer<msg::ToolForce>();
+  contact_writer_ = bus_->writer<msg::Contact>();
+  status_writer_ = bus_->writer<msg::NodeStatus>();
+  pose_reader_ = bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { hear(pose); });
+  device_reader_ = bus_->reader<msg::DeviceInfo>([this](const msg::DeviceInfo& info) { hear(info); });
+  command_reader_ = bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { hear(c); });
+  scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& scene) {
+    if (auto why = contradicts(claim_, scene)) refuse(*std::move(why));
+  });
+  node_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& other) {
+    if (auto why = yields_to(claim_, other)) refuse(*std::move(why));
+  });
+}
+
+// ---- the vendor's threads
+
+void HapticLoop::hear(const msg::ToolPose& pose) noexcept {
+  for (const auto& line : lines_) {
+    if (line->id() == pose.tool && line->hear(pose, runtime::steady_now_ns())) loop_.wake();
+  }
+}
+
+void HapticLoop::hear(const msg::DeviceInfo& info) noexcept {
+  for (const auto& line : lines_) {
+    if (line->id() == info.tool) line->hear(info);
+  }
+}
+
+void HapticLoop::hear(const msg::SessionCommand& command) noexcept {
+  if (command.command == msg::COMMAND_START) paused_.store(false, std::memory_order_relaxed);
+  if (command.command == msg::COMMAND_PAUSE) paused_.store(true, std::memory_order_relaxed);
+  if (command.command == msg::COMMAND_RESET) reset_.store(true, std::memory_order_release);
+  if (command.command == msg::COMMAND_CLEAR_FAULT) clear_fault_.store(true, std::memory_order_release);
+}
+
+void HapticLoop::refuse(std::string why) {
+  {
+    const std::lock_guard lock(refusal_mutex_);
+    if (refusal_.empty()) refusal_ = std::move(why);
+  }
+  loop_.stop();
+}
+
+// ---- the loop's thread
+
+void HapticLoop::run() {
+  watch_ = std::jthread([this](std::stop_token stop) { watch(std::move(stop)); });
+  grant_ = runtime::request_realtime(kPriority);
+  if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
+  serve_from_ns_ = runtime::steady_now_ns() + kListen_ns;
+  while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {
+    const std::int64_t now_ns = runtime::steady_now_ns();
+    if (now_ns >= serve_from_ns_) tick(now_ns);
+    loop_.finish_tick();
+  }
+  watch_ = {};
+  const std::lock_guard lock(refusal_mutex_);
+  if (!refusal_.empty()) throw std::runtime_error(refusal_);
+}
+
+void HapticLoop::tick(std::int64_t now_ns) noexcept {
+  const double elapsed_s = last_tick_ns_ == 0 ? 0 : 1e-9 * static_cast<double>(now_ns - last_tick_ns_);
+  last_tick_ns_ = now_ns;
+  ++ticks_;
+  for (std::size_t i = 0; i < lines_.size(); ++i) fresh_[i] = lines_[i]->listen(now_ns, inputs_[i]);
+  obey();
+  result_ = haptic_step(setup_.model, inputs_, state_, work_, outputs_);
+  if (result_.status != physics::ContactStatus::kConverged)
+    faults_.raise("contacts: the solver did not converge");
+  answer(now_ns, std::min(elapsed_s, kLongestTick_s));
+  publish_contacts(now_ns);
+  account();
+}
+
+void HapticLoop::obey() noexcept {
+  if (clear_fault_.exchange(false, std::memory_order_acquire)) {
+    for (const auto& line : lines_) line->clear_fault();
+  }
+  if (!reset_.exchange(false, std::memory_order_acquire)) return;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    lines_[i]->restart();
+    lines_[i]->expect_new_connection();
+    inputs_[i].relocated = true;  // lets go of everything
+  }
+}
+
+void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
+  const bool paused = paused_.load(std::memory_order_relaxed);
+  const auto again_ns = static_cast<std::int64_t>(kAnswerAgainPeriods * 1e9 / options_.rate_hz);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    msg::ToolForce force = lines_[i]->answer(outputs_[i], now_ns, dt_s, paused);
+    force.tick = ticks_;
+    if (lines_[i]->engaged() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
+      force_writer_->write(force);
+      answered_ns_[i] = now_ns;
+    }
+    if (outputs_[i].touching == 0) continue;
+    const double newton = std::hypot(force.force.x, force.force.y, force.force.z);
+    force_sum_n_ += newton;
+    force_max_n_ = std::max(force_max_n_, newton);
+    ++force_samples_;
+  }
+}
+
+void HapticLoop::publish_contacts(std::int64_t now_ns) noexcept {
+  bool changed = false;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    changed |= touched_[i] != (outputs_[i].touching > 0) || grasped_[i] != outputs_[i].grasping;
+  }
+  if (!changed && now_ns < contacts_due_ns_) return;
+  contacts_due_ns_ = now_ns + kContactPeriod_ns;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    msg::Contact& contact = contacts_[i];
+    ++contact.seq;
+    contact.tick = ticks_;
+    contact.cause = lines_[i]->echo();
+    fill_contact_message(setup_.model, static_cast<std::int32_t>(i), outputs_[i], state_, work_, contact);
+    contact_writer_->write(contact);
+    touched_[i] = outputs_[i].touching > 0;
+    grasped_[i] = outputs_[i].grasping;
+  }
+}
+
+void HapticLoop::account() noexcept {
+  if (result_.contacts > 0) ++ticks_in_contact_;
+  nodes_max_ = std::max(nodes_max_, result_.nodes);
+  neighbourhood_max_ = std::max(neighbourhood_max_, result_.neighbourhood);
+  const auto ticks_per_snapshot =
+      std::max<std::uint64_t>(1, static_cast<std::uint64_t>(options_.rate_hz / 10));
+  if (ticks_ % ticks_per_snapshot != 0) return;
+  Snapshot& snapshot = snapshots_.draft();
+  snapshot.record = loop_.record();
+  for (std::size_t i = 0; i < lines_.size(); ++i) snapshot.echoes[i] = lines_[i]->echo();
+  snapshots_.post();
+}
+
+// ---- the ordinary thread
+
+void HapticLoop::watch(std::stop_token stop) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  const std::int64_t listen_until_ns = runtime::steady_now_ns() + kListen_ns;
+  warm_up(setup_.model.compliance);
+  while (!stop.stop_requested()) {
+    if (runtime::steady_now_ns() >= listen_until_ns) publish_status();
+    wake.wait_for(lock, stop, std::chrono::nanoseconds(kStatusPeriod_ns), [] { return false; });
+  }
+}
+
+void HapticLoop::publish_status() {
+  snapshots_.fetch();
+  const Snapshot& snapshot = snapshots_.value();
+  status_.paused = paused_.load(std::memory_order_relaxed);
+  status_.echoes.assign(snapshot.echoes.begin(),
+                        snapshot.echoes.begin() + static_cast<std::ptrdiff_t>(lines_.size()));
+  node::fill_status(snapshot.record, faults_, status_);
+  status_writer_->write(status_);
+}
+
+nlohmann::json HapticLoop::report() const {
+  nlohmann::json poses = nlohmann::json::array();
+  for (const auto& line : lines_) {
+    const PoseCounts counts = line->counts();
+    poses.push_back({{"tool", line->id()},
+                     {"accepted", counts.accepted},
+                     {"refused", counts.refused},
+                     {"lost", counts.lost},
+                     {"energy_given_j", line->safety().passivity().given_j()}});
+  }
+  const double samples = static_cast<double>(std::max<std::uint64_t>(1, force_samples_));
+  return {{"dds", options_.node.dds},
+          {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
+          {"force_n", {{"mean", force_sum_n_ / samples}, {"max", force_max_n_}}},
+          {"contacts",
+           {{"ticks_in_contact", ticks_in_contact_},
+            {"nodes_max", nodes_max_},
+            {"neighbourhood_max", neighbourhood_max_}}},
+          {"poses", poses},
+          {"realtime", {{"fifo", grant_.fifo}, {"locked", grant_.locked}}},
+          {"faults", faults_.lines()}};
+}
+
+}  // namespace omentum::haptic

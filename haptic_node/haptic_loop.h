@@ -1,0 +1,110 @@
+// The node around the step: threads, topics, clocks.
+#pragma once
+
+#include "haptic_node/contact_message.h"
+#include "haptic_node/haptic_setup.h"
+#include "haptic_node/serving_claim.h"
+#include "haptic_node/tool_line.h"
+#include "runtime/loop_log.h"
+#include "runtime/node_options.h"
+#include "runtime/rate_loop.h"
+#include "runtime/realtime.h"
+#include "transport/bus.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <mutex>
+#include <thread>
+
+namespace omentum::haptic {
+
+struct HapticOptions {
+  runtime::NodeOptions node;
+  double rate_hz = 1000;  // held without a device; the period against which a miss is counted
+};
+
+/// Takes ToolPose, DeviceInfo, SessionCommand, SceneInfo; publishes ToolForce, Contact, NodeStatus.
+///
+/// Three kinds of threads. The vendor's put poses through the guard into mailboxes and wake the loop. The
+/// loop (run(), real-time where permitted) steps and writes forces at once; it waits for nobody. An ordinary
+/// one tells the node's status, and ends the loop when another node or scene has the better claim.
+class HapticLoop {
+ public:
+  /// Loads scene and organ and joins the domain. Throws what and where. `loop` sets the pace and must outlive
+  /// this.
+  HapticLoop(const HapticOptions& options, runtime::RateLoop& loop);
+  ~HapticLoop();
+
+  /// Until loop.stop(). Throws std::runtime_error when this node must not serve (a tool that another node
+  /// serves, another organ).
+  void run();
+  /// After run(): the node's object of report.json (DESIGN 5).
+  nlohmann::json report() const;
+
+ private:
+  // what the ordinary thread needs of the loop, a copy now and then
+  struct Snapshot {
+    runtime::LoopRecord record;
+    std::array<msg::Echo, msg::MAX_TOOLS> echoes;
+  };
+
+  void connect();
+  void tick(std::int64_t now_ns) noexcept;
+  void obey() noexcept;
+  void answer(std::int64_t now_ns, double dt_s) noexcept;
+  void publish_contacts(std::int64_t now_ns) noexcept;
+  void account() noexcept;
+
+  void hear(const msg::ToolPose& pose) noexcept;
+  void hear(const msg::DeviceInfo& info) noexcept;
+  void hear(const msg::SessionCommand& command) noexcept;
+  void refuse(std::string why);
+  void watch(std::stop_token stop);
+  void publish_status();
+
+  HapticOptions options_;
+  HapticSetup setup_;
+  runtime::FaultList faults_;
+  runtime::RateLoop& loop_;
+  std::unique_ptr<runtime::LoopLog> log_;
+  runtime::RealtimeGrant grant_;
+  ServingClaim claim_;
+
+  // the loop's thread
+  HapticState state_;
+  HapticWorkspace work_;
+  std::vector<std::unique_ptr<ToolLine>> lines_;  // [tools]
+  std::vector<ToolInput> inputs_;
+  std::vector<ToolOutput> outputs_;
+  std::vector<bool> fresh_;
+  std::vector<std::int64_t> answered_ns_;
+  std::vector<msg::Contact> contacts_;
+  std::vector<bool> touched_, grasped_;  // at the last publication
+  StepResult result_;
+  std::uint64_t ticks_ = 0, ticks_in_contact_ = 0, force_samples_ = 0;
+  std::int64_t last_tick_ns_ = 0, serve_from_ns_ = 0, contacts_due_ns_ = 0;
+  double force_sum_n_ = 0, force_max_n_ = 0;
+  int nodes_max_ = 0, neighbourhood_max_ = 0;
+
+  // from the vendor's threads to the loop's
+  std::atomic<bool> paused_{false}, reset_{false}, clear_fault_{false};
+  runtime::Mailbox<Snapshot> snapshots_;
+
+  mutable std::mutex refusal_mutex_;
+  std::string refusal_;
+
+  // declared last: callbacks and threads end before what they touch
+  std::unique_ptr<transport::Bus> bus_;
+  msg::NodeStatus status_;
+  std::unique_ptr<transport::Writer<msg::ToolForce>> force_writer_;
+  std::unique_ptr<transport::Writer<msg::Contact>> contact_writer_;
+  std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
+  std::unique_ptr<transport::Reader<msg::ToolPose>> pose_reader_;
+  std::unique_ptr<transport::Reader<msg::DeviceInfo>> device_reader_;
+  std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
+  std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;
+  std::unique_ptr<transport::Reader<msg::NodeStatus>> node_reader_;
+  std::jthread watch_;
+};
+
+}  // namespace omentum::haptic

@@ -1,0 +1,83 @@
+#include "haptic_node/haptic_setup.h"
+
+#include "transport/messages.h"
+
+#include <unistd.h>
+
+#include <stdexcept>
+
+namespace omentum::haptic {
+namespace {
+
+Vec3 to_vector(const runtime::Triple& t) {
+  return {t[0], t[1], t[2]};
+}
+
+[[noreturn]] void refuse(const runtime::Scene& scene, const std::string& what) {
+  throw std::runtime_error(scene.file.string() + ": " + what);
+}
+
+std::vector<ToolModel> make_tools(const runtime::Scene& scene) {
+  std::vector<ToolModel> tools;
+  for (const runtime::ToolSpec& spec : scene.tools) {
+    if (spec.id >= msg::MAX_TOOLS) {
+      refuse(scene,
+             "tool id " + std::to_string(spec.id) + ", expected 0 to " + std::to_string(msg::MAX_TOOLS - 1));
+    }
+    if (spec.points.empty()) refuse(scene, "tool " + std::to_string(spec.id) + " has no points");
+    ToolModel tool;
+    for (const runtime::Triple& p : spec.points) tool.points.push_back(to_vector(p));
+    tool.grasps = spec.shape == "grasper";
+    if (spec.trocar) tool.trocar = to_vector(*spec.trocar);
+    tools.push_back(std::move(tool));
+  }
+  require_solvable(tools);
+  return tools;
+}
+
+HapticModel make_model(const runtime::Scene& scene, organ::Organ&& organ) {
+  std::vector<Vec3> rest = geometry::surface_positions(organ.mesh, organ.surface);
+  std::vector<std::uint32_t> file_node;
+  for (const geometry::NodeId n : organ.surface.node) {
+    file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
+  }
+  const ContactMode mode = scene.haptics.contact == "spread" ? ContactMode::kSpread : ContactMode::kPoint;
+  return {std::move(organ.surface),
+          std::move(rest),
+          *std::move(organ.compliance),
+          std::move(file_node),
+          make_tools(scene),
+          scene.haptics.friction,
+          mode};
+}
+
+}  // namespace
+
+HapticSetup make_setup(const runtime::Scene& scene) {
+  if (scene.organs.empty()) refuse(scene, "no organ, expected one at least");
+  const std::filesystem::path& file = scene.organs.front().file;
+  if (file.empty())
+    refuse(scene, "organ '" + scene.organs.front().name +
+                      "' has no organ file: build one with organ_build and give it with --organ");
+  organ::Organ organ = organ::load_organ(file, organ::Load::kWithTensors);
+  const std::string hash = organ.hash;
+  const runtime::HapticsSpec& h = scene.haptics;
+  HapticSetup setup{make_model(scene, std::move(organ)),
+                    {},
+                    {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s, h.stale_s, h.decay_s},
+                    hash};
+  for (const runtime::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
+  return setup;
+}
+
+void warm_up(const physics::SurfaceCompliance& compliance) {
+  const std::size_t floats = static_cast<std::size_t>(compliance.mobile_count()) *
+                             compliance.cluster_count() * physics::SurfaceCompliance::kTileFloats;
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * page;
+  if (floats == 0 || floats * sizeof(float) > memory / 2) return;
+  const volatile float* begin = compliance.tile(physics::SurfaceId(0), 0);
+  for (std::size_t i = 0; i < floats; i += page / sizeof(float)) static_cast<void>(begin[i]);
+}
+
+}  // namespace omentum::haptic

@@ -1,0 +1,27 @@
+// From a scene to what the loop runs: checked, complete, or refused with what and where.
+#pragma once
+
+#include "haptic_node/force_safety.h"
+#include "haptic_node/haptic_model.h"
+#include "organ/organ.h"
+#include "runtime/scene.h"
+
+namespace omentum::haptic {
+
+struct HapticSetup {
+  HapticModel model;
+  std::vector<std::uint32_t> tool_ids;  // one per tool of the model
+  ForceLimits limits;
+  std::string organ_hash;
+};
+
+/// The first organ of the scene, which is the one that tools touch, with all its tools. Throws
+/// std::runtime_error (scene without organ, organ file or tools, more points than can be solved) or
+/// geometry::InputError (organ file).
+HapticSetup make_setup(const runtime::Scene& scene);
+
+/// Reads every page of the tensors once, where they fit into half of the memory, so that the loop meets none
+/// for the first time on the disk. An ordinary thread's work: it takes as long as the disk does.
+void warm_up(const physics::SurfaceCompliance& compliance);
+
+}  // namespace omentum::haptic

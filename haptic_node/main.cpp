@@ -1,0 +1,26 @@
+// haptic_node: the hand's loop. ToolPose in, ToolForce and Contact out.
+#include "haptic_node/haptic_loop.h"
+#include "runtime/report.h"
+#include "runtime/signals.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+int main(int argc, char** argv) {
+  using namespace omentum;
+  CLI::App app("Feels the scene's organ with the tools' points and answers each pose with a force.",
+               "haptic_node");
+  haptic::HapticOptions options;
+  runtime::add_node_options(app, options.node);
+  app.add_option("--rate-hz", options.rate_hz, "rate without a device; a miss is counted against its period")
+      ->check(CLI::Range(50.0, 10000.0))
+      ->capture_default_str();
+
+  return runtime::node_main(app, argc, argv, [&] {
+    runtime::RateLoop pace(options.rate_hz);
+    runtime::StopSignal signal([&] { pace.stop(); });
+    haptic::HapticLoop loop(options, pace);
+    loop.run();
+    if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
+  });
+}

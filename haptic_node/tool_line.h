@@ -1,0 +1,91 @@
+// One tool's line to its device: poses in through the guard, forces out through the safety's exit.
+#pragma once
+
+#include "haptic_node/force_safety.h"
+#include "haptic_node/haptic_step.h"
+#include "haptic_node/pose_guard.h"
+#include "runtime/faults.h"
+#include "runtime/mailbox.h"
+
+#include <atomic>
+#include <string>
+
+namespace omentum::haptic {
+
+/// How a tool's poses came in.
+struct PoseCounts {
+  std::uint64_t accepted = 0, refused = 0, lost = 0;
+};
+
+/// All times are CLOCK_MONOTONIC of this process, ns, and are given: tests inject them.
+class ToolLine {
+ public:
+  /// A pose older than this has no tool behind it, ns: it lets go of the tissue. Long after the force is
+  /// gone, so that a hiccup of the network does not leave the tip inside the organ without contact.
+  static constexpr std::int64_t kLetGo_ns = 1'000'000'000;
+
+  ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults);
+
+  std::uint32_t id() const noexcept { return id_; }
+
+  // ---- the vendor's threads, one at a time for each message
+
+  /// Whether the pose was accepted: then the loop has something to do.
+  bool hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept;
+  void hear(const msg::DeviceInfo& info) noexcept;
+
+  // ---- any thread
+
+  /// After a reset the device's path starts elsewhere: its next pose is a new connection.
+  void expect_new_connection() noexcept { forget_.store(true, std::memory_order_release); }
+  PoseCounts counts() const noexcept;
+
+  // ---- the loop's thread
+
+  /// Takes the newest pose; what the step shall see of it. Returns whether it is a new one.
+  bool listen(std::int64_t now_ns, ToolInput& input) noexcept;
+  /// The force that may leave, with the echo of the pose that `listen` took.
+  const msg::ToolForce& answer(const ToolOutput& output, std::int64_t now_ns, double dt_s,
+                               bool paused) noexcept;
+
+  void restart() noexcept;
+  void clear_fault() noexcept { safety_.clear_fault(); }
+  bool engaged() const noexcept { return engaged_; }
+  /// The newest pose that counts; seq 0 and stamp 0 before the first.
+  msg::Echo echo() const noexcept;
+  const ForceSafety& safety() const noexcept { return safety_; }
+
+ private:
+  struct HeardPose {
+    msg::ToolPose pose{};
+    std::int64_t arrival_ns = 0;
+    std::uint64_t connection = 0;  // counts new connections; 0: none yet
+  };
+  struct DeviceLimits {
+    double force_n = 0, torque_nm = 0;
+  };
+
+  std::uint32_t id_;
+  double valid_for_s_;
+  runtime::FaultList& faults_;
+  std::array<std::string, kPoseVerdicts> refusals_;  // texts, made beforehand
+  std::string force_fault_;
+
+  // the vendor's threads
+  PoseGuard guard_;
+  std::uint64_t connections_ = 0;
+  std::atomic<bool> forget_{false};
+  std::atomic<std::uint64_t> accepted_{0}, refused_{0}, lost_{0};
+  runtime::Mailbox<HeardPose> poses_;
+  runtime::Mailbox<DeviceLimits> limits_;
+
+  // the loop's thread
+  ForceSafety safety_;
+  bool engaged_ = false, reconnected_ = false;
+  std::uint64_t connection_ = 0;
+  msg::ToolForce force_{};
+};
+
+ToolFrame frame_of(const msg::ToolPose& pose) noexcept;
+
+}  // namespace omentum::haptic
