@@ -43,7 +43,8 @@ void evaluate(const Move& move, double share, double duration_s, double& positio
 
 double minimum_jerk(double s) noexcept {
   s = std::clamp(s, 0.0, 1.0);
-  return s * s * s * (10 + s * (-15 + 6 * s));
+  // rounding may carry it past its end by the last digit
+  return std::min(s * s * s * (10 + s * (-15 + 6 * s)), 1.0);
 }
 
 double minimum_jerk_rate(double s) noexcept {

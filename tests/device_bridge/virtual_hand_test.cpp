@@ -1,0 +1,129 @@
+#include "device_bridge/virtual_hand.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace omentum::device {
+namespace {
+
+// A frictionless elastic wall whose surface is the plane through the press point.
+constexpr double kWall_n_m = 500;
+
+Wrench wall_force(const runtime::HandSpec& hand, const Vec3& tip) {
+  const Vec3 normal(hand.press_normal.data());
+  const double depth = (Vec3(hand.press_point.data()) - tip).dot(normal);
+  return {.force = normal * kWall_n_m * std::max(depth, 0.0)};
+}
+
+// The hand against the wall for `seconds`, the wall answering each pose in the next period.
+std::vector<Measurement> press(VirtualHand& device, const runtime::HandSpec& hand, double rate_hz,
+                               double seconds) {
+  std::vector<Measurement> measured;
+  for (int i = 0; i < static_cast<int>(seconds * rate_hz); ++i) {
+    if (!measured.empty()) device.command(wall_force(hand, measured.back().position));
+    measured.push_back(device.measure());
+  }
+  return measured;
+}
+
+TEST(VirtualHand, TheSteadyForceIsThatOfTwoSpringsAtEveryRate) {
+  const runtime::HandSpec hand;
+  const double expected_n = hand.depth_m * hand.stiffness_n_m * kWall_n_m / (hand.stiffness_n_m + kWall_n_m);
+  for (const double rate_hz : {250.0, 300.0, 1000.0, 2000.0}) {
+    VirtualHand device(hand, {}, rate_hz);
+    press(device, hand, rate_hz, script_period_s(hand));
+    EXPECT_NEAR(device.report()["hold_force_n"].get<double>(), expected_n, 1e-6 * expected_n) << rate_hz;
+    EXPECT_DOUBLE_EQ(device.report()["deepest_target_m"].get<double>(), hand.depth_m);
+  }
+}
+
+TEST(VirtualHand, TheWholePressFeelsTheSameAt300And1000Hz) {
+  const runtime::HandSpec hand;
+  VirtualHand slow(hand, {}, 300), fast(hand, {}, 1000);
+  const auto slow_way = press(slow, hand, 300, script_period_s(hand));
+  const auto fast_way = press(fast, hand, 1000, script_period_s(hand));
+  // the wall's answer is late by about a period: at the top speed of the press that is this much way
+  const double late_m = 15.0 / 8 * hand.depth_m / hand.press_s / 300;
+  for (std::size_t i = 0; 3 * i + 2 < slow_way.size(); ++i) {
+    const Vec3 difference = slow_way[3 * i + 2].position - fast_way[10 * i + 9].position;
+    ASSERT_LT(difference.norm(), 2 * late_m) << i;
+  }
+  EXPECT_NEAR(slow.report()["mean_force_n"].get<double>(), fast.report()["mean_force_n"].get<double>(),
+              0.02 * fast.report()["mean_force_n"].get<double>());
+}
+
+TEST(VirtualHand, AnUnstableForceIsSeenAsOscillation) {
+  // a wall that answers late and is far stiffer than the hand: the simulated hand must not hide it
+  const runtime::HandSpec hand;
+  VirtualHand device(hand, {}, 300);
+  std::vector<Measurement> measured{device.measure()};
+  double top_speed = 0;
+  for (int i = 0; i < 300 * 6; ++i) {
+    Wrench wrench = wall_force(hand, measured.back().position);
+    wrench.force *= 100;
+    device.command(wrench);
+    measured.push_back(device.measure());
+    top_speed = std::max(top_speed, measured.back().linear_velocity.norm());
+  }
+  EXPECT_GT(top_speed, 10 * hand.hover_m / hand.approach_s);
+}
+
+TEST(VirtualHand, PauseHoldsTheTargetAndTheScriptGoesOnAfterIt) {
+  const runtime::HandSpec hand;
+  VirtualHand device(hand, {}, 1000);
+  press(device, hand, 1000, 2.0);
+  device.pause(true);
+  press(device, hand, 1000, 1.0);
+  const Vec3 held = device.measure().position;
+  press(device, hand, 1000, 3.0);
+  EXPECT_LT((device.measure().position - held).norm(), 1e-9);
+  device.pause(false);
+  press(device, hand, 1000, 1.0);
+  EXPECT_GT((device.measure().position - held).norm(), 1e-3);
+}
+
+TEST(VirtualHand, RestartGlidesBackToTheStart) {
+  const runtime::HandSpec hand;
+  VirtualHand device(hand, {}, 1000);
+  const Vec3 start = device.measure().position;
+  press(device, hand, 1000, 8.0);  // while it slides
+  device.restart();
+  const double speed_limit = 0.2;  // m/s: 15/8 of 5 cm in one second, and the spring's way out of the wall
+  for (const Measurement& m : press(device, hand, 1000, 1.9))
+    ASSERT_LT(m.linear_velocity.norm(), speed_limit);
+  EXPECT_LT((device.measure().position - start).norm(), 1e-4);
+}
+
+TEST(VirtualHand, TheShaftPassesThroughTheTrocar) {
+  const runtime::HandSpec hand;
+  runtime::ToolSpec tool;
+  tool.trocar = runtime::Triple{0.05, -0.1, 0.2};
+  VirtualHand device(hand, tool, 1000);
+  Quat before = device.measure().orientation;
+  for (const Measurement& m : press(device, hand, 1000, script_period_s(hand))) {
+    const Vec3 shaft = m.orientation * Vec3::UnitZ(), to_pivot = Vec3(tool.trocar->data()) - m.position;
+    ASSERT_LT(shaft.cross(to_pivot.normalized()).norm(), 1e-9);
+    ASSERT_GT(shaft.dot(to_pivot), 0);
+    // the angular velocity is what turned it here since the last pose
+    const Vec3 turn = m.angular_velocity * 1e-3;
+    const Quat turned =
+        turn.norm() > 0 ? Quat(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * before : before;
+    ASSERT_LT(turned.angularDistance(m.orientation), 1e-7);
+    before = m.orientation;
+  }
+}
+
+TEST(VirtualHand, WithoutATrocarTheShaftStandsOnTheSurface) {
+  runtime::HandSpec hand;
+  hand.press_normal = {0, 0.6, 0.8};
+  VirtualHand device(hand, {}, 1000);
+  EXPECT_LT((device.measure().orientation * Vec3::UnitZ() - Vec3(0, 0.6, 0.8)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace omentum::device
