@@ -114,7 +114,9 @@ BuildResult build_organ(const Organ& organ, const std::filesystem::path& file, c
   const auto on_columns = [&](double fraction) {
     if (options.on_progress) options.on_progress("columns", fraction);
   };
-  const bool whole = fill(writer, organ, factor, free, {options.threads, on_columns, options.stopped});
+  const auto on_idle = [&](const void* begin, std::size_t bytes) { writer.release(begin, bytes); };
+  const bool whole =
+      fill(writer, organ, factor, free, {options.threads, on_columns, options.stopped, on_idle});
   result.columns_s = seconds_since(columns_start);
 
   report("writing", 0);

@@ -33,4 +33,13 @@ MappedFile::~MappedFile() {
   munmap(data_, size_);
 }
 
+void MappedFile::release(const void* begin, std::size_t bytes) const noexcept {
+  // whole pages only, seen from the mapping, which begins at one
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const auto offset = static_cast<std::size_t>(static_cast<const std::byte*>(begin) - data_);
+  const std::size_t first = (offset + page - 1) / page * page;
+  const std::size_t end = (offset + bytes) / page * page;
+  if (end > first) madvise(data_ + first, end - first, MADV_DONTNEED);
+}
+
 }  // namespace omentum::organ

@@ -18,6 +18,9 @@ class MappedFile {
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;
 
+  /// Lets the pages inside a range go; what was written stays with the file. Any thread.
+  void release(const void* begin, std::size_t bytes) const noexcept;
+
   std::byte* data() const { return data_; }
   std::size_t size() const { return size_; }
 

@@ -130,6 +130,10 @@ void OrganWriter::map_tensors(const Organ& organ) {
   bounds_ = {reinterpret_cast<float*>(mapped_->data() + bounds.offset), bounds.bytes / sizeof(float)};
 }
 
+void OrganWriter::release(const void* begin, std::size_t bytes) const noexcept {
+  mapped_->release(begin, bytes);
+}
+
 void OrganWriter::sync() const {
   if (fsync(lock_) != 0) fail(partial_, "cannot be written", errno);
 }

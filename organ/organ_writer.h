@@ -27,6 +27,9 @@ class OrganWriter {
   physics::ComplianceTiles<double> twofold() const { return twofold_; }
   std::span<float> bounds() const { return bounds_; }
 
+  /// Tiles that are not needed again soon: their pages stay with the file, but leave the process. Any thread.
+  void release(const void* begin, std::size_t bytes) const noexcept;
+
   /// Everything to the disk, then the finished mark, then the name. Throws geometry::InputError.
   void finish();
 

@@ -82,12 +82,14 @@ class BlockWriter {
         solver_(factor, plan.wanted, 3 * block_nodes),
         zero_(3 * block_nodes, 0.0) {}
 
-  void run(std::int32_t first_rank) {
+  // Returns the nodes whose columns it wrote.
+  std::span<const std::int32_t> run(std::int32_t first_rank) {
     const std::int32_t end = std::min<std::int32_t>(first_rank + block_nodes_, tiles_.mobile_count);
     const std::span nodes(plan_.order.data() + first_rank, plan_.order.data() + end);
     choose_columns(nodes);
     solver_.solve(positions_);
     for (std::int32_t c = 0; c < tiles_.cluster_count(); ++c) write_cluster(nodes, first_rank, c);
+    return nodes;
   }
 
  private:
@@ -195,6 +197,14 @@ class Progress {
   std::int32_t done_ = 0;
 };
 
+// Tells that whole columns are not needed again soon.
+template <class Scalar>
+void set_idle(const ComplianceTiles<Scalar>& tiles, std::int32_t first, std::int32_t count,
+              const TensorOptions& options) {
+  const std::size_t column_bytes = tiles.size() / tiles.mobile_count * sizeof(Scalar);
+  if (options.on_idle) options.on_idle(tiles.tile(first, 0), count * column_bytes);
+}
+
 // Every pair of nodes once: C_nk for rank[n] >= rank[k], a block of columns at a time.
 template <class Scalar>
 bool solve_columns(const Supernodes& factor, const Plan& plan, const ComplianceTiles<Scalar>& tiles,
@@ -207,8 +217,21 @@ bool solve_columns(const Supernodes& factor, const Plan& plan, const ComplianceT
   for (int w = 0; w < threads; ++w) writers.emplace_back(factor, plan, tiles, block_nodes);
   Progress progress(blocks, options.on_progress);
   return share_out(threads, blocks, options.stopped, [&](int w, std::int32_t block) {
-    writers[w].run(block * block_nodes);
+    for (const std::int32_t k : writers[w].run(block * block_nodes)) set_idle(tiles, k, 1, options);
     progress.one_more();
+  });
+}
+
+// The other half of the pairs. From the last cluster down: it has the most pairs, and its columns are then
+// complete.
+template <class Scalar>
+bool mirror_columns(const Plan& plan, const ComplianceTiles<Scalar>& tiles, const TensorOptions& options) {
+  const std::int32_t clusters = tiles.cluster_count();
+  return share_out(std::max(1, options.threads), clusters, options.stopped, [&](int, std::int32_t item) {
+    const std::int32_t cluster = clusters - 1 - item;
+    mirror_cluster<Scalar>(tiles, plan.rank, cluster);
+    const std::int32_t first = cluster * kClusterSize;
+    set_idle(tiles, first, std::min(kClusterSize, tiles.mobile_count - first), options);
   });
 }
 
@@ -221,6 +244,7 @@ bool bound_columns(const geometry::Surface& surface, const ComplianceTiles<Scala
   std::vector<std::vector<float>> scratch(threads, std::vector<float>(clusters * kClusterSize));
   return share_out(threads, tiles.mobile_count, options.stopped, [&](int w, std::int32_t k) {
     bound_column(tiles, reach, k, bounds.data() + static_cast<std::size_t>(k) * clusters, scratch[w]);
+    set_idle(tiles, k, 1, options);
   });
 }
 
@@ -234,12 +258,7 @@ bool compute_force_tensors(const StiffnessFactor& factor, const FreeDofs& free,
   const Supernodes supernodes = factor.supernodes();
   const Plan plan = plan_columns(supernodes, free, surface);
   if (!solve_columns(supernodes, plan, tiles, options)) return false;
-  // The last clusters have the most pairs: they go first.
-  const std::int32_t clusters = tiles.cluster_count();
-  const auto mirror = [&](int, std::int32_t item) {
-    mirror_cluster<Scalar>(tiles, plan.rank, clusters - 1 - item);
-  };
-  if (!share_out(std::max(1, options.threads), clusters, options.stopped, mirror)) return false;
+  if (!mirror_columns(plan, tiles, options)) return false;
   return bound_columns(surface, tiles, bounds, options);
 }
 

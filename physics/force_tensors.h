@@ -14,6 +14,9 @@ struct TensorOptions {
   std::function<void(double fraction)>
       on_progress;                // called by one worker at a time, from 0 to 1; may be empty
   std::function<bool()> stopped;  // asked by all workers between blocks; may be empty
+  // Called by all workers for tiles that are not needed again soon: a mapped file may let their pages go. May
+  // be empty.
+  std::function<void(const void* begin, std::size_t bytes)> on_idle;
 };
 
 /// Fills `tiles` with C_nk for all mobile surface nodes, and `bounds` ([mobile][clusters], as
