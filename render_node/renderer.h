@@ -76,12 +76,21 @@ struct Lighting {
   float radius_m = 0.1f;  // of what is lit: lengths in shading are shares of it
 };
 
+/// How much is spent on a frame (frame_rate_control.h). A panel is always drawn finely.
+enum class Quality : std::uint8_t {
+  kFine,    // smooth edges, soft shadows: pictures, and wherever a graphics card draws
+  kPlain,   // one sample per pixel
+  kCoarse,  // and fewer pixels, stretched
+};
+
 /// One picture of the scene.
 struct Frame {
+  Quality quality = Quality::kFine;
   View view;
   Lighting lighting;
   std::vector<DrawItem> items;
   bool through_endoscope = false;  // round field of view
+  float middle = 0.5f;             // of the view, share of the width: a panel may cover the left
 };
 
 /// Eight-bit sRGB with opaque alpha, rows from top to bottom.

@@ -117,9 +117,10 @@ Camera SceneView::camera(const ViewChoices& choices, std::span<const ToolNow> to
 Frame SceneView::frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const {
   const Camera from = camera(choices, tools);
   Frame frame;
-  frame.view = view_of(from, ball_, renderer_.size().aspect(), choices.endoscope ? 0 : panel_share / 2);
+  frame.view = view_of(from, ball_, renderer_.size().aspect(), panel_share / 2);
   frame.lighting = light_scene(from, {ball_.centre, kShadowReach * ball_.radius});
   frame.through_endoscope = choices.endoscope;
+  frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const DrawnOrgan& organ : organs_)
     frame.items.push_back({organ.mesh, Look::kTissue, Mat4f::Identity(), kLiver});

@@ -17,7 +17,8 @@
 namespace omentum::render::gl {
 namespace {
 
-constexpr int kSamples = 4;                       // per pixel: smooth edges of instruments
+constexpr int kSamples = 4;                       // per pixel of a fine frame: smooth edges of instruments
+constexpr float kCoarseScale = 0.6f;              // of a coarse frame's sides: a third of the pixels
 constexpr int kShadowSide = 1024;                 // texels; a texel is 0.3 mm on a liver (shaders: lit())
 constexpr int kPatternSide = 64;                  // texels: 1 MB
 constexpr int kShadowUnit = 0, kPatternUnit = 1;  // texture units
@@ -92,9 +93,10 @@ class GlRenderer final : public Renderer {
 
   void draw(const Frame& frame) override {
     fit_targets();
+    const RenderTarget& scene = target(frame.quality);
     cast_shadows(frame);
-    draw_scene(frame);
-    resolve();
+    draw_scene(frame, scene);
+    resolve(scene);
     panel_->draw();
   }
 
@@ -129,13 +131,26 @@ class GlRenderer final : public Renderer {
  private:
   unsigned output() const { return output_ ? output_->framebuffer() : 0; }
 
+  // a window may have been resized
   void fit_targets() {
     const Size size = context_->size();
-    if (scene_ && scene_->size() == size) return;
+    if (fitted_ == size) return;
+    fitted_ = size;
+    for (auto& target : targets_) target.reset();
+    if (!has_window()) output_.emplace(size, 0, false);
+  }
+
+  const RenderTarget& target(Quality quality) {
+    auto& target = targets_[static_cast<std::size_t>(quality)];
+    if (target) return *target;
     GLint most = 0;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
-    scene_.emplace(size, std::min(kSamples, most), true);
-    if (!has_window()) output_.emplace(size, 0, false);
+    Size size = fitted_;
+    if (quality == Quality::kCoarse) {
+      size = {std::max(1, static_cast<int>(kCoarseScale * static_cast<float>(size.width))),
+              std::max(1, static_cast<int>(kCoarseScale * static_cast<float>(size.height)))};
+    }
+    return target.emplace(size, quality == Quality::kFine ? std::min(kSamples, most) : 0, true);
   }
 
   void cast_shadows(const Frame& frame) {
@@ -153,9 +168,10 @@ class GlRenderer final : public Renderer {
     glDisable(GL_POLYGON_OFFSET_FILL);
   }
 
-  void draw_scene(const Frame& frame) {
-    glBindFramebuffer(GL_FRAMEBUFFER, scene_->framebuffer());
-    glViewport(0, 0, scene_->size().width, scene_->size().height);
+  void draw_scene(const Frame& frame, const RenderTarget& scene) {
+    drawn_ = scene.size();
+    glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer());
+    glViewport(0, 0, drawn_.width, drawn_.height);
     glClear(GL_DEPTH_BUFFER_BIT);
     shadow_.bind_texture(kShadowUnit);
     pattern_.bind(kPatternUnit);
@@ -201,8 +217,9 @@ class GlRenderer final : public Renderer {
     program.set("towards_key", frame.lighting.towards_key);
     program.set("light_from_W", frame.lighting.clip_from_W);
     program.set("unit_length", frame.lighting.radius_m);
-    program.set("picture_size", static_cast<float>(scene_->size().width),
-                static_cast<float>(scene_->size().height));
+    program.set("picture_size", static_cast<float>(drawn_.width), static_cast<float>(drawn_.height));
+    program.set("middle", frame.middle);
+    program.set("soft_shadows", frame.quality == Quality::kFine ? 1.0f : 0.0f);
     program.set("scope", frame.through_endoscope ? 1.0f : 0.0f);
     program.set("shadow_map", kShadowUnit);
     program.set("pattern", kPatternUnit);
@@ -215,12 +232,15 @@ class GlRenderer final : public Renderer {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  void resolve() {
-    const auto [width, height] = scene_->size();
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, scene_->framebuffer());
+  void resolve(const RenderTarget& scene) {
+    const auto [from_width, from_height] = scene.size();
+    const auto [width, height] = fitted_;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, scene.framebuffer());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, output());
-    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, from_width, from_height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                      scene.size() == fitted_ ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_FRAMEBUFFER, output());
+    glViewport(0, 0, width, height);
   }
 
   const MeshBuffer& mesh(MeshId id) const { return meshes_[static_cast<std::size_t>(id)]; }
@@ -232,7 +252,10 @@ class GlRenderer final : public Renderer {
   ShadowMap shadow_;
   unsigned no_vertices_ = 0;
   std::vector<MeshBuffer> meshes_;
-  std::optional<RenderTarget> scene_, output_;
+  Size fitted_;                                         // what the targets were made for
+  Size drawn_;                                          // of the target being drawn
+  std::array<std::optional<RenderTarget>, 3> targets_;  // by quality, made when first needed
+  std::optional<RenderTarget> output_;                  // off-screen only
   std::optional<PanelBackend> panel_;
 };
 

@@ -4,6 +4,8 @@ uniform vec3 towards_key;    // unit, in W
 uniform mat4 light_from_W;   // clip coordinates of the shadow map
 uniform sampler2DShadow shadow_map;
 uniform vec2 picture_size;   // pixels
+uniform float middle;        // of the view, share of the width
+uniform float soft_shadows;  // 1: four samples, 0: one
 uniform float scope;         // 1: seen through an endoscope, inside a body; 0: on a table
 uniform float unit_length;   // radius of what is looked at, m
 
@@ -18,7 +20,7 @@ float grain(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.0671
 
 // The empty picture: dark, lighter behind the organ, darker in the corners.
 vec3 backdrop(vec2 pixel) {
-  vec2 p = pixel / picture_size - vec2(0.5, 0.52);
+  vec2 p = pixel / picture_size - vec2(middle, 0.52);
   p.x *= min(picture_size.x / picture_size.y, 1.7);
   float fall = 1.0 / (1.0 + 7.0 * dot(p, p));
   fall *= fall;
@@ -40,6 +42,7 @@ float lit(vec3 p_W, vec3 n, float n_dot_l) {
   vec3 q = p_W + n * unit_length * mix(0.022, 0.006, clamp(n_dot_l, 0.0, 1.0));
   vec3 s = (light_from_W * vec4(q, 1.0)).xyz * 0.5 + 0.5;
   if (any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)))) return 1.0;
+  if (soft_shadows < 0.5) return texture(shadow_map, s);
   float reach = 1.9 / 1024.0;
   float turn = 2.0 * pi * grain(gl_FragCoord.xy);
   vec2 a = reach * vec2(cos(turn), sin(turn));

@@ -1,0 +1,32 @@
+// The force that a hand felt during the last seconds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace omentum::render {
+
+/// Samples of one tool, oldest first. One thread.
+class ForceHistory {
+ public:
+  static constexpr double kSpanS = 10;
+
+  struct Sample {
+    double time_s = 0;
+    float force_n = 0;
+  };
+  /// Times must not decrease; what is older than the span is forgotten.
+  void add(double time_s, double force_n);
+  void clear() { samples_.clear(); }
+  const std::vector<Sample>& samples() const { return samples_; }
+  float newest_n() const { return samples_.empty() ? 0 : samples_.back().force_n; }
+  float largest_n() const;
+
+ private:
+  std::vector<Sample> samples_;
+};
+
+/// The upper end of a force axis that holds `largest_n`: 1, 2 or 5 times a power of ten, at least 1 N.
+double force_axis_n(double largest_n);
+
+}  // namespace omentum::render

@@ -1,0 +1,35 @@
+#include "render_node/gl/display.h"
+
+#include "render_node/gl/gl_context.h"
+#include "render_node/gl/gl_renderer.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace omentum::render::gl {
+namespace {
+
+// Mesa's software OpenGL would take every core for each frame. One thread beside ours leaves the others to
+// the 1 kHz loops; whoever set the variable knows better. Drivers of graphics cards ignore it.
+void leave_cores_to_others() {
+  setenv("LP_NUM_THREADS", "1", 0);
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> open_display(bool headless, Size size, const std::string& title,
+                                       const std::filesystem::path& out) {
+  leave_cores_to_others();
+  const bool chosen = size != Size{};
+  if (!headless) {
+    try {
+      return open_window(chosen ? size : kWindowSize, title);
+    } catch (const DisplayError& error) {
+      std::printf("no display (%s): writing pictures to %s instead\n", error.what(), out.c_str());
+      std::fflush(stdout);
+    }
+  }
+  return open_offscreen(chosen ? size : kOffscreenSize);
+}
+
+}  // namespace omentum::render::gl

@@ -1,0 +1,19 @@
+// A window where there is a display, memory where there is none.
+#pragma once
+
+#include "render_node/renderer.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace omentum::render::gl {
+
+inline constexpr Size kWindowSize{1280, 800};
+inline constexpr Size kOffscreenSize{960, 600};
+
+/// `size` 0x0: the default above. Without a display, says so on stdout and writes pictures to `out` instead.
+/// Throws DisplayError where neither a window nor an off-screen picture can be drawn.
+std::unique_ptr<Renderer> open_display(bool headless, Size size, const std::string& title,
+                                       const std::filesystem::path& out);
+
+}  // namespace omentum::render::gl

@@ -1,0 +1,127 @@
+#include "render_node/inbox.h"
+
+#include "runtime/clock.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace omentum::render {
+namespace {
+
+constexpr std::int64_t kForgottenNs = 10'000'000'000;  // a node silent for so long leaves the panel
+
+}  // namespace
+
+void check_scene_info(const msg::SceneInfo& info, const std::vector<LoadedOrgan>& organs) {
+  if (info.protocol != msg::PROTOCOL_VERSION) {
+    throw std::runtime_error("deform_node speaks protocol " + std::to_string(info.protocol) + "; expected " +
+                             std::to_string(msg::PROTOCOL_VERSION));
+  }
+  if (info.organs.size() != organs.size()) {
+    throw std::runtime_error("deform_node serves " + std::to_string(info.organs.size()) +
+                             " organs of scene " + info.scene + "; expected " +
+                             std::to_string(organs.size()));
+  }
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    if (info.organs[i].hash != organs[i].hash) {
+      throw std::runtime_error("organ " + organs[i].name + ": deform_node serves hash " +
+                               info.organs[i].hash + ", this process loaded " + organs[i].hash);
+    }
+  }
+}
+
+void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::vector<HeardStatus>& heard) {
+  std::erase_if(heard, [&](const HeardStatus& h) { return now_ns - h.arrived_ns > kForgottenNs; });
+  for (HeardStatus& h : heard) {
+    const bool same_run = h.status.instance == status.instance;
+    // one deform_node and one picture are the rule, so a newer run takes the older one's place; hands may be
+    // many
+    const bool successor = h.status.kind != msg::NODE_HAPTIC && h.status.kind != msg::NODE_DEVICE;
+    if (h.status.kind != status.kind || !(same_run || successor)) continue;
+    if (status.instance >= h.status.instance) h = {status, now_ns};
+    return;
+  }
+  heard.push_back({status, now_ns});
+  std::sort(heard.begin(), heard.end(), [](const HeardStatus& a, const HeardStatus& b) {
+    return std::pair(a.status.kind, a.status.instance) < std::pair(b.status.kind, b.status.instance);
+  });
+}
+
+void obey(const msg::SessionCommand& command, SessionState& session) {
+  if (command.seq == session.last_seq) return;
+  session.last_seq = command.seq;
+  if (command.command == msg::COMMAND_START) session.paused = false;
+  if (command.command == msg::COMMAND_PAUSE) session.paused = true;
+  if (command.command == msg::COMMAND_RESET) ++session.resets;
+}
+
+Inbox::OrganBox::OrganBox(std::size_t node_count) : assembly(node_count) {}
+
+Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, runtime::FaultList& faults)
+    : faults_(faults),
+      poses_(bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, runtime::steady_now_ns()); }),
+      forces_(bus) {
+  for (const LoadedOrgan& organ : organs) organs_.push_back(std::make_unique<OrganBox>(organ.node_count));
+  contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) {
+    if (contact.tool < contacts_.size()) contacts_[contact.tool].post(contact);
+  });
+  state_reader_ = bus.reader<msg::OrganState>([this](const msg::OrganState& block) { take_state(block); });
+  status_reader_ =
+      bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) { take_status(status); });
+  command_reader_ =
+      bus.reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { take_command(c); });
+  scene_reader_ = bus.reader<msg::SceneInfo>([this](const msg::SceneInfo& info) { scene_info_.post(info); });
+  topology_reader_ =
+      bus.reader<msg::Topology>([this](const msg::Topology& topology) { topology_.post(topology); });
+}
+
+void Inbox::take_state(const msg::OrganState& block) {
+  if (block.organ >= organs_.size())
+    return faults_.raise("organ state of an organ that the scene does not have");
+  OrganBox& organ = *organs_[block.organ];
+  const auto outcome = organ.assembly.take(block, [&](const AssembledState& state) {
+    if (state.missing_blocks > 0) incomplete_states_.fetch_add(1, std::memory_order_relaxed);
+    organ.newest.post(state);
+  });
+  if (outcome == StateAssembly::Outcome::kMisfit)
+    faults_.raise("organ state that does not fit the organ's surface");
+}
+
+void Inbox::take_status(const msg::NodeStatus& status) {
+  remember_status(status, runtime::steady_now_ns(), heard_);
+  statuses_.post(heard_);
+}
+
+void Inbox::take_command(const msg::SessionCommand& command) {
+  obey(command, session_);
+  sessions_.post(session_);
+}
+
+const msg::Contact& Inbox::contact(std::uint32_t tool) {
+  contacts_[tool].fetch();
+  return contacts_[tool].value();
+}
+
+const AssembledState* Inbox::fetch_state(std::size_t organ) {
+  auto& newest = organs_[organ]->newest;
+  return newest.fetch() ? &newest.value() : nullptr;
+}
+
+const std::vector<HeardStatus>& Inbox::statuses() {
+  statuses_.fetch();
+  return statuses_.value();
+}
+
+const SessionState& Inbox::session() {
+  sessions_.fetch();
+  return sessions_.value();
+}
+
+const msg::SceneInfo* Inbox::fetch_scene_info() {
+  return scene_info_.fetch() ? &scene_info_.value() : nullptr;
+}
+const msg::Topology* Inbox::fetch_topology() {
+  return topology_.fetch() ? &topology_.value() : nullptr;
+}
+
+}  // namespace omentum::render

@@ -1,0 +1,100 @@
+// Everything that render_node hears, handed from the vendor's threads to the one that draws.
+#pragma once
+
+#include "render_node/pose_arrivals.h"
+#include "render_node/state_assembly.h"
+#include "runtime/faults.h"
+#include "runtime/mailbox.h"
+#include "transport/latest.h"
+
+#include <optional>
+
+namespace omentum::render {
+
+/// An organ as this process loaded it.
+struct LoadedOrgan {
+  std::string name;
+  std::string hash;
+  std::size_t node_count = 0;  // of its surface
+};
+
+/// Throws std::runtime_error with both sides when deform_node serves another protocol or other organs.
+void check_scene_info(const msg::SceneInfo& info, const std::vector<LoadedOrgan>& organs);
+
+/// A node's newest status and when it came (steady clock of this process).
+struct HeardStatus {
+  msg::NodeStatus status;
+  std::int64_t arrived_ns = 0;
+};
+/// Keeps the newest run of each kind of node and, of haptic and device nodes, one per instance while it still
+/// speaks. `now_ns`: when `status` came.
+void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::vector<HeardStatus>& heard);
+
+/// What commands amount to.
+struct SessionState {
+  bool paused = false;
+  std::uint64_t resets = 0;
+  std::uint64_t last_seq = 0;
+};
+/// A command that was already obeyed (it is sent twice) changes nothing.
+void obey(const msg::SessionCommand& command, SessionState& session);
+
+/// Subscriptions. Callbacks only copy into mailboxes; all public calls are for the drawing thread, none
+/// waits.
+class Inbox {
+ public:
+  Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, runtime::FaultList& faults);
+
+  bool pose(std::uint32_t tool, transport::Arrived<msg::ToolPose>& out) const {
+    return poses_.load(tool, out);
+  }
+  bool force(std::uint32_t tool, transport::Arrived<msg::ToolForce>& out) const {
+    return forces_.load(tool, out);
+  }
+  /// When the pose came that an output echoes.
+  std::optional<std::int64_t> arrival_of(std::uint32_t tool, std::uint64_t seq) const {
+    return tool < arrivals_.size() ? arrivals_[tool].find(seq) : std::nullopt;
+  }
+  const msg::Contact& contact(std::uint32_t tool);
+  /// The newest state of an organ if one came since the last call.
+  const AssembledState* fetch_state(std::size_t organ);
+  const std::vector<HeardStatus>& statuses();
+  const SessionState& session();
+  const msg::SceneInfo* fetch_scene_info();
+  const msg::Topology* fetch_topology();
+  std::uint64_t incomplete_states() const { return incomplete_states_.load(std::memory_order_relaxed); }
+
+ private:
+  struct OrganBox {
+    explicit OrganBox(std::size_t node_count);
+    StateAssembly assembly;
+    runtime::Mailbox<AssembledState> newest;
+  };
+  void take_state(const msg::OrganState& block);
+  void take_status(const msg::NodeStatus& status);
+  void take_command(const msg::SessionCommand& command);
+
+  runtime::FaultList& faults_;
+  std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
+  transport::LatestByTool<msg::ToolPose> poses_;
+  transport::LatestByTool<msg::ToolForce> forces_;
+  std::array<runtime::Mailbox<msg::Contact>, msg::MAX_TOOLS> contacts_;
+  std::vector<std::unique_ptr<OrganBox>> organs_;
+  std::vector<HeardStatus> heard_;  // the status callback's own
+  SessionState session_;            // the command callback's own
+  runtime::Mailbox<std::vector<HeardStatus>> statuses_;
+  runtime::Mailbox<SessionState> sessions_;
+  runtime::Mailbox<msg::SceneInfo> scene_info_;
+  runtime::Mailbox<msg::Topology> topology_;
+  std::atomic<std::uint64_t> incomplete_states_{0};
+
+  // last: their callbacks use what is above
+  std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;
+  std::unique_ptr<transport::Reader<msg::OrganState>> state_reader_;
+  std::unique_ptr<transport::Reader<msg::NodeStatus>> status_reader_;
+  std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
+  std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;
+  std::unique_ptr<transport::Reader<msg::Topology>> topology_reader_;
+};
+
+}  // namespace omentum::render

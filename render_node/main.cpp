@@ -1,0 +1,59 @@
+// render_node: shows the session. A window, or pictures where there is no display.
+#include "render_node/gl/display.h"
+#include "render_node/render_loop.h"
+#include "runtime/report.h"
+#include "runtime/signals.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+#include <cstdio>
+
+namespace {
+
+// "WxH" to pixels; an error message, or empty.
+std::string parse_size(const std::string& text, omentum::render::Size& size) {
+  char rest = 0;
+  const int found = std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest);
+  if (found == 2 && size.width >= 64 && size.height >= 64 && size.width <= 8192 && size.height <= 8192)
+    return {};
+  return "found " + text + ", expected WIDTHxHEIGHT from 64x64 to 8192x8192";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace omentum;
+  CLI::App app("Shows the scene's organs, instruments and forces in a window or as PNG pictures.",
+               "render_node");
+  render::RenderOptions options;
+  runtime::add_node_options(app, options.node);
+  std::string size;
+  app.add_flag("--headless", options.headless, "draw off-screen even where there is a display");
+  app.add_option("--size", size, "of the picture, default 1280x800 in a window and 960x600 off-screen")
+      ->check([&](const std::string& text) { return parse_size(text, options.size); })
+      ->type_name("WxH");
+  app.add_option("--fps", options.fps, "most frames per second")
+      ->check(CLI::Range(1.0, 240.0))
+      ->capture_default_str();
+  app.add_option("--seconds", options.seconds, "end after so long (0: never)")->check(CLI::NonNegativeNumber);
+  app.add_option("--out", options.out, "folder for pictures (off-screen: the current one)")->type_name("DIR");
+  app.add_option("--picture-period-s", options.picture_period_s,
+                 "between two pictures (0: none but the last)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--no-panel", options.no_panel, "draw the scene only");
+
+  return runtime::node_main(app, argc, argv, [&] {
+    runtime::RateLoop pace(options.fps);
+    runtime::StopSignal signal([&] { pace.stop(); });
+    setpriority(PRIO_PROCESS, 0, 5);  // pictures must never take the force loop's time
+    const auto folder = options.out.empty() ? std::filesystem::path(".") : options.out;
+    const auto renderer = render::gl::open_display(options.headless, options.size, "Omentum", folder);
+    if (!renderer->has_window()) options.out = folder;
+    render::RenderLoop loop(options, *renderer, pace);
+    loop.run();
+    if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
+  });
+}

@@ -1,0 +1,220 @@
+#include "render_node/panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace omentum::render {
+namespace {
+
+constexpr float kCurveHeight = 74;  // pixels
+const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
+const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
+
+ImVec4 display(const Vec3f& linear) {
+  return {std::sqrt(linear.x()), std::sqrt(linear.y()), std::sqrt(linear.z()), 1};  // as the film does
+}
+
+void right_aligned(const char* text, const ImVec4* colour = nullptr) {
+  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, space));
+  if (colour) {
+    ImGui::TextColored(*colour, "%s", text);
+  } else {
+    ImGui::TextUnformatted(text);
+  }
+}
+
+template <class... Args>
+std::string format(const char* pattern, Args... args) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), pattern, args...);
+  return text.data();
+}
+
+std::string duration(double us) {
+  return us < 1000 ? format("%.0f us", us) : format("%.1f ms", us / 1000);
+}
+
+void header(const PanelView& view) {
+  ImGui::TextUnformatted(view.scene.c_str());
+  ImGui::SameLine();
+  if (view.paused) {
+    right_aligned("paused", &kAmber);
+  } else {
+    right_aligned(format("%.1f s", view.time_s).c_str());
+  }
+  ImGui::Separator();
+}
+
+void node_table(const std::vector<NodeRow>& nodes) {
+  if (nodes.empty()) {
+    ImGui::TextDisabled("waiting for the other nodes");
+    return;
+  }
+  if (!ImGui::BeginTable("nodes", 4, ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("node", ImGuiTableColumnFlags_WidthStretch, 1.05f);
+  ImGui::TableSetupColumn("rate", ImGuiTableColumnFlags_WidthStretch, 1.15f);
+  ImGui::TableSetupColumn("compute", ImGuiTableColumnFlags_WidthStretch, 1.2f);
+  ImGui::TableSetupColumn("missed", ImGuiTableColumnFlags_WidthStretch, 0.95f);
+  ImGui::TableNextRow();
+  for (const char* title : {"", "rate", "step", "missed"}) {
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
+    *title ? right_aligned(title) : ImGui::TextUnformatted(title);
+    ImGui::PopStyleColor();
+  }
+  for (const NodeRow& row : nodes) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.name.c_str());
+    ImGui::TableNextColumn();
+    if (row.silent) {
+      right_aligned("silent", &kRed);
+      continue;
+    }
+    right_aligned(format("%.0f Hz", row.rate_hz).c_str());
+    ImGui::TableNextColumn();
+    right_aligned(duration(row.compute_us).c_str());
+    ImGui::TableNextColumn();
+    const std::string missed = format("%llu", static_cast<unsigned long long>(row.missed));
+    right_aligned(missed.c_str(), row.misses_matter ? &kAmber : nullptr);
+  }
+  ImGui::EndTable();
+}
+
+void latency(const char* name, double p50_us, double p99_us) {
+  if (p50_us <= 0) return;
+  ImGui::TextUnformatted(name);
+  ImGui::SameLine();
+  right_aligned((duration(p50_us) + "  (p99 " + duration(p99_us) + ")").c_str());
+}
+
+void draw_curves(const PanelView& view) {
+  float largest = 0;
+  for (const ToolRow& tool : view.tools) largest = std::max(largest, tool.largest_n);
+  const double top = force_axis_n(largest);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, kCurveHeight};
+  ImGui::Dummy(size);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
+  for (const float share : {0.25f, 0.5f, 0.75f}) {
+    const float y = corner.y + share * size.y;
+    draw.AddLine({corner.x, y}, {corner.x + size.x, y}, IM_COL32(255, 255, 255, 16));
+  }
+  for (const ToolRow& tool : view.tools) {
+    std::vector<ImVec2> line;
+    for (const auto& sample : tool.curve) {
+      const double age = view.time_s - sample.time_s;
+      line.push_back({corner.x + size.x * static_cast<float>(1 - age / ForceHistory::kSpanS),
+                      corner.y + (size.y - 2) * static_cast<float>(1 - sample.force_n / top) + 1});
+    }
+    draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+    draw.AddPolyline(line.data(), static_cast<int>(line.size()), ImGui::GetColorU32(display(tool.colour)), 0,
+                     1.8f);
+    draw.PopClipRect();
+  }
+  const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  draw.AddText({corner.x + 5, corner.y + 2}, dim, format("%g N", top).c_str());
+  draw.AddText({corner.x + 5, corner.y + size.y - 18}, dim, "10 s");
+}
+
+void swatch(const Vec3f& colour) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = 0.62f * ImGui::GetFontSize();
+  const float top = at.y + 0.25f * ImGui::GetFontSize();
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side},
+                                            ImGui::GetColorU32(display(colour)), 2);
+  ImGui::Dummy({side, ImGui::GetFontSize()});
+  ImGui::SameLine();
+}
+
+void forces(const PanelView& view) {
+  ImGui::Spacing();
+  for (const ToolRow& tool : view.tools) {
+    swatch(tool.colour);
+    ImGui::TextUnformatted(tool.name.c_str());
+    ImGui::SameLine();
+    std::string words;
+    for (const std::string& word : tool.state) words += (words.empty() ? "" : ", ") + word;
+    if (!words.empty()) {
+      if (tool.fault) {
+        ImGui::TextColored(kRed, "%s", words.c_str());
+      } else {
+        ImGui::TextDisabled("%s", words.c_str());
+      }
+      ImGui::SameLine();
+    }
+    right_aligned(tool.present ? format("%.2f N", static_cast<double>(tool.force_n)).c_str() : "absent");
+  }
+  draw_curves(view);
+}
+
+void organ(const PanelView& view) {
+  ImGui::TextUnformatted("deepest press");
+  ImGui::SameLine();
+  const std::string depth = format("%.1f mm", view.deepest_mm);
+  right_aligned(depth.c_str(), view.beyond_linear() ? &kAmber : nullptr);
+  if (view.beyond_linear()) ImGui::TextColored(kAmber, "beyond linear range (%.0f mm)", view.linear_limit_mm);
+  if (view.incomplete_states > 0) {
+    ImGui::TextColored(kAmber, "%llu states came incomplete",
+                       static_cast<unsigned long long>(view.incomplete_states));
+  }
+  if (view.arrows) ImGui::TextDisabled("arrow: force on the hand, 20 mm = 1 N");
+}
+
+void fault_list(const std::vector<std::string>& faults) {
+  if (faults.empty()) return;
+  constexpr std::size_t kShown = 4;  // the panel stays small; the report has all
+  ImGui::Separator();
+  ImGui::PushStyleColor(ImGuiCol_Text, kRed);
+  ImGui::PushTextWrapPos(0);
+  for (std::size_t i = 0; i < std::min(kShown, faults.size()); ++i) ImGui::TextUnformatted(faults[i].c_str());
+  if (faults.size() > kShown) ImGui::Text("and %zu more", faults.size() - kShown);
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+PanelActions buttons(const PanelView& view) {
+  PanelActions actions;
+  ImGui::Separator();
+  const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  if (ImGui::Button(view.paused ? "Start" : "Pause", {third, 0}))
+    (view.paused ? actions.start : actions.pause) = true;
+  ImGui::SameLine();
+  actions.reset = ImGui::Button("Reset", {third, 0});
+  ImGui::SameLine();
+  actions.clear_fault = ImGui::Button("Clear fault", {third, 0});
+  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers;
+  actions.switch_camera = ImGui::Checkbox("endoscope", &endoscope);
+  ImGui::SameLine();
+  actions.switch_arrows = ImGui::Checkbox("arrows", &arrows);
+  ImGui::SameLine();
+  actions.switch_markers = ImGui::Checkbox("nodes", &markers);
+  ImGui::TextDisabled("drag: turn   right drag: move   wheel: zoom");
+  return actions;
+}
+
+}  // namespace
+
+PanelActions lay_out_panel(const PanelView& view) {
+  ImGui::SetNextWindowPos({kPanelMargin, kPanelMargin});
+  ImGui::SetNextWindowSize({kPanelWidth, 0});
+  ImGui::Begin("omentum", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  header(view);
+  node_table(view.nodes);
+  latency("hand to force", view.hand_to_force_us, view.hand_to_force_p99_us);
+  latency("hand to picture", view.hand_to_picture_us, view.hand_to_picture_p99_us);
+  forces(view);
+  organ(view);
+  fault_list(view.faults);
+  const PanelActions actions = view.interactive ? buttons(view) : PanelActions{};
+  ImGui::End();
+  return actions;
+}
+
+}  // namespace omentum::render

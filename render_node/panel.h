@@ -1,0 +1,16 @@
+// The panel, laid out with Dear ImGui.
+#pragma once
+
+#include "render_node/panel_view.h"
+
+namespace omentum::render {
+
+inline constexpr float kPanelWidth = 306;  // pixels
+inline constexpr float kPanelMargin = 10;  // pixels, to the picture's edge
+
+/// Lays the panel out in the current Dear ImGui frame and tells what was pressed. Without somebody to press
+/// them
+/// (`interactive` false) it has no buttons. The drawing thread.
+PanelActions lay_out_panel(const PanelView& view);
+
+}  // namespace omentum::render

@@ -1,0 +1,60 @@
+#include "render_node/panel_view.h"
+
+#include <array>
+
+namespace omentum::render {
+namespace {
+
+constexpr std::uint64_t kSeriousMisses = 1000;  // one in so many ticks
+
+std::string node_name(std::uint32_t kind) {
+  constexpr std::array<const char*, 5> kNames{"haptic", "deform", "render", "device", "launcher"};
+  return kind < kNames.size() ? kNames[kind] : "node " + std::to_string(kind);
+}
+
+}  // namespace
+
+std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64_t now_ns) {
+  std::vector<NodeRow> rows;
+  for (const auto& [status, arrived_ns] : heard) {
+    NodeRow& row = rows.emplace_back();
+    row.name = node_name(status.kind);
+    row.silent = now_ns - arrived_ns > kSilentNs;
+    row.rate_hz = status.period_us.p50 > 0 ? 1e6 / status.period_us.p50 : status.rate_hz;
+    row.compute_us = status.compute_us.p50;
+    row.compute_p99_us = status.compute_us.p99;
+    row.missed = status.missed;
+    // a picture that comes later takes nothing from the hand
+    row.misses_matter = status.kind != msg::NODE_RENDER && kSeriousMisses * status.missed > status.ticks;
+  }
+  return rows;
+}
+
+std::vector<std::string> all_faults(const std::vector<HeardStatus>& heard) {
+  std::vector<std::string> faults;
+  for (const auto& [status, arrived_ns] : heard) {
+    for (const std::string& fault : status.faults) faults.push_back(node_name(status.kind) + ": " + fault);
+  }
+  return faults;
+}
+
+std::vector<std::string> force_state_words(std::uint32_t state) {
+  struct Word {
+    std::uint32_t bit;
+    const char* text;
+  };
+  constexpr std::array<Word, 7> kWords{{{msg::FORCE_FAULT, "FAULT"},
+                                        {msg::FORCE_STALE, "stale"},
+                                        {msg::FORCE_PAUSED, "paused"},
+                                        {msg::FORCE_CLAMPED, "clamped"},
+                                        {msg::FORCE_SLEW, "slew-limited"},
+                                        {msg::FORCE_RAMP, "fading in"},
+                                        {msg::FORCE_PASSIVITY, "damped"}}};
+  std::vector<std::string> words;
+  for (const auto& [bit, text] : kWords) {
+    if (state & bit) words.emplace_back(text);
+  }
+  return words;
+}
+
+}  // namespace omentum::render

@@ -1,0 +1,73 @@
+// What the panel says, as data: figures of the nodes, forces, faults.
+#pragma once
+
+#include "render_node/force_history.h"
+#include "render_node/inbox.h"
+#include "render_node/renderer.h"
+
+#include <string>
+#include <vector>
+
+namespace omentum::render {
+
+/// A node's line.
+struct NodeRow {
+  std::string name;
+  bool silent = false;    // no status for kSilentNs
+  double rate_hz = 0;     // measured: one over the median period; the configured one before the first tick
+  double compute_us = 0;  // median
+  double compute_p99_us = 0;
+  std::uint64_t missed = 0;
+  bool misses_matter = false;  // of a real-time loop, more than one in a thousand
+};
+inline constexpr std::int64_t kSilentNs = 2'500'000'000;  // statuses come at 1 Hz at least
+
+/// A tool's line.
+struct ToolRow {
+  std::string name;
+  Vec3f colour;  // linear
+  bool present = false;
+  float force_n = 0;
+  float largest_n = 0;
+  std::vector<std::string> state;  // what force safety did: "clamped", "stale" ...
+  bool fault = false;              // latched, cleared by a person
+  std::vector<ForceHistory::Sample> curve;
+};
+
+struct PanelView {
+  std::string scene;
+  double time_s = 0;
+  bool paused = false;
+  bool interactive = false;  // somebody could press a button
+  bool endoscope = false, arrows = true, markers = true;
+  std::vector<NodeRow> nodes;
+  std::vector<ToolRow> tools;
+  // from a pose's arrival here to the arrival of its force, and to the end of the frame that shows it; 0:
+  // unknown
+  double hand_to_force_us = 0, hand_to_force_p99_us = 0;
+  double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
+  double deepest_mm = 0;       // largest displacement of any organ
+  double linear_limit_mm = 0;  // of that organ: 10 % of its size (DESIGN 3)
+  std::uint64_t incomplete_states = 0;
+  std::vector<std::string> faults;  // of all nodes, their name in front
+
+  bool beyond_linear() const { return deepest_mm > linear_limit_mm; }
+};
+
+/// What the person pressed.
+struct PanelActions {
+  bool start = false, pause = false, reset = false, clear_fault = false;
+  bool switch_camera = false, switch_arrows = false, switch_markers = false;
+};
+
+/// Linear elasticity is trusted up to this share of the mesh's size (DESIGN 3; Cotin 1999, sec. 3).
+inline constexpr double kLinearShare = 0.1;
+
+/// Names, rates and silence of the nodes.
+std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64_t now_ns);
+/// "deform_node: TEXT" for each fault of each node.
+std::vector<std::string> all_faults(const std::vector<HeardStatus>& heard);
+/// The words for ToolForce.state.
+std::vector<std::string> force_state_words(std::uint32_t state);
+
+}  // namespace omentum::render

@@ -1,0 +1,65 @@
+#include "render_node/picture_writer.h"
+
+#include "render_node/png_file.h"
+
+#include <stdexcept>
+#include <system_error>
+
+namespace omentum::render {
+
+PictureWriter::PictureWriter(std::filesystem::path folder, runtime::FaultList& faults)
+    : folder_(std::move(folder)), faults_(faults) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error || !std::filesystem::is_directory(folder_)) {
+    throw std::runtime_error("--out " + folder_.string() + ": cannot make this folder" +
+                             (error ? ": " + error.message() : ""));
+  }
+  thread_ = std::thread([this] { work(); });
+}
+
+PictureWriter::~PictureWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void PictureWriter::write(Picture picture, const std::vector<std::string>& names) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (jobs_.size() == kWaiting) {
+      jobs_.pop_front();
+      faults_.raise("pictures: the disk is too slow, some were dropped");
+    }
+    jobs_.push_back({std::move(picture), names});
+  }
+  changed_.notify_one();
+}
+
+void PictureWriter::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return end_ || !jobs_.empty(); });
+    if (jobs_.empty()) return;
+    const Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    write_now(job);
+    lock.lock();
+  }
+}
+
+void PictureWriter::write_now(const Job& job) {
+  for (const std::string& name : job.names) {
+    try {
+      write_png(job.picture, folder_ / name);
+    } catch (const std::exception& error) {
+      faults_.raise(error.what());
+    }
+  }
+}
+
+}  // namespace omentum::render

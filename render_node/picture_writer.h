@@ -1,0 +1,48 @@
+// Writes pictures while the next frames are drawn.
+#pragma once
+
+#include "render_node/renderer.h"
+#include "runtime/faults.h"
+
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+namespace omentum::render {
+
+/// A thread of its own that writes PNG files into one folder. A failure becomes a fault. When the disk is too
+/// slow, the oldest waiting pictures are dropped, which is a fault too. Destruction writes what is left.
+class PictureWriter {
+ public:
+  /// Makes the folder. Throws std::runtime_error when that is impossible.
+  PictureWriter(std::filesystem::path folder, runtime::FaultList& faults);
+  ~PictureWriter();
+  PictureWriter(const PictureWriter&) = delete;
+  PictureWriter& operator=(const PictureWriter&) = delete;
+
+  /// `names`: files in the folder. Does not wait. Any thread.
+  void write(Picture picture, const std::vector<std::string>& names);
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  struct Job {
+    Picture picture;
+    std::vector<std::string> names;
+  };
+  void work();
+  void write_now(const Job& job);
+
+  static constexpr std::size_t kWaiting = 4;  // pictures; 9 MB for 960x600
+
+  std::filesystem::path folder_;
+  runtime::FaultList& faults_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  bool end_ = false;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace omentum::render

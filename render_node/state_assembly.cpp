@@ -1,0 +1,67 @@
+#include "render_node/state_assembly.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace omentum::render {
+
+StateAssembly::StateAssembly(std::size_t node_count) {
+  state_.displacements.assign(3 * node_count, 0.0f);
+}
+
+StateAssembly::Outcome StateAssembly::take(const msg::OrganState& block,
+                                           const std::function<void(const AssembledState&)>& show) {
+  if (!fits(block)) return Outcome::kMisfit;
+  if (arrived_.empty() || block.seq != state_.seq) {
+    if (!arrived_.empty() && !newer(block)) return Outcome::kLate;
+    if (state_.missing_blocks > 0) show(state_);
+    begin(block);
+  }
+  late_in_a_row_ = 0;
+  if (arrived_.size() != block.block_count || arrived_[block.block]) return Outcome::kLate;  // a duplicate
+  std::copy(block.values.begin(), block.values.end(),
+            state_.displacements.begin() + 3 * std::ptrdiff_t{block.first});
+  arrived_[block.block] = true;
+  if (--state_.missing_blocks == 0) show(state_);
+  return Outcome::kTaken;
+}
+
+bool StateAssembly::fits(const msg::OrganState& block) const {
+  return block.kind == msg::KIND_SURFACE &&
+         3 * std::size_t{block.node_count} == state_.displacements.size() &&
+         block.block < block.block_count && block.block_count <= std::max(block.node_count, 1u) &&
+         3 * std::size_t{block.first} + block.values.size() <= state_.displacements.size() &&
+         std::all_of(block.values.begin(), block.values.end(), [](float x) { return std::isfinite(x); });
+}
+
+bool StateAssembly::newer(const msg::OrganState& block) {
+  if (block.seq > state_.seq || block.stamp_ns > state_.stamp_ns) return true;
+  return ++late_in_a_row_ > kPatience;
+}
+
+void StateAssembly::begin(const msg::OrganState& block) {
+  state_.seq = block.seq;
+  state_.stamp_ns = block.stamp_ns;
+  state_.topology_version = block.topology_version;
+  state_.echoes = block.echoes;
+  state_.missing_blocks = block.block_count;
+  arrived_.assign(block.block_count, false);
+}
+
+std::vector<msg::Echo> merge_echoes(const std::vector<std::vector<msg::Echo>>& of_organs) {
+  std::vector<msg::Echo> merged;
+  for (const auto& echoes : of_organs) {
+    for (const msg::Echo& echo : echoes) {
+      const auto same =
+          std::find_if(merged.begin(), merged.end(), [&](const auto& m) { return m.tool == echo.tool; });
+      if (same == merged.end()) {
+        merged.push_back(echo);
+      } else if (echo.stamp_ns > same->stamp_ns) {
+        *same = echo;
+      }
+    }
+  }
+  return merged;
+}
+
+}  // namespace omentum::render
