@@ -1,0 +1,81 @@
+// organ_solve: imposed displacements in, displacements of every node and holding forces out.
+#include "organ/csv.h"
+#include "organ_tools/organ_solve/imposed_csv.h"
+#include "organ_tools/organ_solve/solution_csv.h"
+#include "organ_tools/organ_solve/solve_models.h"
+#include "runtime/node_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace {
+
+using namespace omentum;
+
+struct SolveCommand {
+  std::filesystem::path organ;
+  std::filesystem::path imposed;
+  std::string model = "tensors";
+  std::string gravity;
+  std::string removed;
+  std::string prefix;
+};
+
+void add_options(CLI::App& app, SolveCommand& command) {
+  app.add_option("organ", command.organ, "organ file")->required()->type_name("ORGAN.h5");
+  app.add_option("--imposed", command.imposed, "CSV: node,ux,uy,uz (node of the mesh file from 0, m)")
+      ->type_name("FILE");
+  app.add_option("--model", command.model, "tensors or direct")->type_name("MODEL")->capture_default_str();
+  app.add_option("--gravity", command.gravity, "acceleration x,y,z, m/s^2")->type_name("X,Y,Z");
+  app.add_option("--remove", command.removed, "removed tetrahedra: not part of this version")
+      ->type_name("FILE");
+  app.add_option("-o,--output", command.prefix, "writes PREFIX.u.csv (m) and PREFIX.f.csv (N)")
+      ->required()
+      ->type_name("PREFIX");
+}
+
+void require_offered(const SolveCommand& command) {
+  if (command.model != "tensors" && command.model != "direct") {
+    throw geometry::InputError("--model " + command.model +
+                               ": not part of this version; expected tensors or direct");
+  }
+  if (!command.removed.empty()) {
+    throw geometry::InputError("--remove " + command.removed +
+                               ": not part of this version, which cuts nothing");
+  }
+  if (command.imposed.empty() && command.gravity.empty()) {
+    throw geometry::InputError("nothing to solve: expected --imposed, --gravity or both");
+  }
+}
+
+geometry::Vec3 parse_gravity(const std::string& text) {
+  geometry::Vec3 gravity = geometry::Vec3::Zero();
+  if (text.empty()) return gravity;
+  const std::vector<std::string> fields = organ::split_fields(text);
+  for (std::size_t axis = 0; axis < fields.size() || axis < 3; ++axis) {
+    const auto value = fields.size() == 3 ? organ::parse_number(fields[axis]) : std::nullopt;
+    if (!value) throw geometry::InputError("--gravity " + text + ": expected three numbers x,y,z in m/s^2");
+    gravity[static_cast<Eigen::Index>(axis)] = *value;
+  }
+  return gravity;
+}
+
+void solve(const SolveCommand& command) {
+  require_offered(command);
+  const geometry::Vec3 gravity = parse_gravity(command.gravity);
+  const organ::Organ organ = organ::load_organ(command.organ, organ::Load::kMeshOnly);
+  std::vector<physics::ImposedDisplacement> imposed;
+  if (!command.imposed.empty()) imposed = organ_tools::read_imposed(command.imposed, organ);
+  const physics::StaticSolution solution =
+      command.model == "direct" ? organ_tools::solve_directly(organ, imposed, gravity)
+                                : organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity);
+  organ_tools::write_solution(command.prefix, organ, imposed, solution);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Solves an organ for imposed displacements and gravity.");
+  SolveCommand command;
+  add_options(app, command);
+  return runtime::node_main(app, argc, argv, [&] { solve(command); });
+}

@@ -1,0 +1,16 @@
+// A static solution as the two tables that organ_solve writes (DESIGN 5).
+#pragma once
+
+#include "organ_tools/organ_solve/solve_models.h"
+
+#include <string>
+
+namespace omentum::organ_tools {
+
+/// PREFIX.u.csv: "node,ux,uy,uz" for every node of the mesh file (m; unused ones do not move), and
+/// PREFIX.f.csv: "node,fx,fy,fz", the force that holds each imposed node (N). Each is written beside its
+/// place and renamed. Throws geometry::InputError.
+void write_solution(const std::string& prefix, const organ::Organ& organ, Imposed imposed,
+                    const physics::StaticSolution& solution);
+
+}  // namespace omentum::organ_tools
