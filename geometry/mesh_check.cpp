@@ -193,6 +193,8 @@ void Checker::check_neighbours() {
   refuse("nodes", pinched_nodes(sides, tetrahedra_, positions_.size()),
          "joining regions that touch there in a point or an edge only (non-manifold)");
   stop_if_refused();
+  refuse("nodes", pinched_boundary_nodes(sides, positions_.size()),
+         "joining boundary faces that touch there in a point only (non-manifold boundary)");
   refuse("tetrahedra", winding_around_edges(positions_, tetrahedra_),
          "winding around a shared edge more than once (overlapping)");
   refuse("tetrahedra", crossing_at_boundary(positions_, sides),

@@ -46,6 +46,46 @@ void for_each_face(const std::vector<FaceSide>& sides, Visit&& visit) {
       sides, [](const FaceSide& s) { return s.nodes; }, visit);
 }
 
+// Sides without another side.
+std::vector<FaceSide> boundary_faces(const std::vector<FaceSide>& sides) {
+  std::vector<FaceSide> faces;
+  for_each_face(sides, [&](std::span<const FaceSide> face) {
+    if (face.size() == 1) faces.push_back(face[0]);
+  });
+  return faces;
+}
+
+struct EdgeUse {
+  std::array<std::int32_t, 2> nodes;
+  std::size_t face;
+};
+
+// The edges of the faces, those of one edge next to each other.
+std::vector<EdgeUse> boundary_edges(const std::vector<FaceSide>& faces) {
+  std::vector<EdgeUse> uses;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto& [a, b, c] = faces[f].nodes;
+    uses.insert(uses.end(), {{{a, b}, f}, {{a, c}, f}, {{b, c}, f}});
+  }
+  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) { return a.nodes < b.nodes; });
+  return uses;
+}
+
+// Nodes whose corners are not all in one set.
+template <class NodeOf>
+Offenders nodes_of_several_sets(DisjointSets& corners, std::size_t corner_count, std::size_t node_count,
+                                NodeOf&& node_of) {
+  constexpr auto kUnseen = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> set_of(node_count, kUnseen);
+  Offenders several;
+  for (std::size_t c = 0; c < corner_count; ++c) {
+    const auto node = static_cast<std::size_t>(node_of(c));
+    if (set_of[node] == kUnseen) set_of[node] = corners.find(c);
+    if (set_of[node] != corners.find(c)) several.push_back(node);
+  }
+  return several;
+}
+
 // Dihedral angle between the two faces that hold the edge i-j, rad.
 double dihedral_angle(const std::array<Vec3, 4>& p, int i, int j, int k, int l) {
   const Vec3 along = (p[j] - p[i]).normalized();
@@ -118,23 +158,13 @@ Offenders separate_parts(const std::vector<FaceSide>& sides, std::size_t tetrahe
 }
 
 Offenders touching_along_edges(const std::vector<FaceSide>& sides) {
-  struct EdgeUse {
-    std::array<std::int32_t, 2> nodes;
-    std::size_t tetrahedron;
-  };
-  std::vector<EdgeUse> uses;
-  for_each_face(sides, [&](std::span<const FaceSide> face) {
-    if (face.size() != 1) return;
-    const auto& [a, b, c] = face[0].nodes;
-    for (const auto& edge : {std::array{a, b}, {a, c}, {b, c}}) uses.push_back({edge, face[0].tetrahedron});
-  });
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) { return a.nodes < b.nodes; });
+  const std::vector<FaceSide> faces = boundary_faces(sides);
   Offenders which;
   for_each_run(
-      uses, [](const EdgeUse& e) { return e.nodes; },
+      boundary_edges(faces), [](const EdgeUse& e) { return e.nodes; },
       [&](std::span<const EdgeUse> edge) {
         if (edge.size() == 2) return;
-        for (const EdgeUse& use : edge) which.push_back(use.tetrahedron);
+        for (const EdgeUse& use : edge) which.push_back(faces[use.face].tetrahedron);
       });
   return which;
 }
@@ -153,15 +183,27 @@ Offenders pinched_nodes(const std::vector<FaceSide>& sides, RawTetrahedra tetrah
       }
     }
   });
-  constexpr auto kUnseen = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> star_of(node_count, kUnseen);
-  Offenders pinched;
-  for (std::size_t c = 0; c < 4 * tetrahedra.size(); ++c) {
-    std::size_t& star = star_of[static_cast<std::size_t>(tetrahedra[c / 4][c % 4])];
-    if (star == kUnseen) star = corners.find(c);
-    if (star != corners.find(c)) pinched.push_back(static_cast<std::size_t>(tetrahedra[c / 4][c % 4]));
-  }
-  return pinched;
+  return nodes_of_several_sets(corners, 4 * tetrahedra.size(), node_count,
+                               [&](std::size_t corner) { return tetrahedra[corner / 4][corner % 4]; });
+}
+
+Offenders pinched_boundary_nodes(const std::vector<FaceSide>& sides, std::size_t node_count) {
+  const std::vector<FaceSide> faces = boundary_faces(sides);
+  DisjointSets corners(3 * faces.size());
+  const auto corner_of = [&](std::size_t f, std::int32_t node) {
+    const auto& v = faces[f].nodes;
+    return 3 * f + static_cast<std::size_t>(std::find(v.begin(), v.end(), node) - v.begin());
+  };
+  for_each_run(
+      boundary_edges(faces), [](const EdgeUse& e) { return e.nodes; },
+      [&](std::span<const EdgeUse> edge) {
+        for (const EdgeUse& use : edge) {
+          for (const std::int32_t node : use.nodes)
+            corners.merge(corner_of(edge[0].face, node), corner_of(use.face, node));
+        }
+      });
+  return nodes_of_several_sets(corners, 3 * faces.size(), node_count,
+                               [&](std::size_t corner) { return faces[corner / 3].nodes[corner % 3]; });
 }
 
 Offenders winding_around_edges(std::span<const Vec3> positions, RawTetrahedra tetrahedra) {
@@ -197,16 +239,13 @@ Offenders winding_around_edges(std::span<const Vec3> positions, RawTetrahedra te
 }
 
 Offenders crossing_at_boundary(std::span<const Vec3> positions, const std::vector<FaceSide>& sides) {
+  const std::vector<FaceSide> faces = boundary_faces(sides);
   std::vector<std::array<std::int32_t, 3>> triangles;
-  Offenders behind;
-  for_each_face(sides, [&](std::span<const FaceSide> face) {
-    if (face.size() != 1) return;
-    triangles.push_back(face[0].nodes);
-    behind.push_back(face[0].tetrahedron);
-  });
+  for (const FaceSide& face : faces) triangles.push_back(face.nodes);
   Offenders which;
-  for (const auto& [i, j] : crossing_triangles(positions, triangles))
-    which.insert(which.end(), {behind[i], behind[j]});
+  for (const auto& [i, j] : crossing_triangles(positions, triangles)) {
+    which.insert(which.end(), {faces[i].tetrahedron, faces[j].tetrahedron});
+  }
   return which;
 }
 

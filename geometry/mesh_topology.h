@@ -42,6 +42,10 @@ Offenders touching_along_edges(const std::vector<FaceSide>& sides);
 /// Nodes whose tetrahedra are not all connected through faces that hold the node: two regions touch there.
 Offenders pinched_nodes(const std::vector<FaceSide>& sides, RawTetrahedra tetrahedra, std::size_t node_count);
 
+/// Nodes whose boundary faces do not form one fan, although their tetrahedra are connected: two hollows touch
+/// there.
+Offenders pinched_boundary_nodes(const std::vector<FaceSide>& sides, std::size_t node_count);
+
 /// Tetrahedra around edges whose dihedral angles add up to more than a full turn: they overlap, although each
 /// pair of neighbours looks right.
 Offenders winding_around_edges(std::span<const Vec3> positions, RawTetrahedra tetrahedra);
