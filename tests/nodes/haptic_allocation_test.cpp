@@ -1,0 +1,132 @@
+// The step takes nothing from the heap: proved by counting every way to ask for memory.
+#include "haptic_fixtures.h"
+#include "haptic_node/contact_message.h"
+#include "haptic_node/tool_line.h"
+
+#include <cerrno>
+#include <cstddef>
+
+namespace {
+thread_local bool counting = false;
+thread_local std::size_t count = 0;
+inline void note() {
+  if (counting) ++count;
+}
+}  // namespace
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
+#define OMENTUM_COUNTS_MALLOC
+// glibc's own entries behind the public names
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+void __libc_free(void*);
+
+void* malloc(std::size_t size) {
+  note();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t n, std::size_t size) {
+  note();
+  return __libc_calloc(n, size);
+}
+void* realloc(void* p, std::size_t size) {
+  note();
+  return __libc_realloc(p, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  note();
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  note();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** p, std::size_t alignment, std::size_t size) {
+  note();
+  *p = __libc_memalign(alignment, size);
+  return *p ? 0 : ENOMEM;
+}
+void free(void* p) {
+  __libc_free(p);
+}
+}
+#endif
+
+namespace omentum::haptic_test {
+namespace {
+
+/// What a block of code asked for.
+template <class Work>
+std::size_t allocations_of(Work&& work) {
+  count = 0;
+  counting = true;
+  work();
+  counting = false;
+  return count;
+}
+
+void expect_no_allocation(double friction, haptic::ContactMode mode) {
+#ifndef OMENTUM_COUNTS_MALLOC
+  GTEST_SKIP() << "the sanitizer owns malloc";
+#endif
+  haptic::ToolModel grasper = round_tool();
+  grasper.grasps = true;
+  haptic::HapticModel model = make_model(block(), {round_tool(), grasper}, friction);
+  model.mode = mode;
+  Bench bench(std::move(model));
+  runtime::FaultList faults;
+  haptic::ToolLine line(0, {}, faults);
+  msg::Contact message = haptic::make_contact_message(0);
+  haptic::ToolInput unused;
+  int changes = 0, contacts = -1;
+  const std::size_t asked = allocations_of([&] {
+    for (int i = 0; i < 5000; ++i) {
+      const double t = 1e-3 * i;
+      // pressing, sliding, lifting off, a grasp now and then, relocations, two tools over one another's place
+      const Vec3 a(0.05 + 0.03 * std::sin(3 * t), 0.05 + 0.03 * std::cos(2 * t),
+                   0.038 + 0.006 * std::sin(11 * t));
+      const Vec3 b(0.05 - 0.03 * std::sin(2 * t), 0.05 + 0.02 * std::cos(5 * t),
+                   0.038 + 0.006 * std::sin(7 * t));
+      bench.input(0).relocated = i % 1000 == 999;
+      bench.place(0, a).place(1, b, 0.3 * (1 + std::sin(20 * t))).step();
+      msg::ToolPose pose{};
+      pose.seq = static_cast<std::uint64_t>(i) + 1;
+      pose.valid = true;
+      pose.orientation.w = i % 50 == 0 ? 0.3 : 1.0;
+      line.hear(pose, i * 1'000'000LL);
+      line.listen(i * 1'000'000LL, unused);
+      static_cast<void>(line.answer(bench.output(), i * 1'000'000LL, 1e-3, false));
+      haptic::fill_contact_message(bench.model(), 0, bench.output(), bench.state(), bench.work(), message);
+      changes += bench.result().contacts != contacts;
+      contacts = bench.result().contacts;
+    }
+  });
+  EXPECT_EQ(asked, 0u);
+  EXPECT_GT(changes, 100) << "the ticks were meant to make and lose contacts";
+}
+
+TEST(Allocation, CountingSeesTheHeap) {
+#ifdef OMENTUM_COUNTS_MALLOC
+  EXPECT_GE(allocations_of([] { std::vector<int> v(100); }), 1u);
+#else
+  GTEST_SKIP() << "the sanitizer owns malloc";
+#endif
+}
+
+TEST(Allocation, NoneInAFrictionlessTick) {
+  expect_no_allocation(0, haptic::ContactMode::kPoint);
+}
+
+TEST(Allocation, NoneWithFriction) {
+  expect_no_allocation(0.4, haptic::ContactMode::kPoint);
+}
+
+TEST(Allocation, NoneInSpreadMode) {
+  expect_no_allocation(0, haptic::ContactMode::kSpread);
+}
+
+}  // namespace
+}  // namespace omentum::haptic_test

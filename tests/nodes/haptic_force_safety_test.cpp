@@ -1,0 +1,429 @@
+#include "haptic_node/force_safety.h"
+
+#include "haptic_fixtures.h"
+#include "haptic_node/tool_line.h"
+
+#include <limits>
+#include <random>
+
+namespace omentum::haptic_test {
+namespace {
+
+using haptic::ForceLimits;
+using haptic::ForceSafety;
+using haptic::SafeForce;
+using haptic::SafetyInput;
+using haptic::ToolLine;
+using haptic::Wrench;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTick_s = 1e-3;
+constexpr double kRounding_n = 1e-9;
+
+Wrench force_z(double newton) {
+  return {Vec3(0, 0, newton), Vec3::Zero()};
+}
+
+// ---- pure filters
+
+TEST(ForceFilters, ClampKeepsTheDirection) {
+  Wrench w{Vec3(30, 40, 0), Vec3(0, 0, 2)};
+  EXPECT_TRUE(haptic::clamp_wrench(w, 10, 0.5));
+  EXPECT_LE((w.force - Vec3(6, 8, 0)).norm(), kRounding_n);
+  EXPECT_LE((w.torque - Vec3(0, 0, 0.5)).norm(), kRounding_n);
+}
+
+TEST(ForceFilters, WithinLimitsNothingChanges) {
+  const Wrench w{Vec3(1, 2, 3), Vec3(0.1, 0, 0)};
+  Wrench clamped = w, slewed = w;
+  EXPECT_FALSE(haptic::clamp_wrench(clamped, 10, 0.5));
+  EXPECT_EQ(clamped.force, w.force);
+  EXPECT_FALSE(haptic::slew_wrench(slewed, {Vec3(1, 2, 2), Vec3(0.1, 0, 0)}, {}, kTick_s));
+  EXPECT_EQ(slewed.force, w.force);
+}
+
+TEST(ForceFilters, SlewGoesStraightTowardsTheTarget) {
+  Wrench w = force_z(10);
+  EXPECT_TRUE(haptic::slew_wrench(w, {Vec3(0, 0, 0), Vec3::Zero()}, ForceLimits{}, kTick_s));
+  EXPECT_LE((w.force - Vec3(0, 0, 2)).norm(), kRounding_n);
+}
+
+TEST(ForceFilters, FadeTakesItsTimeWhateverTheRate) {
+  for (const double dt : {1e-3, 1.0 / 300, 0.01}) {
+    double gain = 0, up = 0, down = 0;
+    for (; gain < 1; up += dt) gain = haptic::fade(gain, true, {}, dt);
+    for (; gain > 0; down += dt) gain = haptic::fade(gain, false, {}, dt);
+    EXPECT_NEAR(up, ForceLimits{}.ramp_s, dt + 1e-9);
+    EXPECT_NEAR(down, ForceLimits{}.decay_s, dt + 1e-9);
+  }
+}
+
+// ---- the exit, on given times
+
+SafetyInput fresh(const Wrench& model) {
+  SafetyInput input;
+  input.model = model;
+  input.dt_s = kTick_s;
+  input.engaged = true;
+  return input;
+}
+
+ForceSafety ramped_up(ForceLimits limits = {}) {
+  ForceSafety safety(limits);
+  for (int i = 0; i < 300; ++i) static_cast<void>(safety.pass(fresh({})));
+  return safety;
+}
+
+TEST(ForceSafety, WhenNothingActsTheModelsForceLeavesUnchanged) {
+  ForceSafety safety = ramped_up();
+  const Wrench model{Vec3(0.123456789, -0.4, 0.987), Vec3(0.001, 0.002, -0.0001)};
+  const SafeForce out = safety.pass(fresh(model));
+  EXPECT_EQ(out.state, 0u);
+  EXPECT_EQ(out.wrench.force, model.force);
+  EXPECT_EQ(out.wrench.torque, model.torque);
+}
+
+TEST(ForceSafety, NotANumberLatchesUntilSomebodyClearsIt) {
+  for (int component = 0; component < 6; ++component) {
+    ForceSafety safety = ramped_up();
+    Wrench bad = force_z(1);
+    (component < 3 ? bad.force : bad.torque)[component % 3] = kNan;
+    SafeForce out = safety.pass(fresh(bad));
+    EXPECT_TRUE(out.state & msg::FORCE_FAULT);
+    EXPECT_EQ(out.wrench.force, Vec3::Zero());
+    for (int i = 0; i < 1000; ++i) out = safety.pass(fresh(force_z(1)));
+    EXPECT_EQ(out.wrench.force, Vec3::Zero()) << "good forces do not unlatch";
+    safety.clear_fault();
+    out = safety.pass(fresh(force_z(1)));
+    EXPECT_EQ(out.state, msg::FORCE_RAMP);
+    EXPECT_LT(out.wrench.force.z(), 0.02) << "it fades in";
+  }
+}
+
+TEST(ForceSafety, TheSmallerOfSceneAndDeviceLimitsCounts) {
+  ForceSafety safety = ramped_up({.max_force_n = 10, .max_slew_n_s = 1e9});
+  EXPECT_NEAR(safety.pass(fresh(force_z(50))).wrench.force.z(), 10, kRounding_n);
+  safety.set_device_limits(3.3, 0.1);
+  const SafeForce out = safety.pass(fresh({Vec3(0, 0, 50), Vec3(1, 0, 0)}));
+  EXPECT_TRUE(out.state & msg::FORCE_CLAMPED);
+  EXPECT_NEAR(out.wrench.force.z(), 3.3, kRounding_n);
+  EXPECT_NEAR(out.wrench.torque.x(), 0.1, kRounding_n);
+  safety.set_device_limits(kNan, -1);
+  EXPECT_NEAR(safety.pass(fresh(force_z(50))).wrench.force.z(), 10, kRounding_n) << "nonsense is no limit";
+}
+
+TEST(ForceSafety, StepsAreSlewed) {
+  ForceSafety safety = ramped_up();
+  for (int i = 1; i <= 4; ++i) {
+    const SafeForce out = safety.pass(fresh(force_z(8)));
+    EXPECT_NEAR(out.wrench.force.z(), 2.0 * i, kRounding_n);
+    EXPECT_EQ((out.state & msg::FORCE_SLEW) != 0, i < 4);
+  }
+}
+
+TEST(ForceSafety, EngagingFadesIn) {
+  ForceSafety safety{ForceLimits{}};
+  double before = 0;
+  int ticks = 0;
+  for (SafeForce out; ticks == 0 || out.state != 0; ++ticks) {
+    out = safety.pass(fresh(force_z(5)));
+    EXPECT_LE(out.wrench.force.z() - before, 5 * kTick_s / ForceLimits{}.ramp_s + kRounding_n);
+    before = out.wrench.force.z();
+    ASSERT_LT(ticks, 1000);
+  }
+  EXPECT_NEAR(ticks * kTick_s, ForceLimits{}.ramp_s, 2 * kTick_s);
+}
+
+TEST(ForceSafety, AStalePoseDecaysToZeroInTime) {
+  for (const double slew : {2000.0, 50.0}) {  // a slow slew limit must not hold the force up
+    ForceSafety safety = ramped_up({.max_slew_n_s = slew});
+    for (int i = 0; i < 300; ++i) static_cast<void>(safety.pass(fresh(force_z(8))));
+    SafetyInput input = fresh(force_z(8));
+    double before = 8;
+    for (; input.pose_age_s < 0.030; input.pose_age_s += kTick_s) {
+      const SafeForce out = safety.pass(input);
+      EXPECT_LE(out.wrench.force.z(), before + kRounding_n);
+      EXPECT_EQ((out.state & msg::FORCE_STALE) != 0, input.pose_age_s > 0.005);
+      if (input.pose_age_s <= 0.005) {
+        EXPECT_EQ(out.wrench.force.z(), 8);
+      } else if (input.pose_age_s >= 0.0250001) {
+        EXPECT_EQ(out.wrench.force, Vec3::Zero());
+      }
+      before = out.wrench.force.z();
+    }
+    // back again: it fades in
+    EXPECT_LE(safety.pass(fresh(force_z(8))).wrench.force.z(), 8 * kTick_s / 0.2 + kRounding_n);
+  }
+}
+
+TEST(ForceSafety, OneLateTickDoesNotStretchTheDecay) {
+  ForceSafety safety = ramped_up();
+  for (int i = 0; i < 10; ++i) static_cast<void>(safety.pass(fresh(force_z(8))));
+  SafetyInput late = fresh(force_z(8));
+  late.pose_age_s = 0.1;
+  late.dt_s = 0.001;
+  EXPECT_EQ(safety.pass(late).wrench.force, Vec3::Zero());
+}
+
+TEST(ForceSafety, PauseIsZeroAndStartFadesIn) {
+  ForceSafety safety = ramped_up();
+  SafetyInput input = fresh(force_z(2));
+  input.paused = true;
+  SafeForce out = safety.pass(input);
+  EXPECT_EQ(out.wrench.force, Vec3::Zero());
+  EXPECT_TRUE(out.state & msg::FORCE_PAUSED);
+  input.paused = false;
+  out = safety.pass(input);
+  EXPECT_TRUE(out.state & msg::FORCE_RAMP);
+  EXPECT_LE(out.wrench.force.z(), 2 * kTick_s / 0.2 + kRounding_n);
+}
+
+TEST(ForceSafety, ReconnectingFadesIn) {
+  ForceSafety safety = ramped_up();
+  SafetyInput input = fresh(force_z(2));
+  input.reconnected = true;
+  EXPECT_LE(safety.pass(input).wrench.force.z(), 2 * kTick_s / 0.2 + kRounding_n);
+}
+
+// An active environment: a force along the motion, which feeds the hand without end.
+TEST(ForceSafety, AnActiveModelCannotFeedTheHand) {
+  ForceSafety safety = ramped_up();
+  Vec3 tip = Vec3::Zero();
+  std::uint32_t seen = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double t = i * kTick_s, omega = 2 * M_PI * 8;
+    const Vec3 velocity(0.05 * std::cos(omega * t), 0, 0);
+    tip += kTick_s * velocity;
+    SafetyInput input = fresh({12.0 * velocity, Vec3::Zero()});  // negative damping of 12 N s/m
+    input.tip = tip;
+    seen |= safety.pass(input).state;
+  }
+  EXPECT_TRUE(seen & msg::FORCE_PASSIVITY);
+  // without the controller the hand would have got 12 N s/m * (0.05 m/s)^2 / 2 * 5 s = 75 mJ
+  using Observer = haptic::PassivityObserver;
+  EXPECT_LE(safety.passivity().given_j(), Observer::kReserve_j + 5 * Observer::kRefill_w + 2e-3);
+}
+
+TEST(ForceSafety, ASpringIsPassiveAndStaysUntouched) {
+  ForceSafety safety = ramped_up();
+  constexpr double kStiffness = 400;
+  for (int i = 0; i < 5000; ++i) {
+    const double depth = 0.005 * (1 - std::cos(2 * M_PI * 1.5 * i * kTick_s));
+    SafetyInput input = fresh(force_z(kStiffness * depth));
+    input.tip = Vec3(0, 0, -depth);
+    input.stored_j = 0.5 * kStiffness * depth * depth;
+    ASSERT_EQ(safety.pass(input).state, 0u) << "tick " << i;
+  }
+}
+
+// ---- the same through a tool's line and the real step, with an injected clock
+
+constexpr std::int64_t kMs = 1'000'000;
+
+class LineBench {
+ public:
+  LineBench() : bench_(make_model(block(), {round_tool()})), line_(0, {}, faults_) {}
+
+  static msg::ToolPose pose_at(const Vec3& tip, std::uint64_t seq) {
+    msg::ToolPose pose{};
+    pose.seq = seq;
+    pose.stamp_ns = static_cast<std::int64_t>(seq) * kMs;
+    pose.valid = true;
+    pose.position = {.x = tip.x(), .y = tip.y(), .z = tip.z()};
+    pose.orientation = {.w = 1, .x = 0, .y = 0, .z = 0};
+    return pose;
+  }
+
+  bool hear(const msg::ToolPose& pose) { return line_.hear(pose, now_ns_); }
+  /// One period later: what leaves.
+  const msg::ToolForce& tick(bool paused = false) {
+    now_ns_ += kMs;
+    line_.listen(now_ns_, bench_.input());
+    bench_.step();
+    return line_.answer(bench_.output(), now_ns_, kTick_s, paused);
+  }
+  /// A good sample, then a tick.
+  const msg::ToolForce& press(const Vec3& tip) {
+    hear(pose_at(tip, ++seq_));
+    return tick();
+  }
+  /// Engaged, faded in, pressing by 8 mm, and settled.
+  const msg::ToolForce& press_deep() {
+    for (int i = 0; i < 300; ++i) press({0.05, 0.05, 0.045});
+    for (int i = 0; i < 129; ++i) press({0.05, 0.05, 0.045 - 0.0001 * i});
+    for (int i = 0; i < 20; ++i) press({0.05, 0.05, 0.032});
+    return press({0.05, 0.05, 0.032});
+  }
+  std::uint64_t next_seq() { return ++seq_; }
+  ToolLine& line() { return line_; }
+  Bench& bench() { return bench_; }
+  runtime::FaultList& faults() { return faults_; }
+
+ private:
+  Bench bench_;
+  runtime::FaultList faults_;
+  ToolLine line_;
+  std::int64_t now_ns_ = kMs;
+  std::uint64_t seq_ = 0;
+};
+
+double newton(const msg::ToolForce& f) {
+  return std::hypot(f.force.x, f.force.y, f.force.z);
+}
+
+TEST(SafetyThroughTheStep, ThePressedForceIsTheModelsOwn) {
+  LineBench line;
+  const msg::ToolForce& force = line.press_deep();
+  EXPECT_EQ(force.state, 0u);
+  EXPECT_EQ(Vec3(force.force.x, force.force.y, force.force.z), line.bench().output().force);
+  EXPECT_GT(newton(force), 0.3);
+}
+
+TEST(SafetyThroughTheStep, ASilentDeviceLosesItsForceAndGetsItBackGently) {
+  LineBench line;
+  const double pressed = newton(line.press_deep());
+  for (int i = 0; i < 26; ++i) line.tick();
+  EXPECT_EQ(newton(line.tick()), 0);
+  const Vec3 tip(0.05, 0.05, 0.032);
+  EXPECT_LT(newton(line.press(tip)), 0.02 * pressed);
+  for (int i = 0; i < 250; ++i) line.press(tip);
+  EXPECT_NEAR(newton(line.press(tip)), pressed, 0.02 * pressed);
+}
+
+TEST(SafetyThroughTheStep, ADeadDeviceLetsTheTissueGo) {
+  LineBench line;
+  line.press_deep();
+  for (int i = 0; i < 1100; ++i) line.tick();
+  EXPECT_FALSE(line.line().engaged());
+  EXPECT_EQ(line.bench().state().contact_count, 0);
+}
+
+// Whatever comes on the topic, as long as it is no good sample, the hand feels the decay and then nothing.
+TEST(SafetyThroughTheStep, RubbishNeverReachesTheHand) {
+  std::mt19937 random(1);
+  LineBench line;
+  double allowed = newton(line.press_deep());
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 3000; ++i) {
+    const std::uint64_t seq = line.next_seq();
+    msg::ToolPose p = LineBench::pose_at({0.05, 0.05, 0.032}, seq);
+    switch (random() % 6) {
+      case 0:
+        p.position.x = kNan;
+        break;
+      case 1:
+        p.orientation.y = std::numeric_limits<double>::infinity();
+        break;
+      case 2:
+        p.position.z = 1000 * unit(random) + 2000;
+        break;
+      case 3:
+        p.valid = false;
+        break;
+      case 4:
+        p.seq = 3;
+        break;
+      default:
+        p.orientation.w = 1.5 + unit(random);
+        p.orientation.x = 1;
+        break;
+    }
+    EXPECT_FALSE(line.hear(p));
+    const msg::ToolForce& force = line.tick();
+    ASSERT_TRUE(std::isfinite(newton(force)));
+    ASSERT_LE(newton(force), allowed * (1 + 1e-9)) << "tick " << i;
+    ASSERT_TRUE(i <= 26 || newton(force) == 0) << "tick " << i;
+    EXPECT_FALSE(force.state & msg::FORCE_FAULT) << "the node itself is well";
+  }
+  EXPECT_EQ(line.line().counts().refused, 3000u);
+  EXPECT_TRUE(line.faults().any());
+}
+
+TEST(SafetyThroughTheStep, APersistentNewPlaceIsTakenUpWithARamp) {
+  LineBench line;
+  line.press_deep();
+  const Vec3 elsewhere(0.02, 0.08, 0.2);
+  double largest = 0;
+  for (int i = 0; i < 100; ++i) {
+    const msg::ToolForce& force = line.press(elsewhere);
+    if (i > 30) largest = std::max(largest, newton(force));
+  }
+  EXPECT_EQ(largest, 0);
+  EXPECT_TRUE(line.line().engaged());
+  EXPECT_EQ(line.bench().state().contact_count, 0) << "it did not sweep there";
+}
+
+TEST(SafetyThroughTheStep, EchoesThePoseThatItAnswers) {
+  LineBench line;
+  const msg::ToolForce& force = line.press({0.05, 0.05, 0.05});
+  EXPECT_EQ(force.echo_seq, 1u);
+  EXPECT_EQ(force.echo_stamp_ns, kMs);
+  EXPECT_GT(force.valid_for_s, 0);
+}
+
+// A hand of 200 g on a spring and a damper, pressing, holding, sliding and letting go through the real step
+// and safety.
+struct HandRun {
+  double held_n = 0;  // mean force in the hold
+  double given_j = 0;
+  double largest_step_n = 0;
+  std::uint32_t acted = 0;  // safety bits after the first fade-in
+};
+
+HandRun run_hand(double rate_hz, double friction) {
+  constexpr double kMass = 0.2, kStiffness = 400, kDamping = 12;
+  constexpr int kSubsteps = 20;
+  const double dt = 1 / rate_hz;
+  Bench bench(make_model(block(), {round_tool()}, friction));
+  ForceSafety safety{ForceLimits{}};
+  HandRun run;
+  Vec3 x(0.035, 0.05, 0.045), v = Vec3::Zero(), before = Vec3::Zero();
+  int held = 0;
+  for (double t = 0; t < 6; t += dt) {
+    const double down = 0.015 * std::clamp((t - 1) / 1.5, 0.0, 1.0) * std::clamp((5.5 - t) / 1, 0.0, 1.0);
+    const Vec3 target(0.035 + 0.03 * std::clamp((t - 3) / 1.5, 0.0, 1.0), 0.05, 0.045 - down);
+    bench.step_to(x);
+    SafetyInput input;
+    input.model = {bench.output().force, bench.output().torque};
+    input.stored_j = bench.output().stored_j;
+    input.tip = x;
+    input.dt_s = dt;
+    input.engaged = true;
+    const SafeForce out = safety.pass(input);
+    if (t > 0.5) run.acted |= out.state;
+    run.largest_step_n = std::max(run.largest_step_n, (out.wrench.force - before).norm());
+    before = out.wrench.force;
+    if (t > 2.7 && t < 3) run.held_n += out.wrench.force.norm(), ++held;
+    for (int s = 0; s < kSubsteps; ++s) {
+      const Vec3 a = (kStiffness * (target - x) - kDamping * v + out.wrench.force) / kMass;
+      v += a * dt / kSubsteps;
+      x += v * dt / kSubsteps;
+    }
+  }
+  run.held_n /= held;
+  run.given_j = safety.passivity().given_j();
+  return run;
+}
+
+TEST(HandInTheLoop, FeelsTheSameForceAtEveryRate) {
+  const HandRun fast = run_hand(1000, 0), slow = run_hand(300, 0);
+  EXPECT_GT(fast.held_n, 0.5);
+  EXPECT_NEAR(slow.held_n, fast.held_n, 0.02 * fast.held_n);
+}
+
+TEST(HandInTheLoop, SafetyStaysOutOfAnOrdinaryPress) {
+  for (const double friction : {0.0, 0.3}) {
+    const HandRun run = run_hand(1000, friction);
+    EXPECT_EQ(run.acted, 0u) << "friction " << friction;
+    EXPECT_LE(run.given_j, haptic::PassivityObserver::kReserve_j);
+  }
+}
+
+// Sliding over the edges of the mesh: no step beyond what motion and stiffness explain. The hand moves by at
+// most 0.05 mm a tick; the block is nowhere stiffer than 1 kN/m under this tool: 0.05 N.
+TEST(HandInTheLoop, ForceIsContinuousOverEdges) {
+  EXPECT_LE(run_hand(1000, 0).largest_step_n, 0.05);
+}
+
+}  // namespace
+}  // namespace omentum::haptic_test
