@@ -79,7 +79,8 @@ void DeviceBridge::run() {
     }
     if (options_.seconds > 0 && 1e-9 * static_cast<double>(now_ns - begin_ns) >= options_.seconds) break;
   }
-  leave();
+  // haptic_node notices by the age of the last poses
+  for (const auto& channel : channels_) channel->release();
 }
 
 void DeviceBridge::exchange(ToolChannel& channel) noexcept {
@@ -94,10 +95,6 @@ void DeviceBridge::obey() noexcept {
     channel->device().pause(paused_);
     if (restart) channel->device().restart();
   }
-}
-
-void DeviceBridge::leave() noexcept {
-  for (const auto& channel : channels_) pose_writer_->write(channel->farewell(runtime::steady_now_ns()));
 }
 
 void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {

@@ -35,7 +35,7 @@ class DeviceBridge {
                runtime::RateLoop& loop);
   ~DeviceBridge();
 
-  /// Until loop.stop() or the end of `seconds`; the last poses say that the devices left.
+  /// Until loop.stop() or the end of `seconds`; then lets the hands go.
   void run();
 
   /// After run(): virtual_device's object of report.json (DESIGN 5).
@@ -44,7 +44,6 @@ class DeviceBridge {
  private:
   void obey() noexcept;
   void exchange(ToolChannel& channel) noexcept;
-  void leave() noexcept;
   void receive(const msg::ToolForce& answer) noexcept;
   void receive(const msg::SessionCommand& command) noexcept;
   void publish_status();

@@ -62,10 +62,4 @@ void ToolChannel::fill(const Measurement& m, std::int64_t now_ns) noexcept {
   pose_.grip = m.grip;
 }
 
-const msg::ToolPose& ToolChannel::farewell(std::int64_t now_ns) noexcept {
-  device_->command({});
-  fill({}, now_ns);
-  return pose_;
-}
-
 }  // namespace omentum::device

@@ -31,8 +31,8 @@ class ToolChannel {
   /// measurement that is not finite goes out with its valid flag down and raises a fault.
   const msg::ToolPose& tick(std::int64_t now_ns) noexcept;
 
-  /// The pose that tells the node that this device leaves: its valid flag is down.
-  const msg::ToolPose& farewell(std::int64_t now_ns) noexcept;
+  /// Lets the hand go: commands nothing.
+  void release() noexcept { device_->command({}); }
 
   std::uint64_t sent() const { return pose_.seq; }
   /// Given to the hand by the forces' work along the way of the tip, J: negative where the hand gave.

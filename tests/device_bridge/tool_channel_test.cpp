@@ -117,12 +117,10 @@ TEST_F(ToolChannelTest, AJumpWhileTheMeasurementWasInvalidIsNoWork) {
   EXPECT_EQ(channel.energy_j(), 0);
 }
 
-TEST_F(ToolChannelTest, FarewellIsInvalidAndLetsTheDeviceGo) {
+TEST_F(ToolChannelTest, ReleaseLetsTheHandGo) {
   answer({0, 0, 2}, 0);
   channel.tick(0);
-  const msg::ToolPose& pose = channel.farewell(kMs);
-  EXPECT_FALSE(pose.valid);
-  EXPECT_EQ(pose.seq, 2u);
+  channel.release();
   EXPECT_EQ(device->commanded.force.norm(), 0);
 }
 
