@@ -42,7 +42,8 @@ def run_tool(options, arguments, doing):
         lines = err.strip().splitlines() or [f"{arguments[0]} ended with code {process.returncode}"]
         raise Refusal(lines[-1])
     for line in err.strip().splitlines():
-        print(line, flush=True)
+        if "warning" in line:
+            print(line, flush=True)
     if told:
         print(f"run: {doing}: done after {time.monotonic() - begin:.1f} s", flush=True)
     return out

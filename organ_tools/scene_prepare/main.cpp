@@ -48,6 +48,7 @@ void prepare(const Options& options) {
   if (options.keep_points) {
     scene_prepare::project_hands(skin, scene);
   } else {
+    scene.organs.front().mesh = options.organ;
     for (const std::string& note : scene_prepare::place_hands(skin, scene)) std::cout << note << '\n';
   }
   write_whole(scene_prepare::resolved_toml(scene), options.output);

@@ -2,7 +2,7 @@
 #include "deform_node/state_blocks.h"
 
 #include "tests/nodes/deform_fixtures.h"
-#include "tests/nodes/deform_heap_count.h"
+#include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
 
@@ -75,12 +75,12 @@ TEST_F(QuasiStaticModelTest, ReleaseAndResetBringTheOrganBackToRest) {
 TEST_F(QuasiStaticModelTest, StepTakesNoMemory) {
   press();
   model_.step(book_.loads(0), 0.01);
-  const std::size_t before = deform_test::allocations();
+  const std::size_t before = test::heap_allocations();
   for (int tick = 0; tick < 100; ++tick) {
     book_.advance(kNsPerS + tick);
     model_.step(book_.loads(0), 0.01);
   }
-  EXPECT_EQ(deform_test::allocations(), before);
+  EXPECT_EQ(test::heap_allocations(), before);
 }
 
 TEST(StateBlocks, CoverEachNodeOnceInOrder) {
