@@ -84,7 +84,9 @@ void GmshReader::read_format() {
   version_ = in_.real("the version of the format");
   binary_ = in_.integer("0 (ASCII) or 1 (binary)") != 0;
   const std::int64_t real_size = in_.integer("the size of a real number, 8");
-  if (version_ < 2 || version_ >= 5) in_.fail("version " + std::to_string(version_), "version 2.x or 4.x");
+  if (version_ < 2 || version_ >= 5 || (version_ >= 3 && version_ < 4)) {
+    in_.fail("version " + std::to_string(version_), "version 2.x or 4.x");
+  }
   if (real_size != 8) in_.fail("real numbers of " + std::to_string(real_size) + " bytes", "8");
   if (binary_) {
     in_.rest_of_line();

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 
 namespace omentum::geometry {
@@ -18,8 +17,9 @@ constexpr double kAngleTolerance = 1e-3;
 // Sets that only ever merge, with path halving.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  explicit DisjointSets(std::size_t count) {
+    parent_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) parent_.push_back(i);
   }
   std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
