@@ -11,7 +11,8 @@ namespace omentum::transport {
 enum class Reliability { kBestEffort, kReliable };
 enum class Durability { kVolatile, kTransientLocal };
 
-/// How a topic travels. Samples are kept per key; zero durations mean "not used".
+/// How a topic travels. Samples are kept per key; zero durations mean "not used". The deadline is offered by
+/// writers and counted by our readers themselves (reader_counters.h).
 struct TopicSpec {
   const char* name;  // "omentum/<protocol version>/<message>"
   Reliability reliability;

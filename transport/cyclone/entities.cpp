@@ -31,7 +31,9 @@ dds_entity_t Entities::topic(const TopicSpec& spec, const dds_topic_descriptor_t
                  std::string("the topic ") + spec.name);
 }
 
-Qos qos_of(const TopicSpec& spec) {
+namespace {
+
+Qos common_qos(const TopicSpec& spec) {
   // a reliable writer waits at most this for room (never with keep last); also of no effect on readers
   constexpr dds_duration_t kMaxBlocking = DDS_MSECS(100);
   Qos qos(dds_create_qos(), dds_delete_qos);
@@ -46,13 +48,24 @@ Qos qos_of(const TopicSpec& spec) {
   if (spec.durability == Durability::kTransientLocal)
     dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, spec.depth, DDS_LENGTH_UNLIMITED,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
-  if (spec.deadline.count() > 0) dds_qset_deadline(qos.get(), duration(spec.deadline));
   if (spec.liveliness_lease.count() > 0)
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, duration(spec.liveliness_lease));
   // plain CDR, which Fast DDS 2.9 uses for every type
   const dds_data_representation_id_t representation = DDS_DATA_REPRESENTATION_XCDR1;
   dds_qset_data_representation(qos.get(), 1, &representation);
   return qos;
+}
+
+}  // namespace
+
+Qos writer_qos(const TopicSpec& spec) {
+  Qos qos = common_qos(spec);
+  if (spec.deadline.count() > 0) dds_qset_deadline(qos.get(), duration(spec.deadline));
+  return qos;
+}
+
+Qos reader_qos(const TopicSpec& spec) {
+  return common_qos(spec);
 }
 
 dds_entity_t checked(dds_entity_t entity, const std::string& what) {
@@ -82,9 +95,6 @@ EndpointStatus reader_status(dds_entity_t reader) {
   dds_subscription_matched_status_t matched{};
   dds_get_subscription_matched_status(reader, &matched);
   status.matched = static_cast<int>(matched.current_count);
-  dds_requested_deadline_missed_status_t deadline{};
-  dds_get_requested_deadline_missed_status(reader, &deadline);
-  status.deadline_missed = deadline.total_count;
   dds_requested_incompatible_qos_status_t incompatible{};
   dds_get_requested_incompatible_qos_status(reader, &incompatible);
   status.incompatible_qos = incompatible.total_count;

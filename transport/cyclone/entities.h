@@ -25,12 +25,13 @@ struct Entities {
 };
 
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
-Qos qos_of(const TopicSpec& spec);
+Qos writer_qos(const TopicSpec& spec);
+Qos reader_qos(const TopicSpec& spec);
 
 /// Throws std::runtime_error saying what Cyclone refused and why when `entity` is an error code.
 dds_entity_t checked(dds_entity_t entity, const std::string& what);
 
-/// Counters that Cyclone keeps, as ours; samples, rejected and liveliness_lost of a reader are the caller's.
+/// Counters that Cyclone keeps, as ours; the others are the caller's.
 EndpointStatus writer_status(dds_entity_t writer);
 EndpointStatus reader_status(dds_entity_t reader);
 

@@ -3,6 +3,7 @@
 #include "transport/arrivals.h"
 #include "transport/cyclone/conversion.h"
 #include "transport/cyclone/entities.h"
+#include "transport/reader_counters.h"
 
 #include <atomic>
 #include <stdexcept>
@@ -17,7 +18,7 @@ class CycloneWriter final : public Writer<M> {
   explicit CycloneWriter(const Entities& entities) {
     const TopicSpec& spec = kTopicSpec<M>;
     const dds_entity_t topic = entities.topic(spec, WireType<M>::descriptor());
-    writer_ = checked(dds_create_writer(entities.participant, topic, qos_of(spec).get(), nullptr),
+    writer_ = checked(dds_create_writer(entities.participant, topic, writer_qos(spec).get(), nullptr),
                       std::string("a writer of ") + spec.name);
   }
   ~CycloneWriter() override { dds_delete(writer_); }
@@ -66,7 +67,7 @@ class CycloneReader final : public Reader<M> {
                                                                               dds_delete_listener);
     dds_lset_data_available(listener.get(), on_data_available);
     dds_lset_liveliness_changed(listener.get(), on_liveliness_changed);
-    reader_ = checked(dds_create_reader(entities.participant, topic, qos_of(spec).get(), listener.get()),
+    reader_ = checked(dds_create_reader(entities.participant, topic, reader_qos(spec).get(), listener.get()),
                       std::string("a reader of ") + spec.name);
   }
 
@@ -78,8 +79,7 @@ class CycloneReader final : public Reader<M> {
 
   EndpointStatus status() const override {
     EndpointStatus status = reader_status(reader_);
-    status.samples = samples_;
-    status.liveliness_lost = liveliness_lost_;
+    counters_.add_to(status);
     return status;
   }
 
@@ -90,9 +90,7 @@ class CycloneReader final : public Reader<M> {
   }
 
   static void on_liveliness_changed(dds_entity_t, dds_liveliness_changed_status_t status, void* self) {
-    if (status.not_alive_count_change > 0)
-      static_cast<CycloneReader*>(self)->liveliness_lost_ +=
-          static_cast<std::uint64_t>(status.not_alive_count_change);
+    static_cast<CycloneReader*>(self)->counters_.liveliness_changed(status.not_alive_count_change);
   }
 
   // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which tells nobody
@@ -111,16 +109,15 @@ class CycloneReader final : public Reader<M> {
 
   void deliver(const void* loan) {
     take_over(*static_cast<const typename WireType<M>::Type*>(loan), message_);
-    ++samples_;
+    counters_.delivered(message_);
     on_sample_(message_);
   }
 
   std::function<void(const M&)> on_sample_;
   M message_;  // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
+  ReaderCounters<M> counters_;
   dds_entity_t reader_ = 0;
-  std::atomic<std::uint64_t> samples_{0};
-  std::atomic<std::uint64_t> liveliness_lost_{0};
 };
 
 }  // namespace

@@ -100,7 +100,6 @@ void set_common(Qos& qos, const TopicSpec& spec) {
   qos.resource_limits().allocated_samples = spec.depth;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   qos.data_sharing().off();
-  if (spec.deadline.count() > 0) qos.deadline().period = duration(spec.deadline);
   if (spec.liveliness_lease.count() > 0) {
     qos.liveliness().kind = dds::AUTOMATIC_LIVELINESS_QOS;
     qos.liveliness().lease_duration = duration(spec.liveliness_lease);
@@ -143,6 +142,7 @@ dds::Topic* Entities::topic(const TopicSpec& spec, dds::TypeSupport type) {
 dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_t max_bytes) {
   dds::DataWriterQos qos;
   set_common(qos, spec);
+  if (spec.deadline.count() > 0) qos.deadline().period = duration(spec.deadline);
   qos.reliable_writer_qos().times.heartbeatPeriod = duration(kHeartbeatMs);
   // a sample that fits no single message is sent by Fast DDS' own thread; smaller ones without that hop
   qos.publish_mode().kind =
@@ -181,9 +181,6 @@ EndpointStatus status_of(const dds::DataReader& const_reader) {
   dds::SubscriptionMatchedStatus matched;
   reader.get_subscription_matched_status(matched);
   status.matched = matched.current_count;
-  dds::RequestedDeadlineMissedStatus deadline;
-  reader.get_requested_deadline_missed_status(deadline);
-  status.deadline_missed = deadline.total_count;
   dds::RequestedIncompatibleQosStatus incompatible;
   reader.get_requested_incompatible_qos_status(incompatible);
   status.incompatible_qos = incompatible.total_count;

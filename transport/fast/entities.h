@@ -45,7 +45,7 @@ struct Entities {
 dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_t max_bytes);
 dds::DataReaderQos reader_qos(const TopicSpec& spec);
 
-/// Counters that Fast DDS keeps, as ours; samples, rejected and liveliness_lost of a reader are the caller's.
+/// Counters that Fast DDS keeps, as ours; the others are the caller's.
 EndpointStatus status_of(const dds::DataWriter& writer);
 EndpointStatus status_of(const dds::DataReader& reader);
 

@@ -3,6 +3,7 @@
 #include "transport/arrivals.h"
 #include "transport/fast/entities.h"
 #include "transport/fast/message_type.h"
+#include "transport/reader_counters.h"
 
 #include <atomic>
 #include <stdexcept>
@@ -78,9 +79,7 @@ class FastReader final : public Reader<M>, private dds::DataReaderListener {
 
   EndpointStatus status() const override {
     EndpointStatus status = status_of(*reader_);
-    status.samples = samples_;
-    status.rejected = rejected_;
-    status.liveliness_lost = liveliness_lost_;
+    counters_.add_to(status);
     return status;
   }
 
@@ -91,8 +90,7 @@ class FastReader final : public Reader<M>, private dds::DataReaderListener {
 
   void on_liveliness_changed(dds::DataReader*,
                              const eprosima::fastrtps::LivelinessChangedStatus& status) override {
-    if (status.not_alive_count_change > 0)
-      liveliness_lost_ += static_cast<std::uint64_t>(status.not_alive_count_change);
+    counters_.liveliness_changed(status.not_alive_count_change);
   }
 
   void take_all(dds::DataReader& reader) {
@@ -101,10 +99,10 @@ class FastReader final : public Reader<M>, private dds::DataReaderListener {
     while (reader.take_next_sample(&data, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
       if (!data.decoded) {
-        ++rejected_;
+        counters_.rejected();
         continue;
       }
-      ++samples_;
+      counters_.delivered(message_);
       on_sample_(message_);
     }
   }
@@ -113,10 +111,8 @@ class FastReader final : public Reader<M>, private dds::DataReaderListener {
   std::function<void(const M&)> on_sample_;
   M message_;  // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
+  ReaderCounters<M> counters_;
   dds::DataReader* reader_ = nullptr;
-  std::atomic<std::uint64_t> samples_{0};
-  std::atomic<std::uint64_t> rejected_{0};
-  std::atomic<std::uint64_t> liveliness_lost_{0};
 };
 
 }  // namespace
