@@ -98,6 +98,7 @@ void DeviceBridge::obey() noexcept {
 }
 
 void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
+  runtime::follow_realtime(kPriority);
   const std::int64_t now_ns = runtime::steady_now_ns();
   for (const auto& channel : channels_) {
     if (channel->tool() == answer.tool) channel->receive(answer, now_ns);

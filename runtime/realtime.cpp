@@ -25,10 +25,14 @@ bool may_lock_everything() {
   return (data[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
-bool request_fifo(int priority, std::string& warning) {
-  // the threads it starts later do not inherit the priority
+// Zero or the error. The threads that the calling one starts later do not inherit the priority.
+int set_fifo(int priority) noexcept {
   const sched_param parameters{.sched_priority = priority};
-  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
+}
+
+bool request_fifo(int priority, std::string& warning) {
+  const int error = set_fifo(priority);
   if (error == 0) return true;
   // ordinary threads' timers may fire 50 us late to save power; 1 ns asks for the hardware's best
   prctl(PR_SET_TIMERSLACK, 1UL);
@@ -52,6 +56,11 @@ RealtimeGrant request_realtime(int priority) {
   grant.fifo = request_fifo(priority, grant.warning);
   grant.locked = request_locked_memory(grant.warning);
   return grant;
+}
+
+void follow_realtime(int priority) noexcept {
+  thread_local const int asked = set_fifo(priority);
+  (void)asked;
 }
 
 }  // namespace omentum::runtime

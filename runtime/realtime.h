@@ -14,4 +14,8 @@ struct RealtimeGrant {
 /// Asks for SCHED_FIFO for the calling thread, and for locked memory for the process. Never throws.
 RealtimeGrant request_realtime(int priority);
 
+/// For a callback that is a link of the hand's loop but runs on a thread of the DDS vendor: asks for
+/// SCHED_FIFO for the calling thread the first time it comes by, silently; costs nothing after that.
+void follow_realtime(int priority) noexcept;
+
 }  // namespace omentum::runtime

@@ -1,7 +1,7 @@
 #include "device_bridge/tool_channel.h"
 
 #include "device_bridge/virtual_hand.h"
-#include "tests/device_bridge/heap_count.h"
+#include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
 
@@ -153,7 +153,7 @@ TEST(ToolChannel, TicksUseNoHeap) {
   tool.trocar = runtime::Triple{0, 0.1, 0.2};
   runtime::FaultList faults;
   ToolChannel channel(std::make_unique<VirtualHand>(hand, tool, 1000), faults);
-  const long before = test::heap_uses();
+  const std::size_t before = test::heap_allocations();
   for (int i = 0; i < 12'000; ++i) {
     msg::ToolForce force;
     force.force.z = i % 100 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1.0;
@@ -161,7 +161,7 @@ TEST(ToolChannel, TicksUseNoHeap) {
     channel.receive(force, i * kMs);
     channel.tick(i * kMs);
   }
-  EXPECT_EQ(test::heap_uses(), before);
+  EXPECT_EQ(test::heap_allocations(), before);
 }
 
 }  // namespace

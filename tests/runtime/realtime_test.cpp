@@ -1,0 +1,72 @@
+#include "runtime/realtime.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include <linux/capability.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace omentum::runtime {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kPriority = 50;
+
+// What a thread of an ordinary user is granted. Capabilities belong to the thread, limits to the process.
+RealtimeGrant request_as_ordinary_user() {
+  rlimit priority{}, memory{};
+  getrlimit(RLIMIT_RTPRIO, &priority);
+  getrlimit(RLIMIT_MEMLOCK, &memory);
+  const rlimit no_priority{0, priority.rlim_max}, little_memory{1 << 16, memory.rlim_max};
+  setrlimit(RLIMIT_RTPRIO, &no_priority);
+  setrlimit(RLIMIT_MEMLOCK, &little_memory);
+  RealtimeGrant grant;
+  std::thread([&grant] {
+    __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+    const __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3] = {};
+    syscall(SYS_capset, &header, none);
+    grant = request_realtime(kPriority);
+  }).join();
+  setrlimit(RLIMIT_RTPRIO, &priority);
+  setrlimit(RLIMIT_MEMLOCK, &memory);
+  return grant;
+}
+
+TEST(Realtime, WhatIsRefusedIsSaidWithWhatToSet) {
+  const RealtimeGrant grant = request_as_ordinary_user();
+  EXPECT_FALSE(grant.fifo);
+  EXPECT_FALSE(grant.locked);
+  EXPECT_THAT(grant.warning, HasSubstr("ulimit -r 50"));
+  EXPECT_THAT(grant.warning, HasSubstr("CAP_SYS_NICE"));
+  EXPECT_THAT(grant.warning, HasSubstr("ulimit -l unlimited"));
+  EXPECT_EQ(grant.warning.find('\n'), std::string::npos);
+}
+
+TEST(Realtime, WhatIsGrantedIsNotWarnedOf) {
+  std::thread([] {
+    const RealtimeGrant grant = request_realtime(kPriority);
+    EXPECT_EQ(grant.fifo, grant.warning.find("priority") == std::string::npos);
+    EXPECT_EQ(grant.locked, grant.warning.find("memory") == std::string::npos);
+    EXPECT_EQ((sched_getscheduler(0) & ~SCHED_RESET_ON_FORK) == SCHED_FIFO, grant.fifo);
+  }).join();
+  munlockall();
+}
+
+TEST(Realtime, ThreadsStartedLaterDoNotInheritThePriority) {
+  std::thread([] {
+    follow_realtime(kPriority);
+    std::thread([] {
+      EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+    }).join();
+  }).join();
+}
+
+}  // namespace
+}  // namespace omentum::runtime
