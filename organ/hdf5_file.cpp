@@ -10,10 +10,9 @@ namespace {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
-// Pages, so that a mapped dataset begins at one.
-constexpr hsize_t kAlignment = 4096;
-// Only what is worth mapping is aligned: smaller objects would waste a page each.
-constexpr hsize_t kAlignFrom = 576;
+// A cache line, so that a mapped dataset begins at one: every object, however small.
+constexpr hsize_t kAlignment = 64;
+constexpr hsize_t kAlignFrom = 1;
 
 // Closes an HDF5 handle of any kind.
 class Handle {

@@ -24,7 +24,7 @@ class Hdf5File {
  public:
   enum class Mode { kRead, kUpdate, kCreate };
 
-  /// A created file is empty; contiguous datasets in it are page-aligned, so that they can be mapped.
+  /// A created file is empty; datasets in it are aligned to 64 bytes, so that they can be mapped.
   Hdf5File(const std::filesystem::path& file, Mode mode);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;

@@ -1,0 +1,56 @@
+#include "organ/csv.h"
+
+#include "geometry/tetra_mesh.h"
+#include "support/process.h"
+
+#include <gmock/gmock.h>
+
+namespace omentum::organ {
+namespace {
+
+using testing::ElementsAre;
+
+class CsvTest : public testing::Test {
+ protected:
+  std::vector<CsvLine> read(const std::string& text) {
+    std::ofstream(folder / "t.csv") << text;
+    return read_csv(folder / "t.csv");
+  }
+  test::ScratchFolder folder;
+};
+
+TEST_F(CsvTest, HeaderCommentsAndEmptyLinesAreLeftOut) {
+  const auto lines = read("node,ux\n# a comment\n\n 3 , 1e-3\r\n4,2\n");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_THAT(lines[0].fields, ElementsAre("3", "1e-3"));
+  EXPECT_THAT(lines[1].fields, ElementsAre("4", "2"));
+  EXPECT_THAT(lines[0].where, testing::EndsWith("t.csv:4"));
+}
+
+TEST_F(CsvTest, AFirstLineWithNumbersIsNoHeader) {
+  EXPECT_EQ(read("nan,1,2,3\n").size(), 1u);
+}
+
+TEST_F(CsvTest, AFileWithoutNumbersIsRefused) {
+  EXPECT_THROW(read("node,ux\n"), geometry::InputError);
+  EXPECT_THROW(read(""), geometry::InputError);
+}
+
+TEST_F(CsvTest, AMissingFileAndAFolderAreRefused) {
+  EXPECT_THROW(read_csv(folder / "absent.csv"), geometry::InputError);
+  EXPECT_THROW(read_csv(folder.path()), geometry::InputError);
+}
+
+TEST(ParseNumberTest, TakesWholeFiniteNumbersOnly) {
+  EXPECT_EQ(parse_number("-1.5e-3"), -1.5e-3);
+  EXPECT_EQ(parse_number("+2"), 2);
+  for (const char* wrong : {"", "+", "1.5x", "nan", "inf", "1 2", "0x10", "1e999"}) {
+    EXPECT_FALSE(parse_number(wrong)) << wrong;
+  }
+  EXPECT_EQ(parse_integer("42"), 42);
+  EXPECT_FALSE(parse_integer("4.0"));
+  EXPECT_FALSE(parse_integer("99999999999"));
+}
+
+}  // namespace
+}  // namespace omentum::organ

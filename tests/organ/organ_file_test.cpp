@@ -1,0 +1,254 @@
+#include "organ/build_organ.h"
+#include "organ/organ_hash.h"
+#include "organ/organ_layout.h"
+#include "organ/organ_writer.h"
+#include "organ/stored_tensors.h"
+#include "physics/direct_solve.h"
+#include "support/meshes.h"
+#include "support/process.h"
+
+#include <gmock/gmock.h>
+#include <hdf5.h>
+
+#include <functional>
+
+namespace omentum::organ {
+namespace {
+
+using testing::HasSubstr;
+
+const physics::Material kTissue{3000, 0.45, 1050};
+
+Organ small_organ(const physics::Material& material = kTissue, Storage storage = Storage::kFloat,
+                  const geometry::Vec3& size = {0.06, 0.04, 0.04}) {
+  geometry::TetraMesh mesh = test::make_box_mesh(3, 2, 2, size);
+  FixedComponents fixed(mesh.positions.size(), 0);
+  for (std::size_t n = 0; n < fixed.size(); ++n) {
+    if (mesh.positions[n].x() < 1e-9) fixed[n] = physics::kPinned;
+  }
+  return make_organ("box", std::move(mesh), material, std::move(fixed), storage);
+}
+
+class OrganFileTest : public testing::Test {
+ protected:
+  Organ build(const Organ& organ) {
+    build_organ(organ, file, {});
+    return load_organ(file, Load::kWithTensors);
+  }
+
+  std::string refusal() const {
+    try {
+      load_organ(file, Load::kWithTensors);
+    } catch (const geometry::InputError& e) {
+      EXPECT_THAT(e.what(), HasSubstr(file.string()));
+      EXPECT_THAT(e.what(), testing::Not(HasSubstr("\n")));
+      return e.what();
+    }
+    return "accepted";
+  }
+
+  // Changes a finished file from within.
+  void damage(const std::function<void(hid_t)>& change) const {
+    const hid_t hdf5 = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(hdf5, 0);
+    change(hdf5);
+    H5Fclose(hdf5);
+  }
+
+  test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "box.h5";
+};
+
+TEST_F(OrganFileTest, RoundTripKeepsEverything) {
+  const Organ made = small_organ();
+  const Organ found = build(made);
+
+  EXPECT_EQ(found.name, "box");
+  EXPECT_EQ(found.hash, made.hash);
+  EXPECT_EQ(found.mesh.positions, made.mesh.positions);
+  EXPECT_EQ(found.mesh.tetrahedra, made.mesh.tetrahedra);
+  EXPECT_EQ(found.mesh.file_node, made.mesh.file_node);
+  EXPECT_EQ(found.mesh.file_node_count, made.mesh.file_node_count);
+  EXPECT_EQ(found.surface.node, made.surface.node);
+  EXPECT_EQ(found.surface.of_node, made.surface.of_node);
+  EXPECT_EQ(found.surface.triangles, made.surface.triangles);
+  EXPECT_EQ(found.surface.tetrahedron, made.surface.tetrahedron);
+  EXPECT_EQ(found.surface.fan_start, made.surface.fan_start);
+  EXPECT_EQ(found.surface.fan, made.surface.fan);
+  EXPECT_EQ(found.surface.mobile_count, made.surface.mobile_count);
+  EXPECT_EQ(found.material.young_pa, made.material.young_pa);
+  EXPECT_EQ(found.material.poisson, made.material.poisson);
+  EXPECT_EQ(found.material.density_kg_m3, made.material.density_kg_m3);
+  EXPECT_EQ(found.fixed, made.fixed);
+}
+
+TEST_F(OrganFileTest, MappedTensorsAreTheCompliance) {
+  const Organ organ = build(small_organ());
+  const auto K = physics::assemble_stiffness(organ.mesh, organ.material);
+  std::vector<geometry::Vec3> push(organ.mesh.positions.size(), geometry::Vec3::Zero());
+  push[organ.surface.node[5]] = {0, 1, 0};
+  const auto u = physics::direct_solve(K, organ.fixed, {}, push).displacements;
+  for (int n = 0; n < organ.surface.mobile_count; ++n) {
+    const geometry::Vec3 column = organ.compliance->block(SurfaceId(n), SurfaceId(5)).col(1);
+    EXPECT_LE((column - u[organ.surface.node[n]]).norm(), 1e-6 * u[organ.surface.node[5]].norm());
+  }
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(organ.compliance->tile(SurfaceId(0), 0)) % 64, 0u);
+}
+
+TEST_F(OrganFileTest, TensorsOutliveTheirReader) {
+  std::optional<physics::SurfaceCompliance> kept;
+  {
+    const Organ organ = build(small_organ());
+    kept = organ.compliance;
+  }
+  std::filesystem::remove(file);
+  EXPECT_GT(kept->block(SurfaceId(3), SurfaceId(3)).trace(), 0);
+}
+
+TEST_F(OrganFileTest, DoubleStorageLoadsAsFloatForTheNodes) {
+  const Organ single = build(small_organ());
+  const Organ twofold = build(small_organ(kTissue, Storage::kDouble));
+  EXPECT_EQ(twofold.storage, Storage::kDouble);
+  EXPECT_EQ(map_tensors(file, twofold).twofold.mobile_count, twofold.surface.mobile_count);
+  for (int n = 0; n < single.surface.mobile_count; ++n) {
+    const Eigen::Matrix3d a = single.compliance->block(SurfaceId(n), SurfaceId(4));
+    const Eigen::Matrix3d b = twofold.compliance->block(SurfaceId(n), SurfaceId(4));
+    EXPECT_LE((a - b).norm(), 1e-6 * a.norm());
+  }
+}
+
+TEST_F(OrganFileTest, MeshOnlyLeavesTensorsOut) {
+  build(small_organ());
+  EXPECT_FALSE(load_organ(file, Load::kMeshOnly).compliance.has_value());
+}
+
+TEST_F(OrganFileTest, SurfaceOfFileNodeInvertsNumbers) {
+  const Organ organ = build(small_organ());
+  const std::vector<SurfaceId> of_file = organ.surface_of_file_node();
+  ASSERT_EQ(of_file.size(), static_cast<std::size_t>(organ.mesh.file_node_count));
+  int found = 0;
+  for (std::size_t f = 0; f < of_file.size(); ++f) {
+    if (!of_file[f].valid()) continue;
+    ++found;
+    EXPECT_EQ(organ.mesh.file_node[organ.surface.node[of_file[f]]], static_cast<int>(f));
+  }
+  EXPECT_EQ(found, organ.surface.node_count());
+}
+
+TEST_F(OrganFileTest, HashChangesWithEverythingTheTensorsDependOn) {
+  const std::string hash = small_organ().hash;
+  EXPECT_EQ(small_organ().hash, hash);
+  EXPECT_NE(small_organ({3001, 0.45, 1050}).hash, hash);
+  EXPECT_NE(small_organ({3000, 0.451, 1050}).hash, hash);
+  EXPECT_NE(small_organ({3000, 0.45, 1051}).hash, hash);
+  EXPECT_NE(small_organ(kTissue, Storage::kDouble).hash, hash);
+  EXPECT_NE(small_organ(kTissue, Storage::kFloat, {0.06, 0.04, 0.0400001}).hash, hash);
+  Organ other = small_organ();
+  other.fixed[20] = 1;
+  EXPECT_NE(organ_hash(other), hash);
+  other = small_organ();
+  std::swap(other.mesh.file_node[0], other.mesh.file_node[1]);
+  EXPECT_NE(organ_hash(other), hash);
+}
+
+TEST_F(OrganFileTest, UpToDateFileIsLeftAndAChangedOrganIsNot) {
+  build(small_organ());
+  const auto written = std::filesystem::last_write_time(file);
+  EXPECT_TRUE(build_organ(small_organ(), file, {}).up_to_date);
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);
+  EXPECT_FALSE(build_organ(small_organ({2000, 0.4, 1000}), file, {}).up_to_date);
+  EXPECT_EQ(load_organ(file, Load::kMeshOnly).material.young_pa, 2000);
+  BuildOptions force;
+  force.force = true;
+  EXPECT_FALSE(build_organ(small_organ({2000, 0.4, 1000}), file, force).up_to_date);
+}
+
+TEST_F(OrganFileTest, MissingFileIsRefused) {
+  EXPECT_THAT(refusal(), HasSubstr("no such file"));
+}
+
+TEST_F(OrganFileTest, GarbageAndEmptyFilesAreRefused) {
+  std::ofstream(file) << "node,ux,uy,uz\n";
+  EXPECT_THAT(refusal(), HasSubstr("HDF5"));
+  std::ofstream(file, std::ios::trunc).flush();
+  EXPECT_THAT(refusal(), HasSubstr("HDF5"));
+}
+
+TEST_F(OrganFileTest, AnyTruncationIsRefused) {
+  build(small_organ());
+  const auto whole = std::filesystem::file_size(file);
+  for (const double part : {0.99, 0.7, 0.3, 0.01}) {
+    std::filesystem::resize_file(file, static_cast<std::uintmax_t>(part * static_cast<double>(whole)));
+    EXPECT_NE(refusal(), "accepted") << part;
+  }
+}
+
+TEST_F(OrganFileTest, UnfinishedFileIsRefused) {
+  build(small_organ());
+  damage([](hid_t hdf5) { H5Adelete(hdf5, layout::kFinished); });
+  EXPECT_THAT(refusal(), HasSubstr("unfinished"));
+}
+
+TEST_F(OrganFileTest, OtherVersionIsRefused) {
+  build(small_organ());
+  damage([](hid_t hdf5) {
+    const double other = kFormatVersion + 1;
+    const hid_t version = H5Aopen(hdf5, layout::kVersion, H5P_DEFAULT);
+    H5Awrite(version, H5T_NATIVE_DOUBLE, &other);
+    H5Aclose(version);
+  });
+  EXPECT_THAT(refusal(), HasSubstr("version 2; expected 1"));
+}
+
+TEST_F(OrganFileTest, ChangedMaterialIsNotServedFromOldTensors) {
+  build(small_organ());
+  damage([](hid_t hdf5) {
+    const double other = 9999;
+    const hid_t young = H5Aopen(hdf5, layout::kYoung, H5P_DEFAULT);
+    H5Awrite(young, H5T_NATIVE_DOUBLE, &other);
+    H5Aclose(young);
+  });
+  EXPECT_THAT(refusal(), HasSubstr("hash"));
+}
+
+TEST_F(OrganFileTest, AnotherKindOfHdf5FileIsRefused) {
+  H5Fclose(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_THAT(refusal(), HasSubstr("no organ file"));
+}
+
+TEST_F(OrganFileTest, AbandonedWriterLeavesNothing) {
+  { const OrganWriter writer(file, small_organ()); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_F(OrganFileTest, SecondWriterOfTheSameFileIsRefused) {
+  const OrganWriter first(file, small_organ());
+  EXPECT_THROW(OrganWriter(file, small_organ()), geometry::InputError);
+}
+
+TEST_F(OrganFileTest, StoppedBuildKeepsTheOldFile) {
+  const Organ old = build(small_organ());
+  BuildOptions stopped;
+  stopped.stopped = [] { return true; };
+  EXPECT_THROW(build_organ(small_organ({2000, 0.4, 1000}), file, stopped), Interrupted);
+  EXPECT_EQ(load_organ(file, Load::kWithTensors).hash, old.hash);
+  EXPECT_FALSE(std::filesystem::exists(file.string() + ".partial"));
+}
+
+TEST_F(OrganFileTest, MaterialsOutOfRangeAreRefused) {
+  for (const physics::Material wrong :
+       {physics::Material{0, 0.4, 1000}, physics::Material{3000, 0.5, 1000},
+        physics::Material{3000, -1, 1000}, physics::Material{3000, 0.4, 0}, physics::Material{NAN, 0.4, 1000},
+        physics::Material{3000, NAN, 1000}}) {
+    EXPECT_THROW(small_organ(wrong), geometry::InputError);
+  }
+}
+
+TEST_F(OrganFileTest, SupportsThatHoldEverythingAreRefused) {
+  geometry::TetraMesh mesh = test::make_box_mesh(1, 1, 1, {1, 1, 1});
+  FixedComponents all(mesh.positions.size(), physics::kPinned);
+  EXPECT_THROW(make_organ("rock", std::move(mesh), kTissue, all, Storage::kFloat), geometry::InputError);
+}
+
+}  // namespace
+}  // namespace omentum::organ
