@@ -1,0 +1,26 @@
+# cmake --install: the libraries that other programs may build on, as the package Omentum.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+if(NOT TARGET omentum_geometry OR NOT TARGET omentum_physics OR NOT TARGET omentum_organ)
+  return()
+endif()
+
+set(omentum_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Omentum)
+
+install(TARGETS omentum_geometry omentum_physics omentum_organ EXPORT OmentumTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+foreach(room geometry physics organ)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/omentum
+    COMPONENT development FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(EXPORT OmentumTargets NAMESPACE Omentum:: DESTINATION ${omentum_package_dir} COMPONENT development)
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/OmentumConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/OmentumConfig.cmake INSTALL_DESTINATION ${omentum_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/OmentumConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/OmentumConfig.cmake
+  ${PROJECT_BINARY_DIR}/OmentumConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindOmentumNumerics.cmake
+  DESTINATION ${omentum_package_dir} COMPONENT development)
