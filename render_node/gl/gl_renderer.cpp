@@ -48,15 +48,17 @@ class NoiseTexture {
   unsigned texture_ = 0;
 };
 
-// The programs, by what they draw.
+// The programs, by what they draw. `prefix`: what all fragment shaders share.
 struct Programs {
-  Program shadow{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
-  Program backdrop{"backdrop", shaders::screen_vert, shaders::common_glsl, shaders::backdrop_frag};
-  Program lens{"lens", shaders::screen_vert, shaders::common_glsl, shaders::lens_frag};
-  Program tissue{"tissue", shaders::surface_vert, shaders::common_glsl, shaders::tissue_frag};
-  Program solid{"solid", shaders::surface_vert, shaders::common_glsl, shaders::solid_frag};
-  Program ground{"ground", shaders::surface_vert, shaders::common_glsl, shaders::ground_frag};
-  Program signal{"signal", shaders::surface_vert, shaders::common_glsl, shaders::signal_frag};
+  explicit Programs(const std::string& prefix)
+      : backdrop("backdrop", shaders::screen_vert, prefix, shaders::backdrop_frag),
+        lens("lens", shaders::screen_vert, prefix, shaders::lens_frag),
+        tissue("tissue", shaders::surface_vert, prefix, shaders::tissue_frag),
+        solid("solid", shaders::surface_vert, prefix, shaders::solid_frag),
+        ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
+        signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
+
+  Program backdrop, lens, tissue, solid, ground, signal;
 
   const Program& of(Look look) const {
     switch (look) {
@@ -158,11 +160,11 @@ class GlRenderer final : public Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(kShadowSlope, kShadowBias);
-    programs_.shadow.use();
-    programs_.shadow.set("clip_from_W", frame.lighting.clip_from_W);
+    shadow_program_.use();
+    shadow_program_.set("clip_from_W", frame.lighting.clip_from_W);
     for (const DrawItem& item : frame.items) {
       if (item.look == Look::kGround || item.look == Look::kSignal) continue;
-      programs_.shadow.set("W_from_mesh", item.W_from_mesh);
+      shadow_program_.set("W_from_mesh", item.W_from_mesh);
       mesh(item.mesh).draw();
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
@@ -182,21 +184,22 @@ class GlRenderer final : public Renderer {
     for (const Look look : {Look::kSolid, Look::kTissue, Look::kGround, Look::kSignal})
       draw_items(frame, look);
     glDisable(GL_CULL_FACE);
+    glDepthRange(kSignalDepth, 1);
     glDepthFunc(GL_LEQUAL);
-    fill_screen(programs_.backdrop, frame);
+    fill_screen(programs(frame).backdrop, frame);
     glDepthFunc(GL_LESS);
     glDisable(GL_DEPTH_TEST);
 
     if (frame.through_endoscope) {
       glEnable(GL_BLEND);
       glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-      fill_screen(programs_.lens, frame);
+      fill_screen(programs(frame).lens, frame);
       glDisable(GL_BLEND);
     }
   }
 
   void draw_items(const Frame& frame, Look look) {
-    const Program& program = programs_.of(look);
+    const Program& program = programs(frame).of(look);
     program.use();
     set_scene(program, frame);
     program.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
@@ -219,7 +222,6 @@ class GlRenderer final : public Renderer {
     program.set("unit_length", frame.lighting.radius_m);
     program.set("picture_size", static_cast<float>(drawn_.width), static_cast<float>(drawn_.height));
     program.set("middle", frame.middle);
-    program.set("soft_shadows", frame.quality == Quality::kFine ? 1.0f : 0.0f);
     program.set("scope", frame.through_endoscope ? 1.0f : 0.0f);
     program.set("shadow_map", kShadowUnit);
     program.set("pattern", kPatternUnit);
@@ -243,11 +245,16 @@ class GlRenderer final : public Renderer {
     glViewport(0, 0, width, height);
   }
 
+  const Programs& programs(const Frame& frame) const {
+    return frame.quality == Quality::kFine ? fine_ : plain_;
+  }
   const MeshBuffer& mesh(MeshId id) const { return meshes_[static_cast<std::size_t>(id)]; }
 
   // the context comes first and goes last: everything below lives in it
   std::unique_ptr<GlContext> context_;
-  Programs programs_;
+  Program shadow_program_{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
+  Programs plain_{std::string(shaders::common_glsl)};
+  Programs fine_{"#define SOFT_SHADOWS\n" + std::string(shaders::common_glsl)};
   NoiseTexture pattern_;
   ShadowMap shadow_;
   unsigned no_vertices_ = 0;

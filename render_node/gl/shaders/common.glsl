@@ -1,11 +1,11 @@
 // Shared by all fragment shaders: lights, shadow, the room that wet surfaces mirror, and the film.
+// SOFT_SHADOWS is defined for fine frames (software OpenGL runs both sides of every branch).
 uniform vec3 eye;            // in W, m
 uniform vec3 towards_key;    // unit, in W
 uniform mat4 light_from_W;   // clip coordinates of the shadow map
 uniform sampler2DShadow shadow_map;
 uniform vec2 picture_size;   // pixels
 uniform float middle;        // of the view, share of the width
-uniform float soft_shadows;  // 1: four samples, 0: one
 uniform float scope;         // 1: seen through an endoscope, inside a body; 0: on a table
 uniform float unit_length;   // radius of what is looked at, m
 
@@ -41,15 +41,16 @@ vec3 film(vec3 x) {
 float lit(vec3 p_W, vec3 n, float n_dot_l) {
   vec3 q = p_W + n * unit_length * mix(0.022, 0.006, clamp(n_dot_l, 0.0, 1.0));
   vec3 s = (light_from_W * vec4(q, 1.0)).xyz * 0.5 + 0.5;
-  if (any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)))) return 1.0;
-  if (soft_shadows < 0.5) return texture(shadow_map, s);
+#ifdef SOFT_SHADOWS
   float reach = 1.9 / 1024.0;
   float turn = 2.0 * pi * grain(gl_FragCoord.xy);
   vec2 a = reach * vec2(cos(turn), sin(turn));
-  vec2 b = vec2(-a.y, a.x);
-  float sum = texture(shadow_map, vec3(s.xy + a, s.z)) + texture(shadow_map, vec3(s.xy - a, s.z)) +
-              texture(shadow_map, vec3(s.xy + 0.55 * b, s.z)) + texture(shadow_map, vec3(s.xy - 0.55 * b, s.z));
-  return 0.25 * sum;
+  vec2 b = 0.55 * vec2(-a.y, a.x);
+  return 0.25 * (texture(shadow_map, vec3(s.xy + a, s.z)) + texture(shadow_map, vec3(s.xy - a, s.z)) +
+                 texture(shadow_map, vec3(s.xy + b, s.z)) + texture(shadow_map, vec3(s.xy - b, s.z)));
+#else
+  return texture(shadow_map, s);
+#endif
 }
 
 // The room as a smooth surface mirrors it: dark floor, dim walls, and two soft boxes of light.
