@@ -144,8 +144,8 @@ def check_values(options):
         raise Refusal(f"--seconds: found {options.seconds:g}, expected more than 0")
     if options.scale is not None and not options.scale > 0:
         raise Refusal(f"--scale: found {options.scale:g}, expected more than 0")
-    if options.rate_hz is not None and not 10 <= options.rate_hz <= 10000:
-        raise Refusal(f"--rate-hz: found {options.rate_hz:g}, expected 10 to 10000")
+    if options.rate_hz is not None and not 50 <= options.rate_hz <= 10000:
+        raise Refusal(f"--rate-hz: found {options.rate_hz:g}, expected 50 to 10000")
     if options.domain is not None and not 0 <= options.domain <= LAST_DOMAIN:
         raise Refusal(f"--domain: found {options.domain}, expected 0 to {LAST_DOMAIN}")
     if (options.scale or options.fixed) and not options.organ:
