@@ -97,6 +97,7 @@ void DeformedSurface::restore_rest() {
   moved_.assign(clusters, 0);
   moved_since_binning_.assign(clusters, 0);
   step_.assign(clusters, 0);
+  motion_.assign(clusters, 0);
   marks_.assign(clusters, 0);
   pending_.reserve(clusters);
   cluster_version_.assign(clusters, version_);
@@ -140,10 +141,10 @@ void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<con
   forces_.assign(forces.begin(), forces.end());
   for (std::size_t q = 0; q < nodes_.size(); ++q) index_of_[nodes_[q]] = static_cast<std::int16_t>(q);
   evaluated_clusters_ = 0;
-  last_motion_ = 0;
+  evaluated_motion_ = 0;
   kernels::weighted_sum(rows.data(), changes.data(), count, clusters_, step_.data());
+  motion_ = step_;
   if (count == 0) return;
-  last_motion_ = *std::max_element(step_.begin(), step_.end());
   kernels::add_to_both(step_.data(), clusters_, moved_.data(), moved_since_binning_.data());
   ++version_;
 }
@@ -153,7 +154,8 @@ void DeformedSurface::evaluate(const Region& region) noexcept {
   const Eigen::Vector3f high = region.high.cast<float>().array() + kRounding_m;
   const kernels::Boxes boxes{{low_[0].data(), low_[1].data(), low_[2].data()},
                              {high_[0].data(), high_[1].data(), high_[2].data()}};
-  kernels::mark_meeting(boxes, moved_.data(), low.data(), high.data(), clusters_, marks_.data());
+  kernels::mark_meeting(boxes, moved_.data(), step_.data(), static_cast<float>(kMaxOvertake_m), low.data(),
+                        high.data(), clusters_, marks_.data());
   pending_.clear();
   for (std::int32_t c = 0; c < clusters_; ++c) {
     if (marks_[c] && !fresh(c)) pending_.push_back(c);
@@ -174,9 +176,17 @@ void DeformedSurface::superpose(std::int32_t cluster) noexcept {
   physics::superpose_cluster(compliance_, cluster, nodes_, forces_, u);
   const std::int32_t first = cluster * kClusterSize;
   const std::int32_t count = std::min(kClusterSize, surface_.mobile_count - first);
+  double moved_squared = 0;
   for (std::int32_t l = 0; l < count; ++l) {
-    positions_[first + l] = rest_[first + l] + Vec3(u[l], u[kClusterSize + l], u[2 * kClusterSize + l]);
+    const Vec3 x = rest_[first + l] + Vec3(u[l], u[kClusterSize + l], u[2 * kClusterSize + l]);
+    moved_squared = std::max(moved_squared, (x - positions_[first + l]).squaredNorm());
+    positions_[first + l] = x;
   }
+  // where the positions before were those of the forces before, the motion is known, not only bounded
+  if (cluster_version_[cluster] + 1 == version_) {
+    motion_[cluster] = std::min(step_[cluster], static_cast<float>(std::sqrt(moved_squared)) + kRounding_m);
+  }
+  evaluated_motion_ = std::max(evaluated_motion_, static_cast<double>(motion_[cluster]));
   cluster_version_[cluster] = version_;
   ++evaluated_clusters_;
 }
@@ -190,11 +200,12 @@ void DeformedSurface::box_and_bin(std::int32_t cluster) noexcept {
     high = high.max(positions_[n].array());
   }
   // neighbours that were not superposed with these forces may be anywhere within what they moved since
-  float stale = 0;
+  float stale = 0, motion = motion_[cluster];
   for (std::int32_t o = outer_start_[cluster]; o < outer_start_[cluster + 1]; ++o) {
     const std::int32_t n = outer_[o], home = n / kClusterSize;
     const float moved = fresh(home) ? 0.0f : moved_[home];
     stale = std::max(stale, moved);
+    if (home < clusters_) motion = std::max(motion, motion_[home]);
     low = low.min(positions_[n].array() - moved);
     high = high.max(positions_[n].array() + moved);
   }
@@ -203,7 +214,9 @@ void DeformedSurface::box_and_bin(std::int32_t cluster) noexcept {
     high_[i][cluster] = static_cast<float>(high[i]) + kRounding_m;
   }
   moved_[cluster] = 0;
-  // queries reach further by the margin, so that buckets need a look only when that is used up
+  // queries reach further by the margin, so that buckets need a look only when that is used up; the step
+  // was added with its bound
+  moved_since_binning_[cluster] -= step_[cluster] - std::min(motion, step_[cluster]);
   if (moved_since_binning_[cluster] <= binning_margin_) return;
   for (std::int32_t o = owned_start_[cluster]; o < owned_start_[cluster + 1]; ++o) {
     grid_.update(TriangleId(owned_[o]), positions_);
@@ -283,6 +296,13 @@ std::optional<SurfacePoint> DeformedSurface::nearest_if_inside(const Vec3& p, do
   });
   if (nearest && outside_of_feature(*nearest, p)) nearest.reset();
   return nearest;
+}
+
+std::optional<SurfacePoint> DeformedSurface::touch(const Vec3& p, const Vec3& q) noexcept {
+  const double reach = std::min(evaluated_motion_, kMaxOvertake_m) + kRounding_m;
+  if (const auto overtaken = nearest_if_inside(p, reach)) return overtaken;
+  if (const auto entry = first_entry(p, q)) return entry->point;
+  return std::nullopt;
 }
 
 // The sign of a distance follows from the normal of the face, from the sum of both faces' normals on an edge,

@@ -45,13 +45,18 @@ class DeformedSurface {
   /// Nodes that may carry a force at a time.
   static constexpr int kMaxForces = 96;
 
+  /// A surface that moves over a resting point moves less than this in one tick, m (2 m/s at 1 kHz). A point
+  /// found deeper came there otherwise (a tool that was switched on inside an organ): no force throws it out.
+  static constexpr double kMaxOvertake_m = 2e-3;
+
   DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
                   const physics::SurfaceCompliance& compliance);
 
   /// The forces from now on: `nodes` mobile and distinct, at most kMaxForces, `forces` in N. Once per tick.
   void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
 
-  /// Makes exact every cluster of which a triangle may meet the region.
+  /// Makes exact every cluster of which a triangle may meet the region now, or met it at any moment of the
+  /// last set_forces while it moved by at most kMaxOvertake_m.
   void evaluate(const Region& region) noexcept;
 
   /// Exact positions, m; the node's cluster is evaluated when it was not.
@@ -72,12 +77,15 @@ class DeformedSurface {
   /// deep.
   std::optional<SurfacePoint> nearest_if_inside(const Vec3& p, double reach_m) noexcept;
 
+  /// Where a point that went from p to q, inside an evaluated region, touches the surface: where the surface
+  /// passed over it by the last set_forces (then p is inside, no deeper than anything near moved), else its
+  /// first entry.
+  std::optional<SurfacePoint> touch(const Vec3& p, const Vec3& q) noexcept;
+
   /// The closest material point to p that is reached from `from` by going from triangle to touching
   /// triangle, always nearer: sliding without search.
   SurfacePoint slide(SurfacePoint from, const Vec3& p) noexcept;
 
-  /// How far any triangle may have moved by the last set_forces at most, m.
-  double last_motion() const noexcept { return last_motion_; }
   /// Nodes superposed since the last set_forces.
   int evaluated_nodes() const noexcept { return evaluated_clusters_ * geometry::kClusterSize; }
 
@@ -112,6 +120,7 @@ class DeformedSurface {
   std::vector<float> moved_;                // ... and how far these may have moved since
   std::vector<float> moved_since_binning_;  // the same since their buckets were looked at
   std::vector<float> step_;                 // how far they may have moved by the last set_forces
+  std::vector<float> motion_;               // how far its own nodes did, where that is known; else step_
   std::vector<std::uint8_t> marks_;
   std::vector<std::int32_t> pending_;
   std::vector<std::uint32_t> cluster_version_;  // of the forces it was superposed with
@@ -124,7 +133,7 @@ class DeformedSurface {
   std::vector<std::int16_t> index_of_;  // [S] position in nodes_, -1
   geometry::BucketGrid grid_;
   double binning_margin_;
-  double last_motion_ = 0;
+  double evaluated_motion_ = 0;  // the largest of motion_ among evaluated clusters
   int evaluated_clusters_ = 0;
 };
 

@@ -13,11 +13,6 @@ constexpr double kReleaseAbove_rad = 0.20;
 // An open contact is kept as a hint up to here, m: a tenth of a voxel of the scans that organs come from.
 constexpr double kReleaseGap_m = 1e-4;
 
-// A surface that moves over a resting point moves less than this in one tick, m (2 m/s at 1 kHz). A point
-// found deeper came there otherwise (a tool that was switched on inside an organ) and feels nothing until it
-// leaves.
-constexpr double kMaxOvertake_m = 2e-3;
-
 // Room around a path for the rounding of positions, m.
 constexpr double kHair_m = 1e-5;
 
@@ -75,21 +70,11 @@ Region path_of(const ToolState& tool, double margin) {
   return region;
 }
 
-double overtake_reach(const DeformedSurface& surface) {
-  return std::min(surface.last_motion(), kMaxOvertake_m) + kHair_m;
-}
-
 ToolContact* contact_of(HapticState& state, std::int32_t tool, std::int32_t point) {
   for (ToolContact& contact : state.active()) {
     if (contact.tool == tool && contact.point == point) return &contact;
   }
   return nullptr;
-}
-
-std::optional<SurfacePoint> touched(const Vec3& before, const Vec3& now, DeformedSurface& surface) {
-  if (const auto overtaken = surface.nearest_if_inside(before, overtake_reach(surface))) return overtaken;
-  if (const auto entry = surface.first_entry(before, now)) return entry->point;
-  return std::nullopt;
 }
 
 }  // namespace
@@ -119,7 +104,7 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
 
 void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) noexcept {
   for (const ToolState& tool : state.tools) {
-    if (tool.engaged) surface.evaluate(path_of(tool, overtake_reach(surface)));
+    if (tool.engaged) surface.evaluate(path_of(tool, kHair_m));
   }
 }
 
@@ -144,7 +129,7 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
     for (std::size_t p = 0; p < tool.now.size(); ++p) {
       ToolContact* known = contact_of(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
       if (known && (known->touches() || known->grasped)) continue;
-      const auto found = touched(tool.before[p], tool.now[p], surface);
+      const auto found = surface.touch(tool.before[p], tool.now[p]);
       if (!found) continue;
       if (!known) {
         known = &state.contacts[state.contact_count++];
