@@ -14,7 +14,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 const Material kSteel{{0.78f, 0.77f, 0.75f}, 1.0f, 0.24f};
 const Material kDarkSteel{{0.40f, 0.40f, 0.41f}, 1.0f, 0.38f};
-const Material kInsulation{{0.012f, 0.012f, 0.014f}, 0.0f, 0.34f};
+const Material kInsulation{{0.020f, 0.021f, 0.024f}, 0.0f, 0.30f};
 
 constexpr float kJawLength = 0.018f;  // m, as a 5 mm dissector's
 constexpr int kTeeth = 11;

@@ -9,8 +9,8 @@ namespace omentum::render {
 namespace {
 
 // Liver: the hue of its reflectance in clinical photographs, linear.
-const Material kLiver{{0.300f, 0.052f, 0.036f}, 0.0f, 0.27f};
-const Material kDrape{{0.020f, 0.085f, 0.098f}, 0.0f, 0.9f};
+const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
+const Material kDrape{{0.016f, 0.046f, 0.056f}, 0.0f, 0.9f};
 
 constexpr double kArrowRadiusM = 0.0013, kHeadRadiusM = 0.0034, kHeadLengthM = 0.009;
 constexpr double kMarkerRadiusM = 0.0011;

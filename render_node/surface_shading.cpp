@@ -7,8 +7,8 @@
 namespace omentum::render {
 namespace {
 
-// How strongly a hollow darkens: a cone whose sides rise by 30 degrees (sine 0.5) loses half of its light.
-constexpr float kHollowDarkening = 1.1f;
+// How strongly a hollow darkens: a cone whose sides rise by 30 degrees (sine 0.5) loses most of its light.
+constexpr float kHollowDarkening = 1.6f;
 
 }  // namespace
 

@@ -13,7 +13,7 @@ const float pi = 3.14159265;
 
 // Radiance scale of the two lights, chosen so that lit tissue lands in the middle of the film's curve.
 const vec3 key_colour = vec3(3.05, 2.86, 2.62);
-const vec3 fill_colour = vec3(0.62, 0.66, 0.72);
+const vec3 fill_colour = vec3(0.55, 0.58, 0.62);
 
 // A fixed pattern of 0..1 per pixel without visible structure (Jimenez 2014, interleaved gradient noise).
 float grain(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
@@ -42,26 +42,29 @@ float lit(vec3 p_W, vec3 n, float n_dot_l) {
   vec3 q = p_W + n * unit_length * mix(0.022, 0.006, clamp(n_dot_l, 0.0, 1.0));
   vec3 s = (light_from_W * vec4(q, 1.0)).xyz * 0.5 + 0.5;
 #ifdef SOFT_SHADOWS
-  float reach = 1.9 / 1024.0;
+  // eight points of a sunflower disc, turned from pixel to pixel
+  const float reach = 5.0 / 1024.0;
   float turn = 2.0 * pi * grain(gl_FragCoord.xy);
-  vec2 a = reach * vec2(cos(turn), sin(turn));
-  vec2 b = 0.55 * vec2(-a.y, a.x);
-  return 0.25 * (texture(shadow_map, vec3(s.xy + a, s.z)) + texture(shadow_map, vec3(s.xy - a, s.z)) +
-                 texture(shadow_map, vec3(s.xy + b, s.z)) + texture(shadow_map, vec3(s.xy - b, s.z)));
+  float sum = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    float angle = turn + 2.39996 * float(i);
+    sum += texture(shadow_map, vec3(s.xy + reach * sqrt((float(i) + 0.5) / 8.0) * vec2(cos(angle), sin(angle)), s.z));
+  }
+  return sum / 8.0;
 #else
   return texture(shadow_map, s);
 #endif
 }
 
-// The room as a smooth surface mirrors it: dark floor, dim walls, and two soft boxes of light.
+// The room as a smooth surface mirrors it: dark floor, dim walls, a wide soft box around the key light and a strip.
 vec3 room(vec3 direction, float blur) {
   float height = direction.z * 0.5 + 0.5;
-  vec3 walls = mix(vec3(0.035, 0.022, 0.018), vec3(0.20, 0.23, 0.27), smoothstep(0.25, 0.95, height));
-  float edge = mix(0.05, 0.35, blur);
-  float key = smoothstep(0.90 - edge, 0.90 + edge * 0.6, dot(direction, towards_key));
+  vec3 walls = mix(vec3(0.060, 0.050, 0.048), vec3(0.30, 0.33, 0.37), smoothstep(0.2, 1.0, height));
+  float edge = mix(0.04, 0.35, blur);
+  float key = smoothstep(0.86 - edge, 0.86 + edge * 0.5, dot(direction, towards_key));
   vec3 side = normalize(vec3(-towards_key.y, towards_key.x, 0.45));
-  float strip = smoothstep(0.86 - edge, 0.86 + edge * 0.6, dot(direction, side));
-  vec3 light = walls + key * vec3(2.3, 2.2, 2.05) * (1.0 - 0.6 * blur) + strip * vec3(0.45, 0.55, 0.70);
+  float strip = smoothstep(0.82 - edge, 0.82 + edge * 0.5, dot(direction, side));
+  vec3 light = walls + key * vec3(3.2, 3.1, 2.9) * (1.0 - 0.6 * blur) + strip * vec3(0.9, 1.05, 1.25);
   return mix(light, light * vec3(1.0, 0.62, 0.52), scope);
 }
 

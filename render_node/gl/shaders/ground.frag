@@ -9,7 +9,7 @@ out vec4 colour;
 void main() {
   float nl = max(dot(n_W, towards_key), 0.0);
   float shade = lit(p_W, vec3(0.0, 0.0, 1.0), nl);
-  vec3 light = key_colour * nl * shade * mix(openness, 1.0, 0.5) + vec3(0.34, 0.38, 0.42) * openness * openness;
+  vec3 light = key_colour * nl * shade * mix(openness, 1.0, 0.4) + vec3(0.62, 0.69, 0.76) * openness;
   // the lamp's cone
   float r = length(rest.xy);
   float cone = exp(-0.16 * r * r);

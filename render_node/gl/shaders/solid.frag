@@ -19,7 +19,7 @@ void main() {
   vec3 ambient = mix(vec3(0.10, 0.06, 0.05), vec3(0.32, 0.35, 0.40), above);
   vec3 body = base * (key_colour * nl * shade + fill_colour * nv + ambient);
   vec3 fresnel = f0 + (max(vec3(1.0 - material_roughness), f0) - f0) * pow(1.0 - nv, 5.0);
-  vec3 mirror = room(reflect(-v, n), material_roughness) * fresnel;
+  vec3 mirror = room(reflect(-v, n), material_roughness) * fresnel * mix(1.0, 1.5, material_metalness);
   vec3 glint = gloss(n, v, towards_key, material_roughness, f0) * key_colour * pi * shade * 0.6;
   colour = vec4(film(body + mirror + glint), 1.0);
 }

@@ -27,38 +27,35 @@ void main() {
   vec3 n0 = normalize(n_W);
   // the relief fades with distance, where it would only flicker
   float near = clamp(unit_length * 5.0 / distance(eye, p_W), 0.0, 1.0);
-  vec3 slope = (mottle.rgb - 0.5) * 0.16 + (fine.rgb - 0.5) * 0.13 * near;
+  vec3 slope = (mottle.rgb - 0.5) * 0.20 + (fine.rgb - 0.5) * 0.13 * near;
   vec3 n = normalize(n0 - (slope - n0 * dot(slope, n0)));
-  vec3 n_soft = normalize(mix(n0, n, 0.35));
+  vec3 n_soft = normalize(mix(n0, n, 0.3));
 
   // colour: darker, bluer spots where blood stands, paler between the lobules
-  float spot = (mottle.a - 0.5) * 1.5 + (fine.a - 0.5) * 0.7;
-  vec3 albedo = material_colour * (1.0 + 0.34 * spot);
-  albedo = mix(albedo, albedo * vec3(0.80, 0.78, 1.12), clamp(-spot, 0.0, 1.0));
+  float spot = (mottle.a - 0.5) * 1.7 + (fine.a - 0.5) * 0.8;
+  vec3 albedo = material_colour * (1.0 + 0.38 * spot);
+  albedo = mix(albedo, albedo * vec3(0.78, 0.74, 1.15), clamp(-spot, 0.0, 1.0));
 
-  float nl = dot(n_soft, towards_key);
+  // shadows on tissue are red, not grey: light enters beside them
   float shade = lit(p_W, n0, dot(n0, towards_key));
-  vec3 shade_tint = mix(vec3(0.10, 0.02, 0.015), vec3(1.0), shade);  // shadows on tissue are red, not grey
-  vec3 light = key_colour * wrapped(nl) * shade_tint;
+  vec3 light = key_colour * wrapped(dot(n_soft, towards_key)) * mix(vec3(0.15, 0.04, 0.03), vec3(1.0), shade);
   float nv = clamp(dot(n_soft, v), 0.0, 1.0);
   float torch = clamp(unit_length * 3.2 / distance(eye, p_W), 0.0, 1.6);
   light += fill_colour * torch * nv;
 
-  // ambient: cool from above, warm from the neighbouring tissue below, less in hollows; what a hollow keeps is redder
+  // ambient: cool from above, warm from the neighbouring tissue below; what a hollow keeps is redder
   float above = n_soft.z * 0.5 + 0.5;
-  vec3 ambient = mix(vec3(0.16, 0.085, 0.07), vec3(0.34, 0.37, 0.41), above);
-  vec3 open = pow(vec3(openness), vec3(0.9, 1.35, 1.4));
-  light += ambient * open;
-  vec3 body = albedo * light * mix(vec3(1.0), open, 0.45);
+  vec3 open = pow(vec3(openness), vec3(1.2, 2.0, 2.1));
+  light += mix(vec3(0.13, 0.06, 0.05), vec3(0.27, 0.30, 0.34), above) * open;
+  vec3 body = albedo * light * mix(vec3(1.0), open, 0.8);
 
-  // the film of water: sharp glints of both lights and a dim mirror of the room, strongest at grazing angles
-  vec3 f0 = vec3(0.024);
-  float wet = material_roughness * (0.85 + 0.5 * mottle.a);
-  vec3 glint = gloss(n, v, towards_key, wet, f0) * key_colour * pi * shade * 1.2;
-  glint += gloss(n, v, v, wet * 1.15, f0) * fill_colour * torch * pi;
-  glint += gloss(n_soft, v, towards_key, 0.46, f0) * key_colour * pi * shade * 0.8;
+  // the film of water: sharp glints of both lights and a mirror of the room, strongest at grazing angles
+  vec3 f0 = vec3(0.028);
+  float wet = material_roughness * (0.8 + 0.5 * mottle.a);
+  vec3 glint = gloss(n, v, towards_key, wet, f0) * key_colour * pi * shade * 1.5;
+  glint += gloss(n, v, v, wet, f0) * fill_colour * torch * pi * 1.3;
   float grazing = pow(1.0 - nv, 5.0);
-  vec3 mirror = room(reflect(-v, n), 0.45) * (0.024 + 0.55 * grazing) * openness * mix(0.35, 1.0, shade);
+  vec3 mirror = room(reflect(-v, n), 0.25) * (0.045 + 0.75 * grazing) * openness * openness * mix(0.4, 1.0, shade);
 
   colour = vec4(film(body + glint + mirror), 1.0);
 }
