@@ -14,12 +14,12 @@ inline constexpr int kClusterSize = 16;
 /// of kClusterSize, so that a cluster is compact in space. Nodes for which `pinned` is true come
 /// last (they never move and carry no tensors): SurfaceIds below `mobile_count` are the others.
 struct Surface {
-  std::vector<NodeId> node;            // [S] mesh node of each surface node
-  std::vector<SurfaceId> of_node;      // [N] inverse; invalid for inner nodes
-  std::vector<Triangle> triangles;     // [F] outward
-  std::vector<TetId> tetrahedron;      // [F] the one behind each triangle
-  std::vector<std::int32_t> fan_start; // [S+1] into `fan`
-  std::vector<TriangleId> fan;         // triangles around each node
+  std::vector<NodeId> node;             // [S] mesh node of each surface node
+  std::vector<SurfaceId> of_node;       // [N] inverse; invalid for inner nodes
+  std::vector<Triangle> triangles;      // [F] outward
+  std::vector<TetId> tetrahedron;       // [F] the one behind each triangle
+  std::vector<std::int32_t> fan_start;  // [S+1] into `fan`
+  std::vector<TriangleId> fan;          // triangles around each node
   std::int32_t mobile_count = 0;
 
   std::int32_t node_count() const { return static_cast<std::int32_t>(node.size()); }

@@ -12,9 +12,9 @@ namespace omentum::geometry {
 
 /// What a mesh file holds, before any check. Nodes and tetrahedra in the file's order, from 0.
 struct RawMesh {
-  std::string source;                                  // the file, for messages
-  std::vector<Vec3> positions;                         // in the file's unit
-  std::vector<std::array<std::int32_t, 4>> tetrahedra; // 0-based positions in `positions`
+  std::string source;                                   // the file, for messages
+  std::vector<Vec3> positions;                          // in the file's unit
+  std::vector<std::array<std::int32_t, 4>> tetrahedra;  // 0-based positions in `positions`
 };
 
 /// A valid mesh: every node used, every tetrahedron positively oriented, no duplicate or overlapping

@@ -32,7 +32,7 @@ using TetId = Index<struct TetTag>;            // tetrahedron of a mesh, in the 
 using SurfaceId = Index<struct SurfaceTag>;    // node of a boundary surface, in spatial order
 using TriangleId = Index<struct TriangleTag>;  // triangle of a boundary surface
 
-using Tetrahedron = std::array<NodeId, 4>;     // positively oriented
-using Triangle = std::array<SurfaceId, 3>;     // counter-clockwise seen from outside
+using Tetrahedron = std::array<NodeId, 4>;  // positively oriented
+using Triangle = std::array<SurfaceId, 3>;  // counter-clockwise seen from outside
 
 }  // namespace omentum::geometry
