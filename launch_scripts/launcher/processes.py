@@ -93,6 +93,7 @@ def realtime_granted(node):
     """Whether any thread of the process runs under SCHED_FIFO: the kernel's word, not the node's."""
     folder = f"/proc/{node.process.pid}/task"
     try:
-        return any(os.sched_getscheduler(int(thread)) == os.SCHED_FIFO for thread in os.listdir(folder))
+        policies = [os.sched_getscheduler(int(thread)) & ~os.SCHED_RESET_ON_FORK for thread in os.listdir(folder)]
+        return os.SCHED_FIFO in policies
     except OSError:
         return False

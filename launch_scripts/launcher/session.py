@@ -96,11 +96,12 @@ class Session:
             with Keys() as keys:
                 code = self.watch(keys, begin)
         finally:
+            seconds = time.monotonic() - begin
             processes.stop_all(self.nodes)
             for messenger in self.messengers:
                 messenger.kill()
                 messenger.wait()
-        self.finish(time.monotonic() - begin)
+        self.finish(seconds)
         return code or (1 if any(node.exit != 0 for node in self.nodes) else 0)
 
     def watch(self, keys, begin):

@@ -11,7 +11,7 @@ namespace {
 const std::string kScene = OMENTUM_HELD_SCENE;
 constexpr double kWithin = 0.02;  // the issue's
 constexpr double kFeltN = 0.1;
-constexpr std::size_t kSettled = 1000;    // samples that agree with each other: the hand has come to rest
+constexpr std::size_t kSettled = 500;     // samples that agree with each other: the hand has come to rest
 constexpr double kSettledSpread = 0.005;  // ... within this
 
 /// Mean force of the held hand, N, once it has come to rest; 0 when it never does.
