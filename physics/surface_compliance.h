@@ -57,11 +57,11 @@ class SurfaceCompliance {
 /// Displacements of one cluster under the forces f_k at the nodes k: u = sum_k C_:k f_k (Cotin 1999
 /// eq. 9 in force form). `u`: [3][16] floats, overwritten, m. `nodes` and `forces` (N) have equal length;
 /// nodes must be mobile. No allocation; vectorized over the 16 lanes.
-void superpose_cluster(const SurfaceCompliance& compliance, std::int32_t cluster, std::span<const SurfaceId> nodes,
-                       std::span<const Vec3> forces, float* u) noexcept;
+void superpose_cluster(const SurfaceCompliance& compliance, std::int32_t cluster,
+                       std::span<const SurfaceId> nodes, std::span<const Vec3> forces, float* u) noexcept;
 
 /// The whole surface: `u` is [3 * clusters * 16] floats laid out [cluster][3][16], overwritten, m.
-void superpose_surface(const SurfaceCompliance& compliance, std::span<const SurfaceId> nodes, std::span<const Vec3> forces,
-                       std::span<float> u) noexcept;
+void superpose_surface(const SurfaceCompliance& compliance, std::span<const SurfaceId> nodes,
+                       std::span<const Vec3> forces, std::span<float> u) noexcept;
 
 }  // namespace omentum::physics

@@ -20,7 +20,8 @@ int main(int argc, char** argv) {
   const physics::ImposedDisplacement press{geometry::NodeId(3), {0, 0, -1e-3}};
   const auto pressed = physics::direct_solve(stiffness, fixed, {&press, 1}, {});
 
-  const organ::Organ made = organ::make_organ("tetrahedron", std::move(mesh), material, fixed, organ::Storage::kFloat);
+  const organ::Organ made =
+      organ::make_organ("tetrahedron", std::move(mesh), material, fixed, organ::Storage::kFloat);
   organ::build_organ(made, argv[1], {});
   const organ::Organ found = organ::load_organ(argv[1], organ::Load::kWithTensors);
   const Eigen::Matrix3d C = found.compliance->block(geometry::SurfaceId(0), geometry::SurfaceId(0));
