@@ -1,6 +1,6 @@
 // The other process of the contract tests: sends what the first argument names until its standard input ends,
 // and prints a line once its writers exist.
-//   transport_peer <known|durable|organ|poses> <fast|cyclone> <domain>
+//   transport_peer <known|durable|organ|poses> <fast|cyclone> <domain> [loopback|lan]
 #include "tests/transport/fill.h"
 #include "transport/topics.h"
 
@@ -89,14 +89,16 @@ void send_poses(Bus& bus) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::cerr << "usage: transport_peer <known|durable|organ|poses> <fast|cyclone> <domain>\n";
+  if (argc != 4 && argc != 5) {
+    std::cerr << "usage: transport_peer <known|durable|organ|poses> <fast|cyclone> <domain> [loopback|lan]\n";
     return 2;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left behind by a test that was killed
   const std::string what = argv[1];
-  const auto bus =
-      Bus::open({.vendor = transport::parse_vendor(argv[2]), .domain = std::stoi(argv[3]), .name = what});
+  const auto bus = Bus::open({.vendor = transport::parse_vendor(argv[2]),
+                              .domain = std::stoi(argv[3]),
+                              .profile = transport::parse_profile(argc == 5 ? argv[4] : "loopback"),
+                              .name = what});
   if (what == "known") send_known(msg::AllTopics{}, *bus);
   if (what == "durable")
     send_durable(msg::TopicList<msg::DeviceInfo, msg::Topology, msg::SceneInfo, msg::NodeStatus>{}, *bus);
