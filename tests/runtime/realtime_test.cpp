@@ -62,9 +62,7 @@ TEST(Realtime, WhatIsGrantedIsNotWarnedOf) {
 TEST(Realtime, ThreadsStartedLaterDoNotInheritThePriority) {
   std::thread([] {
     follow_realtime(kPriority);
-    std::thread([] {
-      EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
-    }).join();
+    std::thread([] { EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER); }).join();
   }).join();
 }
 
