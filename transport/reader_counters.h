@@ -27,7 +27,7 @@ KeyValue key_value(const M& message) noexcept {
 
 /// Counts the whole deadline periods that passed between two samples of a key, and since its last. DDS'
 /// own deadline costs a timer per sample on the receiving side: the round trip through Fast DDS was 112-127
-/// us with it and 48-76 us without (docs/topics.md), so that writers offer a deadline and readers count.
+/// us with it and 48-90 us without (docs/topics.md), so that writers offer a deadline and readers count.
 /// Any thread; a lock is held for some instructions.
 class DeadlineCounter {
  public:
