@@ -21,7 +21,9 @@ using geometry::Vec3;
 
 constexpr int kTicks = 20'000;  // 20 s at 1 kHz
 constexpr int kColdTouches = 60;
-constexpr double kDepth_edges = 0.8;  // of a mean edge: about eight nodes of each mesh meet each tool
+constexpr int kNodes =
+    16;  // two tools with eight contact nodes each: pressed so that about so many are touched
+constexpr double kDeepest_m = 0.012;
 constexpr double kRing_edges = 1.0;
 constexpr int kPriority = 60;  // as in the node, so that other processes do not count as the step's time
 constexpr double kDrift_m_s = 0.02;
@@ -186,17 +188,17 @@ Figures drift(const haptic::HapticModel& model) {
   std::vector<std::int64_t> ns;
   std::vector<int> touched, near, contacts;
   int unsolved = 0;
-  const double depth = kDepth_edges * mean_edge(model.surface, model.rest);
-  for (int i = -2000; i < kTicks; ++i) {
-    const double down = (0.001 + depth) * std::min(1.0, (i + 2000) / 1000.0),
-                 way = std::max(0.0, 1e-3 * kDrift_m_s * i);
+  double depth = -0.001;
+  for (int i = -3000; i < kTicks; ++i) {
+    depth = std::clamp(depth + (run.result.nodes < kNodes ? 5e-6 : -5e-6), -0.001, kDeepest_m);
+    const double way = std::max(0.0, 1e-3 * kDrift_m_s * i);
     for (std::size_t t = 0; t < 2; ++t) {
       const Place& p = places[t];
       const Vec3 side = p.normal.unitOrthogonal(), other = p.normal.cross(side);
       constexpr double kRadius_m = 0.004;
       const Vec3 around =
           kRadius_m * (std::sin(way / kRadius_m) * side + (1 - std::cos(way / kRadius_m)) * other);
-      run.put(t, p.point + around + (0.001 - down) * p.normal, p.normal);
+      run.put(t, p.point + around - depth * p.normal, p.normal);
     }
     const std::int64_t took = run.step();
     if (i < 0) continue;
@@ -243,11 +245,13 @@ void first_touch(const haptic::HapticModel& model) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   const std::string refused = runtime::request_realtime(kPriority).warning;
   if (!refused.empty()) std::printf("warning: %s\n", refused.c_str());
   std::vector<Figures> all;
+  const std::string only = argc > 1 ? argv[1] : "";  // a mesh's name, to profile it alone
   for (Mesh& mesh : meshes()) {
+    if (!only.empty() && mesh.name != only) continue;
     const std::size_t nodes = mesh.mesh.positions.size(), tets = mesh.mesh.tetrahedra.size();
     std::printf("%s: %zu nodes, %zu tetrahedra", mesh.name.c_str(), nodes, tets);
     std::fflush(stdout);

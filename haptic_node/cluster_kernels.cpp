@@ -31,13 +31,13 @@ void add_to_both(const float* step, int size, float* __restrict a, float* __rest
   }
 }
 
-void mark_meeting(const Boxes& boxes, const float* moved, const float* step, float step_limit,
-                  const float* low, const float* high, int size, std::uint8_t* __restrict marks) noexcept {
+void mark_meeting(const Boxes& boxes, const float* grow, const float* low, const float* high, int size,
+                  std::uint8_t* __restrict marks) noexcept {
   const float *lx = boxes.low[0], *ly = boxes.low[1], *lz = boxes.low[2];
   const float *hx = boxes.high[0], *hy = boxes.high[1], *hz = boxes.high[2];
   const float ax = low[0], ay = low[1], az = low[2], bx = high[0], by = high[1], bz = high[2];
   for (int i = 0; i < size; ++i) {
-    const float g = moved[i] + (step[i] < step_limit ? step[i] : step_limit);
+    const float g = grow[i];
     const int meets = (lx[i] - g <= bx) & (hx[i] + g >= ax) & (ly[i] - g <= by) & (hy[i] + g >= ay) &
                       (lz[i] - g <= bz) & (hz[i] + g >= az);
     marks[i] = static_cast<std::uint8_t>(meets);

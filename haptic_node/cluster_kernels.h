@@ -17,10 +17,9 @@ struct Boxes {
   const float* high[3];
 };
 
-/// marks[i] = 1 where box i, grown by moved[i] + min(step[i], step_limit) on every side, meets the box [low,
-/// high]; else 0. i < size.
-void mark_meeting(const Boxes& boxes, const float* moved, const float* step, float step_limit,
-                  const float* low, const float* high, int size, std::uint8_t* marks) noexcept;
+/// marks[i] = 1 where box i, grown by grow[i] on every side, meets the box [low, high]; else 0. i < size.
+void mark_meeting(const Boxes& boxes, const float* grow, const float* low, const float* high, int size,
+                  std::uint8_t* marks) noexcept;
 
 /// Floats of one 3x3 block: nine in use, column after column, and padding to one cache line.
 inline constexpr int kBlockStride = 16;

@@ -100,10 +100,11 @@ void DeformedSurface::restore_rest() {
   motion_.assign(clusters, 0);
   marks_.assign(clusters, 0);
   pending_.reserve(clusters);
+  unbinned_.reserve(clusters);
   cluster_version_.assign(clusters, version_);
   normal_version_.assign(rest_.size(), 0);
   normals_.resize(rest_.size());
-  for (std::int32_t c = 0; c < clusters_; ++c) box_and_bin(c);
+  for (std::int32_t c = 0; c < clusters_; ++c) enclose(c);
   for (std::int32_t n = 0; n < surface_.node_count(); ++n) vertex_normal(SurfaceId(n));
   rest_normals_ = normals_;
 }
@@ -141,7 +142,8 @@ void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<con
   forces_.assign(forces.begin(), forces.end());
   for (std::size_t q = 0; q < nodes_.size(); ++q) index_of_[nodes_[q]] = static_cast<std::int16_t>(q);
   evaluated_clusters_ = 0;
-  evaluated_motion_ = 0;
+  known_motion_ = entered_motion_ = 0;
+  unbinned_.clear();
   kernels::weighted_sum(rows.data(), changes.data(), count, clusters_, step_.data());
   motion_ = step_;
   if (count == 0) return;
@@ -150,25 +152,24 @@ void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<con
 }
 
 void DeformedSurface::evaluate(const Region& region) noexcept {
-  const Eigen::Vector3f low = region.low.cast<float>().array() - kRounding_m;
-  const Eigen::Vector3f high = region.high.cast<float>().array() + kRounding_m;
+  const Eigen::Vector3f low = (region.low.array() - kReach_m).cast<float>() - kRounding_m;
+  const Eigen::Vector3f high = (region.high.array() + kReach_m).cast<float>() + kRounding_m;
   const kernels::Boxes boxes{{low_[0].data(), low_[1].data(), low_[2].data()},
                              {high_[0].data(), high_[1].data(), high_[2].data()}};
-  kernels::mark_meeting(boxes, moved_.data(), step_.data(), static_cast<float>(kMaxOvertake_m), low.data(),
-                        high.data(), clusters_, marks_.data());
+  kernels::mark_meeting(boxes, moved_.data(), low.data(), high.data(), clusters_, marks_.data());
   pending_.clear();
   for (std::int32_t c = 0; c < clusters_; ++c) {
     if (marks_[c] && !fresh(c)) pending_.push_back(c);
   }
-  // all positions first: boxes and buckets then see their neighbours' exact ones
+  // all positions first: boxes then see their neighbours' exact ones
   for (const std::int32_t c : pending_) superpose(c);
-  for (const std::int32_t c : pending_) box_and_bin(c);
+  for (const std::int32_t c : pending_) enclose(c);
 }
 
 void DeformedSurface::ensure(std::int32_t cluster) noexcept {
   if (fresh(cluster)) return;
   superpose(cluster);
-  box_and_bin(cluster);
+  enclose(cluster);
 }
 
 void DeformedSurface::superpose(std::int32_t cluster) noexcept {
@@ -185,13 +186,15 @@ void DeformedSurface::superpose(std::int32_t cluster) noexcept {
   // where the positions before were those of the forces before, the motion is known, not only bounded
   if (cluster_version_[cluster] + 1 == version_) {
     motion_[cluster] = std::min(step_[cluster], static_cast<float>(std::sqrt(moved_squared)) + kRounding_m);
+    known_motion_ = std::max(known_motion_, static_cast<double>(motion_[cluster]));
+  } else {
+    entered_motion_ = std::max(entered_motion_, static_cast<double>(step_[cluster]));
   }
-  evaluated_motion_ = std::max(evaluated_motion_, static_cast<double>(motion_[cluster]));
   cluster_version_[cluster] = version_;
   ++evaluated_clusters_;
 }
 
-void DeformedSurface::box_and_bin(std::int32_t cluster) noexcept {
+void DeformedSurface::enclose(std::int32_t cluster) noexcept {
   const std::int32_t first = cluster * kClusterSize;
   const std::int32_t last = std::min(first + kClusterSize, surface_.node_count());
   Eigen::Array3d low = positions_[first].array(), high = low;
@@ -200,11 +203,10 @@ void DeformedSurface::box_and_bin(std::int32_t cluster) noexcept {
     high = high.max(positions_[n].array());
   }
   // neighbours that were not superposed with these forces may be anywhere within what they moved since
-  float stale = 0, motion = motion_[cluster];
+  float motion = motion_[cluster];
   for (std::int32_t o = outer_start_[cluster]; o < outer_start_[cluster + 1]; ++o) {
     const std::int32_t n = outer_[o], home = n / kClusterSize;
     const float moved = fresh(home) ? 0.0f : moved_[home];
-    stale = std::max(stale, moved);
     if (home < clusters_) motion = std::max(motion, motion_[home]);
     low = low.min(positions_[n].array() - moved);
     high = high.max(positions_[n].array() + moved);
@@ -214,14 +216,32 @@ void DeformedSurface::box_and_bin(std::int32_t cluster) noexcept {
     high_[i][cluster] = static_cast<float>(high[i]) + kRounding_m;
   }
   moved_[cluster] = 0;
-  // queries reach further by the margin, so that buckets need a look only when that is used up; the step
-  // was added with its bound
+  // the last step was added with its bound
   moved_since_binning_[cluster] -= step_[cluster] - std::min(motion, step_[cluster]);
-  if (moved_since_binning_[cluster] <= binning_margin_) return;
+  if (moved_since_binning_[cluster] > binning_margin_) unbinned_.push_back(cluster);
+}
+
+void DeformedSurface::bin(std::int32_t cluster) noexcept {
   for (std::int32_t o = owned_start_[cluster]; o < owned_start_[cluster + 1]; ++o) {
     grid_.update(TriangleId(owned_[o]), positions_);
   }
+  float stale = 0;
+  for (std::int32_t o = outer_start_[cluster]; o < outer_start_[cluster + 1]; ++o) {
+    const std::int32_t home = outer_[o] / kClusterSize;
+    if (!fresh(home)) stale = std::max(stale, moved_[home]);
+  }
   moved_since_binning_[cluster] = stale;
+}
+
+// Queries reach further by the margin, so that a cluster's buckets need a look only when that is used up, and
+// then only when somebody asks.
+template <class Visit>
+void DeformedSurface::visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept {
+  for (const std::int32_t c : unbinned_) bin(c);
+  unbinned_.clear();
+  grid_.visit_segment(p, q, radius_m + binning_margin_, [&](TriangleId triangle) {
+    if (fresh(triangle)) visit(triangle);  // others cannot be here: evaluate() looked
+  });
 }
 
 const Vec3& DeformedSurface::position(SurfaceId node) noexcept {
@@ -271,8 +291,7 @@ Vec3 DeformedSurface::normal(const SurfacePoint& point) noexcept {
 
 std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) noexcept {
   std::optional<Entry> first;
-  grid_.visit_segment(p, q, binning_margin_, [&](TriangleId triangle) {
-    if (!fresh(triangle)) return;  // evaluate() found that it cannot be here
+  visit_near(p, q, 0, [&](TriangleId triangle) {
     const auto [a, b, c] = stored_corners(triangle);
     if ((q - p).dot(area_normal(*a, *b, *c)) >= 0) return;
     const auto hit = geometry::intersect_segment_triangle(p, q, *a, *b, *c);
@@ -286,8 +305,7 @@ std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) 
 std::optional<SurfacePoint> DeformedSurface::nearest_if_inside(const Vec3& p, double reach_m) noexcept {
   std::optional<SurfacePoint> nearest;
   double best = reach_m * reach_m;
-  grid_.visit_segment(p, p, reach_m + binning_margin_, [&](TriangleId triangle) {
-    if (!fresh(triangle)) return;
+  visit_near(p, p, reach_m, [&](TriangleId triangle) {
     const auto [a, b, c] = stored_corners(triangle);
     const geometry::TrianglePoint point = geometry::closest_point_on_triangle(p, *a, *b, *c);
     if (point.squared_distance > best) return;
@@ -299,10 +317,21 @@ std::optional<SurfacePoint> DeformedSurface::nearest_if_inside(const Vec3& p, do
 }
 
 std::optional<SurfacePoint> DeformedSurface::touch(const Vec3& p, const Vec3& q) noexcept {
-  const double reach = std::min(evaluated_motion_, kMaxOvertake_m) + kRounding_m;
+  // what was out of reach before the last step passed over p only if it moved that far
+  const double moved = entered_motion_ < kReach_m ? known_motion_ : kReach_m;
+  const double reach = std::min(moved, kReach_m - kRounding_m) + kRounding_m;
   if (const auto overtaken = nearest_if_inside(p, reach)) return overtaken;
   if (const auto entry = first_entry(p, q)) return entry->point;
   return std::nullopt;
+}
+
+double DeformedSurface::clearance(const Vec3& p, double radius_m) noexcept {
+  double best = radius_m * radius_m;
+  visit_near(p, p, radius_m, [&](TriangleId triangle) {
+    const auto [a, b, c] = stored_corners(triangle);
+    best = std::min(best, geometry::closest_point_on_triangle(p, *a, *b, *c).squared_distance);
+  });
+  return std::sqrt(best);
 }
 
 // The sign of a distance follows from the normal of the face, from the sum of both faces' normals on an edge,

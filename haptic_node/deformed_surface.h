@@ -45,9 +45,10 @@ class DeformedSurface {
   /// Nodes that may carry a force at a time.
   static constexpr int kMaxForces = 96;
 
-  /// A surface that moves over a resting point moves less than this in one tick, m (2 m/s at 1 kHz). A point
-  /// found deeper came there otherwise (a tool that was switched on inside an organ): no force throws it out.
-  static constexpr double kMaxOvertake_m = 2e-3;
+  /// How far around a region the surface is made exact, m. Tissue that passes over a resting point goes less
+  /// far in one tick (2 m/s at 1 kHz); a point found deeper came there otherwise (a tool that was switched on
+  /// inside an organ): no force throws it out.
+  static constexpr double kReach_m = 2e-3;
 
   DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
                   const physics::SurfaceCompliance& compliance);
@@ -55,8 +56,7 @@ class DeformedSurface {
   /// The forces from now on: `nodes` mobile and distinct, at most kMaxForces, `forces` in N. Once per tick.
   void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
 
-  /// Makes exact every cluster of which a triangle may meet the region now, or met it at any moment of the
-  /// last set_forces while it moved by at most kMaxOvertake_m.
+  /// Makes exact every cluster of which a triangle may be within kReach_m of the region.
   void evaluate(const Region& region) noexcept;
 
   /// Exact positions, m; the node's cluster is evaluated when it was not.
@@ -82,6 +82,15 @@ class DeformedSurface {
   /// first entry.
   std::optional<SurfacePoint> touch(const Vec3& p, const Vec3& q) noexcept;
 
+  /// How far p, inside an evaluated region, is from the surface, m; `radius_m` (at most kReach_m) where that
+  /// is farther.
+  double clearance(const Vec3& p, double radius_m) noexcept;
+
+  /// How far at most the last set_forces moved anything that was exact before it and is exact now, m.
+  double known_motion() const noexcept { return known_motion_; }
+  /// The same for what is exact now and was not before: it was out of reach then.
+  double entered_motion() const noexcept { return entered_motion_; }
+
   /// The closest material point to p that is reached from `from` by going from triangle to touching
   /// triangle, always nearer: sliding without search.
   SurfacePoint slide(SurfacePoint from, const Vec3& p) noexcept;
@@ -100,7 +109,10 @@ class DeformedSurface {
   bool fresh(TriangleId triangle) const noexcept;
   void ensure(std::int32_t cluster) noexcept;
   void superpose(std::int32_t cluster) noexcept;
-  void box_and_bin(std::int32_t cluster) noexcept;
+  void enclose(std::int32_t cluster) noexcept;
+  void bin(std::int32_t cluster) noexcept;
+  template <class Visit>
+  void visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept;
   Corners stored_corners(TriangleId triangle) const noexcept;
   const Vec3& vertex_normal(SurfaceId node) noexcept;
   bool outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept;
@@ -122,7 +134,8 @@ class DeformedSurface {
   std::vector<float> step_;                 // how far they may have moved by the last set_forces
   std::vector<float> motion_;               // how far its own nodes did, where that is known; else step_
   std::vector<std::uint8_t> marks_;
-  std::vector<std::int32_t> pending_;
+  std::vector<std::int32_t> pending_;           // clusters to evaluate
+  std::vector<std::int32_t> unbinned_;          // evaluated ones whose triangles may have left their buckets
   std::vector<std::uint32_t> cluster_version_;  // of the forces it was superposed with
   std::vector<std::uint32_t> normal_version_;   // [S]
   std::vector<Vec3> normals_;                   // [S]
@@ -133,7 +146,7 @@ class DeformedSurface {
   std::vector<std::int16_t> index_of_;  // [S] position in nodes_, -1
   geometry::BucketGrid grid_;
   double binning_margin_;
-  double evaluated_motion_ = 0;  // the largest of motion_ among evaluated clusters
+  double known_motion_ = 0, entered_motion_ = 0;
   int evaluated_clusters_ = 0;
 };
 

@@ -18,6 +18,7 @@ HapticState::HapticState(const HapticModel& model) {
     ToolState state;
     state.before.assign(tool.points.size(), Vec3::Zero());
     state.now = state.before;
+    state.clearance.assign(tool.points.size(), 0);
     tools.push_back(std::move(state));
   }
 }

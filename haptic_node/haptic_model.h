@@ -64,6 +64,7 @@ struct ToolState {
   bool engaged = false;
   ToolFrame frame;
   std::vector<Vec3> before, now;  // [P] points at the last tick and at this one, in W
+  std::vector<double> clearance;  // [P] how far each point is from the surface at least, m
   bool opened = false;            // the jaws were open since the last grasp
   bool grasping = false;
   std::uint64_t grasp_count = 0;

@@ -13,8 +13,12 @@ constexpr double kReleaseAbove_rad = 0.20;
 // An open contact is kept as a hint up to here, m: a tenth of a voxel of the scans that organs come from.
 constexpr double kReleaseGap_m = 1e-4;
 
-// Room around a path for the rounding of positions, m.
-constexpr double kHair_m = 1e-5;
+// How far a point without room is looked around, m: this many times the room it had, and at least
+// kShortArm_m. A point that has 1 mm of room needs no look for the next 40 ticks at 25 mm/s.
+constexpr double kArmGrowth = 4;
+constexpr double kShortArm_m = 2e-4;
+// Rounding of positions, m.
+constexpr double kHair_m = 1e-6;
 
 template <class Predicate>
 void drop_contacts(HapticState& state, Predicate&& gone) {
@@ -57,7 +61,7 @@ void follow_grip(HapticState& state, std::int32_t tool, double grip, DeformedSur
   }
 }
 
-Region path_of(const ToolState& tool, double margin) {
+Region path_of(const ToolState& tool) {
   Region region{tool.now[0], tool.now[0]};
   for (const auto* points : {&tool.before, &tool.now}) {
     for (const Vec3& p : *points) {
@@ -65,8 +69,6 @@ Region path_of(const ToolState& tool, double margin) {
       region.high = region.high.cwiseMax(p);
     }
   }
-  region.low.array() -= margin;
-  region.high.array() += margin;
   return region;
 }
 
@@ -75,6 +77,21 @@ ToolContact* contact_of(HapticState& state, std::int32_t tool, std::int32_t poin
     if (contact.tool == tool && contact.point == point) return &contact;
   }
   return nullptr;
+}
+
+// The surface point that tool point p met on its way, if any. Whoever has more room than tool and surface
+// moved together met nothing.
+std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, DeformedSurface& surface) {
+  double& room = tool.clearance[p];
+  const double before = room, way = (tool.now[p] - tool.before[p]).norm() + kHair_m;
+  room = std::min(room - way - surface.known_motion(),
+                  DeformedSurface::kReach_m - way - surface.entered_motion());
+  if (room > 0) return std::nullopt;
+  const auto found = surface.touch(tool.before[p], tool.now[p]);
+  room = found ? 0
+               : surface.clearance(tool.now[p],
+                                   std::clamp(kArmGrowth * before, kShortArm_m, DeformedSurface::kReach_m));
+  return found;
 }
 
 }  // namespace
@@ -97,14 +114,17 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
     std::swap(tool.before, tool.now);
     for (std::size_t p = 0; p < tool.now.size(); ++p)
       tool.now[p] = to_world(tool.frame, model.tools[i].points[p]);
-    if (!moved_here) tool.before = tool.now;
+    if (!moved_here) {
+      tool.before = tool.now;
+      std::fill(tool.clearance.begin(), tool.clearance.end(), 0.0);
+    }
     if (model.tools[i].grasps) follow_grip(state, index, input.grip, surface);
   }
 }
 
 void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) noexcept {
   for (const ToolState& tool : state.tools) {
-    if (tool.engaged) surface.evaluate(path_of(tool, kHair_m));
+    if (tool.engaged) surface.evaluate(path_of(tool));
   }
 }
 
@@ -124,12 +144,15 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
 
 void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
-    const ToolState& tool = state.tools[i];
+    ToolState& tool = state.tools[i];
     if (!tool.engaged) continue;
     for (std::size_t p = 0; p < tool.now.size(); ++p) {
       ToolContact* known = contact_of(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
-      if (known && (known->touches() || known->grasped)) continue;
-      const auto found = surface.touch(tool.before[p], tool.now[p]);
+      if (known && (known->touches() || known->grasped)) {
+        tool.clearance[p] = 0;
+        continue;
+      }
+      const auto found = look_around(tool, p, surface);
       if (!found) continue;
       if (!known) {
         known = &state.contacts[state.contact_count++];
