@@ -5,18 +5,29 @@
 namespace omentum::haptic::kernels {
 
 namespace {
-constexpr int kLanes = 16;  // floats kept in registers while the rows stream past
+
+// Sixteen values at once; the compiler splits them where registers are narrower.
+constexpr int kLanes = 16;
+typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float))));
+typedef double WideLanes __attribute__((vector_size(kLanes * sizeof(double))));
+
+// The same at any address.
+struct __attribute__((packed, may_alias)) LooseLanes {
+  Lanes lanes;
+};
+
+inline Lanes load(const float* p) {
+  return reinterpret_cast<const LooseLanes*>(p)->lanes;
 }
+
+}  // namespace
 
 void weighted_sum(const float* const* rows, const float* weights, int count, int size, float* sum) noexcept {
   int begin = 0;
   for (; begin + kLanes <= size; begin += kLanes) {
-    float lanes[kLanes] = {};
-    for (int q = 0; q < count; ++q) {
-      const float* row = rows[q] + begin;
-      for (int l = 0; l < kLanes; ++l) lanes[l] += weights[q] * row[l];
-    }
-    for (int l = 0; l < kLanes; ++l) sum[begin + l] = lanes[l];
+    Lanes lanes{};
+    for (int q = 0; q < count; ++q) lanes += weights[q] * load(rows[q] + begin);
+    reinterpret_cast<LooseLanes*>(sum + begin)->lanes = lanes;
   }
   for (int i = begin; i < size; ++i) {
     sum[i] = 0;
@@ -45,10 +56,8 @@ void mark_meeting(const Boxes& boxes, const float* grow, const float* low, const
 }
 
 void combine_blocks(const float* const* blocks, const double* weights, int count, double* sum) noexcept {
-  double lanes[kBlockStride] = {};
-  for (int q = 0; q < count; ++q) {
-    for (int l = 0; l < kBlockStride; ++l) lanes[l] += weights[q] * static_cast<double>(blocks[q][l]);
-  }
+  WideLanes lanes{};
+  for (int q = 0; q < count; ++q) lanes += weights[q] * __builtin_convertvector(load(blocks[q]), WideLanes);
   for (int l = 0; l < kBlockStride; ++l) sum[l] = lanes[l];
 }
 

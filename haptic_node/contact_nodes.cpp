@@ -9,10 +9,15 @@ namespace omentum::haptic {
 
 static_assert(kernels::kBlockStride == 16);
 
+namespace {
+// A contact that slides back and forth over an edge comes back within this.
+constexpr std::uint64_t kKeepTicks = 50;
+}  // namespace
+
 ContactNodes::ContactNodes(const physics::SurfaceCompliance& compliance)
     : compliance_(compliance),
       slot_of_node_(static_cast<std::size_t>(compliance.mobile_count()), -1),
-      memory_(kSlots * kSlots * kStride + kStride, 0.0f) {
+      memory_(kSlots * kPitch + kStride, 0.0f) {
   constexpr std::size_t kLine = 64;
   void* begin = memory_.data();
   std::size_t size = memory_.size() * sizeof(float);
@@ -32,10 +37,11 @@ int ContactNodes::slot_of(SurfaceId node) noexcept {
   return slot;
 }
 
+// The first one that was not needed lately: slots in use then lie close together in memory.
 int ContactNodes::free_slot() noexcept {
   int oldest = 0;
   for (int s = 0; s < kSlots; ++s) {
-    if (!slots_[s].node.valid()) return s;
+    if (!slots_[s].node.valid() || slots_[s].used + kKeepTicks < tick_) return s;
     if (slots_[s].used < slots_[oldest].used) oldest = s;
   }
   assert(slots_[oldest].used < tick_ && "more nodes in contact than slots");
@@ -48,8 +54,8 @@ void ContactNodes::gather(int slot) noexcept {
     if (!slots_[s].node.valid()) continue;
     // C is symmetric as a whole: the new column serves both blocks
     const Eigen::Matrix3f C_nk = compliance_.block(slots_[s].node, k).cast<float>();
-    Eigen::Map<Eigen::Matrix3f>(blocks_ + (s * kSlots + slot) * kStride) = C_nk;
-    Eigen::Map<Eigen::Matrix3f>(blocks_ + (slot * kSlots + s) * kStride) = C_nk.transpose();
+    Eigen::Map<Eigen::Matrix3f>(blocks_ + s * kPitch + slot * kStride) = C_nk;
+    Eigen::Map<Eigen::Matrix3f>(blocks_ + slot * kPitch + s * kStride) = C_nk.transpose();
   }
 }
 

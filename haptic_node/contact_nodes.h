@@ -7,8 +7,8 @@
 
 namespace omentum::haptic {
 
-/// Slots for contact nodes with the 3x3 blocks between all of them. A node that left keeps its slot until
-/// another needs it, so that a contact that slides back and forth over an edge gathers nothing.
+/// Slots for contact nodes with the 3x3 blocks between all of them. A node that left keeps its slot for some
+/// ticks, so that a contact that slides back and forth over an edge gathers nothing.
 ///
 /// No allocation after construction. One thread at a time. The compliance must outlive it.
 class ContactNodes {
@@ -26,10 +26,12 @@ class ContactNodes {
   SurfaceId node_at(int slot) const noexcept { return slots_[slot].node; }
 
   /// C_nk between two slots as the kernels read it: nine floats, column after column, and padding.
-  const float* block(int n, int k) const noexcept { return blocks_ + (n * kSlots + k) * kStride; }
+  const float* block(int n, int k) const noexcept { return blocks_ + n * kPitch + k * kStride; }
 
  private:
   static constexpr std::ptrdiff_t kStride = 16;
+  // one block more than slots: rows of a power-of-two pitch would share few cache sets
+  static constexpr std::ptrdiff_t kPitch = (kSlots + 1) * kStride;
 
   int free_slot() noexcept;
   void gather(int slot) noexcept;

@@ -21,6 +21,10 @@ constexpr double kCosMaxTilt = std::numbers::sqrt2 / 2;  // 45 degrees
 constexpr double kSinMaxTilt = std::numbers::sqrt2 / 2;
 // Triangles that a sliding contact may cross in one tick; a fast instrument crosses three.
 constexpr int kMaxSlideSteps = 64;
+// Clusters outside of all regions that are made exact in a tick, so that those inside know their neighbours.
+constexpr int kRefreshesPerTick = 4;
+// Regions evaluated in a tick: one per tool.
+constexpr std::size_t kMaxRegions = 8;
 // Barycentric coordinates below this lie on the opposite edge.
 constexpr double kOnEdge = 1e-12;
 
@@ -100,7 +104,7 @@ void DeformedSurface::restore_rest() {
   motion_.assign(clusters, 0);
   marks_.assign(clusters, 0);
   pending_.reserve(clusters);
-  unbinned_.reserve(clusters);
+  unbinned_.reserve(kMaxRegions * clusters);
   cluster_version_.assign(clusters, version_);
   normal_version_.assign(rest_.size(), 0);
   normals_.resize(rest_.size());
@@ -143,6 +147,7 @@ void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<con
   for (std::size_t q = 0; q < nodes_.size(); ++q) index_of_[nodes_[q]] = static_cast<std::int16_t>(q);
   evaluated_clusters_ = 0;
   known_motion_ = entered_motion_ = 0;
+  refreshed_ = 0;
   unbinned_.clear();
   kernels::weighted_sum(rows.data(), changes.data(), count, clusters_, step_.data());
   motion_ = step_;
@@ -159,11 +164,16 @@ void DeformedSurface::evaluate(const Region& region) noexcept {
   kernels::mark_meeting(boxes, moved_.data(), low.data(), high.data(), clusters_, marks_.data());
   pending_.clear();
   for (std::int32_t c = 0; c < clusters_; ++c) {
-    if (marks_[c] && !fresh(c)) pending_.push_back(c);
+    if (marks_[c]) pending_.push_back(c);
   }
   // all positions first: boxes then see their neighbours' exact ones
-  for (const std::int32_t c : pending_) superpose(c);
-  for (const std::int32_t c : pending_) enclose(c);
+  const auto exact =
+      std::partition(pending_.begin(), pending_.end(), [this](std::int32_t c) { return !fresh(c); });
+  for (auto c = pending_.begin(); c != exact; ++c) superpose(*c);
+  for (auto c = pending_.begin(); c != exact; ++c) enclose(*c);
+  for (const std::int32_t c : pending_) {
+    if (moved_since_binning_[c] > binning_margin_) unbinned_.push_back(c);
+  }
 }
 
 void DeformedSurface::ensure(std::int32_t cluster) noexcept {
@@ -218,17 +228,25 @@ void DeformedSurface::enclose(std::int32_t cluster) noexcept {
   moved_[cluster] = 0;
   // the last step was added with its bound
   moved_since_binning_[cluster] -= step_[cluster] - std::min(motion, step_[cluster]);
-  if (moved_since_binning_[cluster] > binning_margin_) unbinned_.push_back(cluster);
 }
 
 void DeformedSurface::bin(std::int32_t cluster) noexcept {
-  for (std::int32_t o = owned_start_[cluster]; o < owned_start_[cluster + 1]; ++o) {
-    grid_.update(TriangleId(owned_[o]), positions_);
-  }
+  if (moved_since_binning_[cluster] <= binning_margin_) return;  // listed twice
   float stale = 0;
   for (std::int32_t o = outer_start_[cluster]; o < outer_start_[cluster + 1]; ++o) {
     const std::int32_t home = outer_[o] / kClusterSize;
-    if (!fresh(home)) stale = std::max(stale, moved_[home]);
+    if (fresh(home)) continue;
+    // a neighbour that is too vague would bring this cluster here in every tick; they are made exact a few at
+    // a time, so that no tick pays for all
+    if (moved_[home] > binning_margin_ / 2 && refreshed_ < kRefreshesPerTick) {
+      ensure(home);
+      ++refreshed_;
+    } else {
+      stale = std::max(stale, moved_[home]);
+    }
+  }
+  for (std::int32_t o = owned_start_[cluster]; o < owned_start_[cluster + 1]; ++o) {
+    grid_.update(TriangleId(owned_[o]), positions_);
   }
   moved_since_binning_[cluster] = stale;
 }
@@ -237,7 +255,7 @@ void DeformedSurface::bin(std::int32_t cluster) noexcept {
 // then only when somebody asks.
 template <class Visit>
 void DeformedSurface::visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept {
-  for (const std::int32_t c : unbinned_) bin(c);
+  for (const std::int32_t c : unbinned_) bin(c);  // adds none: what bin() makes exact lies outside
   unbinned_.clear();
   grid_.visit_segment(p, q, radius_m + binning_margin_, [&](TriangleId triangle) {
     if (fresh(triangle)) visit(triangle);  // others cannot be here: evaluate() looked

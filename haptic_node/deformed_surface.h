@@ -148,6 +148,7 @@ class DeformedSurface {
   double binning_margin_;
   double known_motion_ = 0, entered_motion_ = 0;
   int evaluated_clusters_ = 0;
+  int refreshed_ = 0;
 };
 
 }  // namespace omentum::haptic
