@@ -16,12 +16,15 @@ class FrameRateControl {
   FrameRateControl(double most_fps, double duty) : period_s_(1 / most_fps), duty_(duty) {}
 
   Quality quality() const { return quality_; }
-  /// Whether a frame may begin now.
-  bool due(double now_s) const { return now_s >= next_s_; }
+  /// Whether a frame may begin now, or within what a pace of the same rate jitters.
+  bool due(double now_s) const { return now_s >= next_s_ - kJitter * period_s_; }
   /// What an ordinary frame of quality() cost.
   void record(double begin_s, double cost_s);
 
  private:
+  static constexpr double kJitter =
+      0.1;  // of a period: without it, a tick a little early would cost a whole frame
+
   double period_s_;
   double duty_;
   Quality quality_ = Quality::kFine;

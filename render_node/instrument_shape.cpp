@@ -40,6 +40,12 @@ MeshData sleeve(float radius, float from, float to) {
   return turned(profile, kSegments);
 }
 
+void append(const MeshData& mesh, MeshData& to) {
+  const auto first = static_cast<std::uint32_t>(to.vertices.size());
+  to.vertices.insert(to.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  for (const auto& [a, b, c] : mesh.triangles) to.triangles.push_back({first + a, first + b, first + c});
+}
+
 MeshData round_tip(float radius, float to) {
   constexpr int kRings = 12;
   std::vector<ProfilePoint> profile;
@@ -103,10 +109,12 @@ std::vector<InstrumentPart> probe(float radius, float length, const Vec3f& band)
   std::vector<InstrumentPart> parts;
   parts.push_back({round_tip(radius, length), kSteel, 0, 0});
   parts.push_back({sleeve(1.06f * radius, kBandFrom, kBandFrom + kBandLength), painted(band), 0, 0});
-  for (float z = kMarkSpacing; z < length; z += kMarkSpacing) {
+  InstrumentPart marks{{}, kInsulation, 0, 0};
+  for (float z = kMarkSpacing; z + kMarkWidth < length; z += kMarkSpacing) {
     if (std::abs(z - kBandFrom) < 1.5f * kBandLength) continue;
-    parts.push_back({sleeve(1.012f * radius, z, z + kMarkWidth), kInsulation, 0, 0});
+    append(sleeve(1.012f * radius, z, z + kMarkWidth), marks.mesh);
   }
+  parts.push_back(std::move(marks));
   return parts;
 }
 

@@ -5,9 +5,9 @@ namespace {
 
 // Of the direction from the target to the eye, to the left and upwards: about 45 degrees off the line of
 // sight, where relief is shown best and shadows stay in the picture.
-constexpr double kTowardsEye = 0.62;
-constexpr double kLeft = 0.45;
-constexpr double kUp = 0.75;
+constexpr double kTowardsEye = 0.42;
+constexpr double kLeft = 0.62;
+constexpr double kUp = 0.72;
 
 }  // namespace
 

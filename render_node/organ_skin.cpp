@@ -7,6 +7,11 @@
 #include <cassert>
 
 namespace omentum::render {
+namespace {
+
+constexpr float kHorizonM = 0.011f;  // the size of a dent under a fingertip or a tool
+
+}  // namespace
 
 OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest)
     : triangles_(surface.triangles),
@@ -40,7 +45,7 @@ void OrganSkin::deform(std::span<const float> displacements) {
   }
   deepest_m_ = std::sqrt(deepest_squared);
   smooth_normals(triangles_, positions_, normals_);
-  openness_of(triangles_, positions_, normals_, openness_);
+  openness_of(triangles_, positions_, normals_, kHorizonM, openness_);
   refinement_.apply(positions_, normals_, openness_, mesh_.vertices);
 }
 

@@ -3,12 +3,41 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 
 namespace omentum::render {
 namespace {
 
-// How strongly a hollow darkens: a cone whose sides rise by 30 degrees (sine 0.5) loses most of its light.
-constexpr float kHollowDarkening = 1.6f;
+// Lost light per depth below the surroundings over the horizon: a bowl as deep as half the horizon keeps a
+// third.
+constexpr float kHollowDarkening = 1.9f;
+// Steps of diffusion: they grow with the square of horizon over edge, and cost 0.3 ms each on 26,000 nodes.
+constexpr float kMostSteps = 16;
+
+float mean_edge(std::span<const geometry::Triangle> triangles, std::span<const Vec3f> positions) {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangles) {
+    sum += (positions[b] - positions[a]).norm() + (positions[c] - positions[b]).norm() +
+           (positions[a] - positions[c]).norm();
+  }
+  return triangles.empty() ? 0 : static_cast<float>(sum / (3 * static_cast<double>(triangles.size())));
+}
+
+// Every node goes to the mean of its neighbours; on a closed surface each is met twice, so all weigh the
+// same.
+void diffuse(std::span<const geometry::Triangle> triangles, std::vector<Vec3f>& positions) {
+  std::vector<Vec3f> sum(positions.size(), Vec3f::Zero());
+  std::vector<float> count(positions.size(), 0.0f);
+  for (const auto& [a, b, c] : triangles) {
+    sum[a] += positions[b] + positions[c];
+    sum[b] += positions[c] + positions[a];
+    sum[c] += positions[a] + positions[b];
+    for (const auto corner : {a, b, c}) count[corner] += 2;
+  }
+  for (std::size_t s = 0; s < positions.size(); ++s) {
+    if (count[s] > 0) positions[s] = sum[s] / count[s];
+  }
+}
 
 }  // namespace
 
@@ -26,23 +55,16 @@ void smooth_normals(std::span<const geometry::Triangle> triangles, std::span<con
 }
 
 void openness_of(std::span<const geometry::Triangle> triangles, std::span<const Vec3f> positions,
-                 std::span<const Vec3f> normals, std::span<float> openness) {
-  // on a closed surface each edge is met twice, so every neighbour weighs the same
-  std::vector<float> rise(openness.size(), 0.0f);
-  std::vector<int> neighbours(openness.size(), 0);
-  const auto look = [&](int from, int to) {
-    const Vec3f edge = positions[to] - positions[from];
-    const float length = edge.norm();
-    if (length > 0) rise[from] += normals[from].dot(edge) / length;
-    ++neighbours[from];
-  };
-  for (const auto& [a, b, c] : triangles) {
-    look(a, b), look(b, a), look(b, c), look(c, b), look(c, a), look(a, c);
-  }
+                 std::span<const Vec3f> normals, float horizon_m, std::span<float> openness) {
+  std::fill(openness.begin(), openness.end(), 1.0f);
+  const float edge = mean_edge(triangles, positions);
+  if (!(edge > 0)) return;
+  const float steps = std::clamp(std::ceil(horizon_m * horizon_m / (edge * edge)), 1.0f, kMostSteps);
+  std::vector<Vec3f> surroundings(positions.begin(), positions.end());
+  for (int step = 0; step < static_cast<int>(steps); ++step) diffuse(triangles, surroundings);
   for (std::size_t s = 0; s < openness.size(); ++s) {
-    const float hollow =
-        neighbours[s] > 0 ? std::max(0.0f, rise[s] / static_cast<float>(neighbours[s])) : 0.0f;
-    openness[s] = std::max(kDeepestOpenness, 1.0f - kHollowDarkening * hollow);
+    const float depth = normals[s].dot(surroundings[s] - positions[s]);
+    openness[s] = std::clamp(1 - kHollowDarkening * depth / horizon_m, kDeepestOpenness, 1.0f);
   }
 }
 

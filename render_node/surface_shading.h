@@ -11,11 +11,12 @@ namespace omentum::render {
 void smooth_normals(std::span<const geometry::Triangle> triangles, std::span<const Vec3f> positions,
                     std::span<Vec3f> normals);
 
-/// The fraction of ambient light that reaches each node, from the bend of the surface alone: 1 where it is
-/// flat or bulges, less in a hollow (the mean rise of the neighbours over the tangent plane is the sine of
-/// the horizon). Not occlusion by what is far away. `openness`: [S], in [kDeepest, 1].
+/// The fraction of ambient light that reaches each node: 1 where the surface is flat or bulges, less where it
+/// lies below its own surroundings. Those are the surface averaged over about `horizon_m` (diffused over the
+/// edges); a hollow as deep below it as wide is dark. Not occlusion by what is far away. `openness`: [S], in
+/// [kDeepestOpenness, 1].
 void openness_of(std::span<const geometry::Triangle> triangles, std::span<const Vec3f> positions,
-                 std::span<const Vec3f> normals, std::span<float> openness);
+                 std::span<const Vec3f> normals, float horizon_m, std::span<float> openness);
 
 inline constexpr float kDeepestOpenness = 0.35f;  // light that scatters into any hollow of wet tissue
 

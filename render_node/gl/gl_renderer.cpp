@@ -158,6 +158,7 @@ class GlRenderer final : public Renderer {
   void cast_shadows(const Frame& frame) {
     shadow_.begin();
     glEnable(GL_DEPTH_TEST);
+    glEnable(GL_DEPTH_CLAMP);  // shafts reach out of the box towards the lamp and shade all the same
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(kShadowSlope, kShadowBias);
     shadow_program_.use();
@@ -168,6 +169,7 @@ class GlRenderer final : public Renderer {
       mesh(item.mesh).draw();
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_DEPTH_CLAMP);
   }
 
   void draw_scene(const Frame& frame, const RenderTarget& scene) {

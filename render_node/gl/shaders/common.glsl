@@ -12,8 +12,8 @@ uniform float unit_length;   // radius of what is looked at, m
 const float pi = 3.14159265;
 
 // Radiance scale of the two lights, chosen so that lit tissue lands in the middle of the film's curve.
-const vec3 key_colour = vec3(3.05, 2.86, 2.62);
-const vec3 fill_colour = vec3(0.55, 0.58, 0.62);
+const vec3 key_colour = vec3(3.45, 3.24, 2.97);
+const vec3 fill_colour = vec3(0.46, 0.49, 0.52);
 
 // A fixed pattern of 0..1 per pixel without visible structure (Jimenez 2014, interleaved gradient noise).
 float grain(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
@@ -50,10 +50,13 @@ float lit(vec3 p_W, vec3 n, float n_dot_l) {
     float angle = turn + 2.39996 * float(i);
     sum += texture(shadow_map, vec3(s.xy + reach * sqrt((float(i) + 0.5) / 8.0) * vec2(cos(angle), sin(angle)), s.z));
   }
-  return sum / 8.0;
+  float arrives = sum / 8.0;
 #else
-  return texture(shadow_map, s);
+  float arrives = texture(shadow_map, s);
 #endif
+  // the map's edge is never seen: shadows fade out before it
+  vec2 off = abs(s.xy - 0.5) * 2.0;
+  return mix(arrives, 1.0, smoothstep(0.75, 1.0, max(off.x, off.y)));
 }
 
 // The room as a smooth surface mirrors it: dark floor, dim walls, a wide soft box around the key light and a strip.

@@ -13,7 +13,7 @@ const float mottle_period = 0.062;
 const float grain_period = 0.0135;
 
 // Light through tissue: how far it creeps around the terminator; red goes furthest (mean free path in liver).
-const vec3 creep = vec3(0.42, 0.16, 0.12);
+const vec3 creep = vec3(0.26, 0.10, 0.08);
 
 vec3 wrapped(float n_dot_l) {
   vec3 w = clamp((vec3(n_dot_l) + creep) / (1.0 + creep), 0.0, 1.0);
@@ -46,7 +46,7 @@ void main() {
   // ambient: cool from above, warm from the neighbouring tissue below; what a hollow keeps is redder
   float above = n_soft.z * 0.5 + 0.5;
   vec3 open = pow(vec3(openness), vec3(1.2, 2.0, 2.1));
-  light += mix(vec3(0.13, 0.06, 0.05), vec3(0.27, 0.30, 0.34), above) * open;
+  light += mix(vec3(0.11, 0.05, 0.042), vec3(0.22, 0.245, 0.28), above) * open;
   vec3 body = albedo * light * mix(vec3(1.0), open, 0.8);
 
   // the film of water: sharp glints of both lights and a mirror of the room, strongest at grazing angles
@@ -54,6 +54,7 @@ void main() {
   float wet = material_roughness * (0.8 + 0.5 * mottle.a);
   vec3 glint = gloss(n, v, towards_key, wet, f0) * key_colour * pi * shade * 1.5;
   glint += gloss(n, v, v, wet, f0) * fill_colour * torch * pi * 1.3;
+  glint *= openness;
   float grazing = pow(1.0 - nv, 5.0);
   vec3 mirror = room(reflect(-v, n), 0.25) * (0.045 + 0.75 * grazing) * openness * openness * mix(0.4, 1.0, shade);
 

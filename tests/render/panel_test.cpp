@@ -1,0 +1,218 @@
+// What the panel says, and that it can be laid out.
+#include "render_node/panel.h"
+#include "render_node/panel_style.h"
+#include "render_node/pose_arrivals.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+namespace omentum::render {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+msg::NodeStatus status_of(std::uint32_t kind, std::uint64_t instance) {
+  msg::NodeStatus status{};
+  status.kind = kind;
+  status.instance = instance;
+  return status;
+}
+
+TEST(ForceHistory, KeepsTenSeconds) {
+  ForceHistory history;
+  for (int k = 0; k <= 200; ++k) history.add(0.1 * k, k < 50 ? 8 : 2);
+  EXPECT_GE(history.samples().front().time_s, 20 - ForceHistory::kSpanS - 1e-9);
+  EXPECT_NEAR(history.samples().size(), 101, 1);
+  EXPECT_EQ(history.largest_n(), 2) << "what is forgotten does not count";
+  EXPECT_EQ(history.newest_n(), 2);
+}
+
+TEST(ForceHistory, AxisHoldsTheLargestForce) {
+  for (const double force : {0.0, 0.4, 1.0, 1.01, 3.7, 9.9, 10.0, 11.0, 480.0}) {
+    EXPECT_GE(force_axis_n(force), force);
+    EXPECT_GE(force_axis_n(force), 1);
+    EXPECT_LE(force_axis_n(force), std::max(1.0, 2.5 * force));
+  }
+}
+
+TEST(PanelView, SilentNodesAreToldApart) {
+  std::vector<HeardStatus> heard;
+  remember_status(status_of(msg::NODE_HAPTIC, 1), 0, heard);
+  remember_status(status_of(msg::NODE_DEFORM, 1), 3 * kSecond, heard);
+  const auto rows = node_rows(heard, 3 * kSecond);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_TRUE(rows[0].silent);
+  EXPECT_FALSE(rows[1].silent);
+}
+
+TEST(PanelView, RateIsMeasuredNotConfigured) {
+  msg::NodeStatus status = status_of(msg::NODE_HAPTIC, 1);
+  status.rate_hz = 1000;
+  status.period_us.p50 = 1250;
+  EXPECT_NEAR(node_rows({{status, 0}}, 0)[0].rate_hz, 800, 1e-9);
+}
+
+TEST(PanelView, MissesOfRealTimeLoopsMatter) {
+  for (const auto& [kind, missed, matter] : {std::tuple{msg::NODE_HAPTIC, 0, false},
+                                             {msg::NODE_HAPTIC, 20, true},
+                                             {msg::NODE_RENDER, 20, false}}) {
+    msg::NodeStatus status = status_of(kind, 1);
+    status.ticks = 10'000;
+    status.missed = static_cast<std::uint64_t>(missed);
+    EXPECT_EQ(node_rows({{status, 0}}, 0)[0].misses_matter, matter);
+  }
+}
+
+TEST(PanelView, FaultsNameTheirNode) {
+  msg::NodeStatus status = status_of(msg::NODE_DEFORM, 1);
+  status.faults = {"contact of an unknown node"};
+  EXPECT_THAT(all_faults({{status, 0}}), ElementsAre("deform: contact of an unknown node"));
+}
+
+TEST(PanelView, ForceStateInWords) {
+  EXPECT_THAT(force_state_words(0), IsEmpty());
+  EXPECT_THAT(force_state_words(msg::FORCE_CLAMPED | msg::FORCE_FAULT), ElementsAre("FAULT", "clamped"));
+}
+
+TEST(RememberStatus, RestartedNodeTakesItsPredecessorsPlace) {
+  std::vector<HeardStatus> heard;
+  remember_status(status_of(msg::NODE_DEFORM, 1), 0, heard);
+  remember_status(status_of(msg::NODE_DEFORM, 2), kSecond, heard);
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0].status.instance, 2u);
+  remember_status(status_of(msg::NODE_DEFORM, 1), kSecond, heard);
+  EXPECT_EQ(heard[0].status.instance, 2u) << "a late sample of the old run";
+}
+
+TEST(RememberStatus, SeveralHandsHaveALineEachUntilTheyFallSilent) {
+  std::vector<HeardStatus> heard;
+  remember_status(status_of(msg::NODE_DEVICE, 1), 0, heard);
+  remember_status(status_of(msg::NODE_DEVICE, 2), 0, heard);
+  EXPECT_EQ(heard.size(), 2u);
+  remember_status(status_of(msg::NODE_DEVICE, 2), 60 * kSecond, heard);
+  EXPECT_EQ(heard.size(), 1u);
+}
+
+TEST(Obey, CommandsAreLevelsAndARepeatedOneChangesNothing) {
+  SessionState session;
+  obey({.seq = 1, .command = msg::COMMAND_PAUSE, .argument = {}}, session);
+  EXPECT_TRUE(session.paused);
+  obey({.seq = 2, .command = msg::COMMAND_RESET, .argument = {}}, session);
+  obey({.seq = 2, .command = msg::COMMAND_RESET, .argument = {}}, session);
+  EXPECT_EQ(session.resets, 1u);
+  obey({.seq = 3, .command = msg::COMMAND_START, .argument = {}}, session);
+  EXPECT_FALSE(session.paused);
+}
+
+std::string refusal(const msg::SceneInfo& info) {
+  try {
+    check_scene_info(info, {{"liver", "aaaa", 10}});
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CheckSceneInfo, AnotherOrganIsRefusedWithBothHashes) {
+  const msg::SceneInfo good{.protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{"liver", "aaaa"}}};
+  EXPECT_EQ(refusal(good), "");
+  msg::SceneInfo other = good;
+  other.organs[0].hash = "bbbb";
+  EXPECT_THAT(refusal(other), testing::AllOf(HasSubstr("aaaa"), HasSubstr("bbbb"), HasSubstr("liver")));
+  msg::SceneInfo newer = good;
+  newer.protocol = msg::PROTOCOL_VERSION + 1;
+  EXPECT_THAT(refusal(newer), HasSubstr("protocol"));
+  msg::SceneInfo more = good;
+  more.organs.push_back({"spleen", "cccc"});
+  EXPECT_THAT(refusal(more), HasSubstr("2 organs"));
+}
+
+TEST(PoseArrivals, AreFoundUntilOverwritten) {
+  PoseArrivals arrivals;
+  EXPECT_FALSE(arrivals.find(0));
+  arrivals.add(0, 100);
+  arrivals.add(1, 200);
+  EXPECT_EQ(arrivals.find(0), 100);
+  EXPECT_EQ(arrivals.find(1), 200);
+  EXPECT_FALSE(arrivals.find(2));
+  arrivals.add(PoseArrivals::kKept, 300);
+  EXPECT_FALSE(arrivals.find(0)) << "its place is taken";
+}
+
+// Lays a panel out without anything to draw it on; the height that it took.
+class PanelLayout : public testing::Test {
+ protected:
+  void SetUp() override {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    style_panel();
+    unsigned char* pixels = nullptr;
+    int width = 0, height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+  }
+  void TearDown() override { ImGui::DestroyContext(); }
+
+  float height_of(const PanelView& view) {
+    PanelActions actions;
+    for (int frame = 0; frame < 3; ++frame) {  // the size settles in the second
+      ImGui::GetIO().DisplaySize = {960, 600};
+      ImGui::NewFrame();
+      actions = lay_out_panel(view);
+      ImGui::Render();
+    }
+    EXPECT_FALSE(actions.pause || actions.reset || actions.clear_fault) << "nobody pressed anything";
+    float top = 600, bottom = 0;
+    const ImDrawData* data = ImGui::GetDrawData();
+    for (int list = 0; list < data->CmdListsCount; ++list) {
+      for (const ImDrawVert& v : data->CmdLists[list]->VtxBuffer) {
+        top = std::min(top, v.pos.y);
+        bottom = std::max(bottom, v.pos.y);
+        EXPECT_LT(v.pos.x, kPanelMargin + kPanelWidth + 1);
+      }
+    }
+    return bottom - top;
+  }
+
+  static PanelView busy() {
+    PanelView view;
+    view.scene = "A liver pressed by a simulated hand";
+    view.time_s = 10;
+    for (const char* name : {"haptic", "deform", "render", "device"}) view.nodes.push_back({.name = name});
+    for (int t = 0; t < 2; ++t) {
+      ToolRow& tool = view.tools.emplace_back();
+      tool.name = "left hand, grasper";
+      tool.state = {"clamped"};
+      for (int k = 0; k < 300; ++k) tool.curve.push_back({k / 30.0, 2.0f});
+    }
+    view.deepest_mm = 25;
+    view.linear_limit_mm = 18;
+    view.faults.assign(9, "haptic: tool 1: position is not finite (first at 3.2 s, 12 times)");
+    return view;
+  }
+};
+
+TEST_F(PanelLayout, BusyPanelFitsAPictureAndItsColumn) {
+  EXPECT_LT(height_of(busy()), 590);
+}
+
+TEST_F(PanelLayout, FaultsAndButtonsTakeRoom) {
+  PanelView view = busy();
+  const float with_faults = height_of(view);
+  view.faults.clear();
+  const float without = height_of(view);
+  EXPECT_LT(without, with_faults);
+  view.interactive = true;
+  EXPECT_GT(height_of(view), without);
+}
+
+TEST_F(PanelLayout, EmptyPanelIsLaidOutToo) {
+  EXPECT_GT(height_of({}), 0);
+}
+
+}  // namespace
+}  // namespace omentum::render

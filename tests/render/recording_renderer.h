@@ -1,0 +1,44 @@
+// A renderer that draws nothing and remembers everything.
+#pragma once
+
+#include "render_node/renderer.h"
+
+#include <stdexcept>
+
+namespace omentum::render {
+
+class RecordingRenderer final : public Renderer {
+ public:
+  explicit RecordingRenderer(Size size = {960, 600}) : size_(size) {}
+
+  MeshId add_mesh(const MeshData& mesh) override {
+    meshes.push_back(mesh);
+    return static_cast<MeshId>(meshes.size() - 1);
+  }
+  void update_vertices(MeshId id, std::span<const Vertex> vertices) override {
+    MeshData& mesh = meshes.at(static_cast<std::size_t>(id));
+    if (vertices.size() != mesh.vertices.size()) throw std::logic_error("another number of vertices");
+    mesh.vertices.assign(vertices.begin(), vertices.end());
+    ++updates;
+  }
+  Input begin_frame() override { return {}; }
+  void draw(const Frame& frame) override { frames.push_back(frame); }
+  Picture read_back() override { return {size_, std::vector<std::uint8_t>(4u * size_.width * size_.height)}; }
+  void end_frame() override {}
+  Size size() const override { return size_; }
+  bool has_window() const override { return false; }
+  std::string description() const override { return "recording"; }
+
+  const MeshData& mesh_of(const DrawItem& item) const {
+    return meshes.at(static_cast<std::size_t>(item.mesh));
+  }
+
+  std::vector<MeshData> meshes;
+  std::vector<Frame> frames;
+  int updates = 0;
+
+ private:
+  Size size_;
+};
+
+}  // namespace omentum::render

@@ -1,0 +1,182 @@
+// The real render_node, as its neighbours see it: states in, pictures and status out.
+#include "organ/build_organ.h"
+#include "render_node/png_file.h"
+#include "transport/bus.h"
+
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <mutex>
+#include <optional>
+
+namespace omentum {
+namespace {
+
+using geometry::Vec3;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A block of 10 cm, held at z = 0, and a scene around it.
+class BlockScene {
+ public:
+  BlockScene() {
+    const geometry::TetraMesh mesh = test::make_box_mesh(3, 3, 3, Vec3::Constant(0.1));
+    organ::FixedComponents fixed(mesh.positions.size(), 0);
+    for (std::size_t n = 0; n < fixed.size(); ++n) {
+      if (mesh.positions[n].z() < 0.001) fixed[n] = 7;
+    }
+    organ_ = organ::make_organ("block", mesh, {.young_pa = 1e4, .poisson = 0.45, .density_kg_m3 = 1000},
+                               fixed, organ::Storage::kFloat);
+    organ::build_organ(organ_, folder_ / "block.h5", {});
+    std::ofstream(scene())
+        << "name = \"a block\"\n"
+           "[[organs]]\nname = \"block\"\nmesh = \"block.msh\"\nfile = \"block.h5\"\n"
+           "young_pa = 10000\npoisson = 0.45\ndensity_kg_m3 = 1000\nfixed = \"plane:z<0.001\"\n"
+           "[[tools]]\nid = 0\nname = \"probe\"\nshape = \"probe\"\npoints = [[0,0,0]]\n";
+  }
+  std::string scene() const { return folder_ / "scene.toml"; }
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  const organ::Organ& organ() const { return organ_; }
+
+ private:
+  test::ScratchFolder folder_;
+  organ::Organ organ_;
+};
+
+std::vector<std::string> arguments(const BlockScene& scene, int domain, std::vector<std::string> more = {}) {
+  std::vector<std::string> all{"--scene",
+                               scene.scene(),
+                               "--domain",
+                               std::to_string(domain),
+                               "--headless",
+                               "--size",
+                               "480x300",
+                               "--out",
+                               scene.file("pictures"),
+                               "--report",
+                               scene.file("report.json")};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// The whole state in one block, every node moved by `u`, or only the highest ones.
+msg::OrganState state_of(const organ::Organ& organ, std::uint64_t seq, const Vec3& u) {
+  msg::OrganState state{};
+  state.block_count = 1;
+  state.seq = seq;
+  state.stamp_ns = static_cast<std::int64_t>(seq);
+  state.node_count = static_cast<std::uint32_t>(organ.surface.node_count());
+  state.echoes = {{.tool = 0, .seq = 100 + seq, .stamp_ns = 5000}};
+  for (const geometry::NodeId n : organ.surface.node) {
+    const double share = organ.mesh.positions[n].z() / 0.1;
+    for (int c = 0; c < 3; ++c) state.values.push_back(static_cast<float>(share * u[c]));
+  }
+  return state;
+}
+
+bool skipped_without_egl(test::Process& node) {
+  return !node.running() && node.messages().find("off-screen pictures:") != std::string::npos;
+}
+
+TEST(RenderNode, BadInputEndsWithTwoAndOneLine) {
+  const BlockScene scene;
+  const auto refused = [&](std::vector<std::string> args) {
+    test::Process node("render_node", args);
+    EXPECT_EQ(node.wait(), 2);
+    const std::string text = node.messages();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    return text;
+  };
+  EXPECT_THAT(refused({"--scene", "no/such.toml", "--headless"}), HasSubstr("no/such.toml"));
+  EXPECT_THAT(refused({"--scene", scene.scene(), "--size", "10by10"}), HasSubstr("10by10"));
+  EXPECT_THAT(refused({"--scene", scene.scene(), "--dds", "slow"}), HasSubstr("slow"));
+  EXPECT_THAT(refused({"--scene", scene.scene(), "--headless", "--organ", "no/such.h5"}),
+              HasSubstr("no/such.h5"));
+}
+
+TEST(RenderNode, ShowsStatesAndEchoesThePoseThatItDrew) {
+  const BlockScene scene;
+  const int domain = test::domain_of_test();
+  test::Process node("render_node", arguments(scene, domain));
+  const auto bus =
+      transport::Bus::open({.vendor = transport::Vendor::kCyclone, .domain = domain, .name = "test"});
+  const auto states = bus->writer<msg::OrganState>();
+  std::mutex mutex;
+  std::optional<msg::NodeStatus> heard;
+  const auto statuses = bus->reader<msg::NodeStatus>([&](const msg::NodeStatus& status) {
+    const std::lock_guard lock(mutex);
+    heard = status;
+  });
+  std::uint64_t seq = 0;
+  const bool echoed = test::comes_true([&] {
+    ++seq;
+    states->write(state_of(scene.organ(), seq, {0, 0, -0.01}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const std::lock_guard lock(mutex);
+    return skipped_without_egl(node) || (heard && !heard->echoes.empty());
+  });
+  if (skipped_without_egl(node)) GTEST_SKIP() << node.messages();
+  ASSERT_TRUE(echoed) << node.messages();
+  {
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(heard->kind, msg::NODE_RENDER);
+    EXPECT_GT(heard->echoes[0].seq, 100u);
+    EXPECT_LE(heard->echoes[0].seq, 100 + seq);
+    EXPECT_EQ(heard->echoes[0].stamp_ns, 5000);
+  }
+  EXPECT_TRUE(
+      test::comes_true([&] { return std::filesystem::exists(scene.file("pictures") / "indent.png"); }));
+  EXPECT_EQ(node.terminate(), 0) << node.messages();
+
+  EXPECT_EQ(render::read_png(scene.file("pictures") / "final.png").size, (render::Size{480, 300}));
+  EXPECT_TRUE(std::filesystem::exists(scene.file("pictures") / "frame_0001.png"));
+  const auto report = nlohmann::json::parse(test::read_text(scene.file("report.json")));
+  EXPECT_EQ(report["dds"], "fast");
+  EXPECT_GT(report["frames"], 0);
+  EXPECT_EQ(report["frame_us"]["count"], report["frames"]);
+  EXPECT_TRUE(report["faults"].empty()) << report;
+}
+
+TEST(RenderNode, EndsByItselfAfterItsTime) {
+  const BlockScene scene;
+  test::Process node("render_node",
+                     arguments(scene, test::domain_of_test(), {"--seconds", "1", "--no-panel"}));
+  const int code = node.wait();
+  if (skipped_without_egl(node)) GTEST_SKIP() << node.messages();
+  EXPECT_EQ(code, 0) << node.messages();
+  EXPECT_TRUE(std::filesystem::exists(scene.file("pictures") / "final.png"));
+}
+
+TEST(RenderNode, RefusesToShowAnotherOrganThanTheOneServed) {
+  const BlockScene scene;
+  const int domain = test::domain_of_test();
+  const auto bus =
+      transport::Bus::open({.vendor = transport::Vendor::kFast, .domain = domain, .name = "test"});
+  const auto scenes = bus->writer<msg::SceneInfo>();
+  scenes->write({.protocol = msg::PROTOCOL_VERSION, .scene = "a block", .organs = {{"block", "0123abcd"}}});
+  test::Process node("render_node", arguments(scene, domain));
+  const int code = node.wait();
+  if (skipped_without_egl(node)) GTEST_SKIP() << node.messages();
+  EXPECT_EQ(code, 2);
+  EXPECT_THAT(node.messages(), AllOf(HasSubstr("0123abcd"), HasSubstr(scene.organ().hash)));
+}
+
+TEST(RenderNode, SaysWhereThePicturesGoWhenThereIsNoDisplay) {
+  const BlockScene scene;
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  test::Process node("render_node",
+                     {"--scene", scene.scene(), "--domain", std::to_string(test::domain_of_test()),
+                      "--seconds", "0.5", "--out", scene.file("pictures")});
+  const int code = node.wait();
+  if (skipped_without_egl(node)) GTEST_SKIP() << node.messages();
+  EXPECT_EQ(code, 0) << node.messages();
+  EXPECT_THAT(node.output(), AllOf(HasSubstr("no display"), HasSubstr(scene.file("pictures").string())));
+}
+
+}  // namespace
+}  // namespace omentum
