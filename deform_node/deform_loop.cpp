@@ -17,6 +17,7 @@ constexpr double kStatusRateHz = 10;  // DESIGN 2: 1-10 Hz
 
 std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs) {
   std::vector<OrganNumbers> numbers;
+  numbers.reserve(organs.size());
   for (const ServedOrgan& served : organs) numbers.push_back(numbers_of(served.organ));
   return numbers;
 }

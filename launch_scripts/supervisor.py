@@ -33,6 +33,9 @@ def main():
     except Refusal as refusal:
         print(f"run: {refusal}", file=sys.stderr)
         return 2
+    except OSError as error:
+        print(f"run: {error.filename or 'the system'}: {error.strerror}", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         print("run: ended before the session began", file=sys.stderr)
         return 130

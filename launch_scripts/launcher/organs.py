@@ -50,10 +50,13 @@ def run_tool(options, arguments, doing):
 
 
 def digest(*parts):
-    """Of texts and of files' contents."""
+    """Of texts and of files' contents; a file that is not there counts as empty (organ_build says what is wrong)."""
     total = hashlib.sha256()
     for part in parts:
-        content = part.read_bytes() if isinstance(part, pathlib.Path) else str(part).encode()
+        if isinstance(part, pathlib.Path):
+            content = part.read_bytes() if part.is_file() else b""
+        else:
+            content = str(part).encode()
         total.update(hashlib.sha256(content).digest())
     return total.hexdigest()[:20]
 

@@ -1,0 +1,142 @@
+// scene_prepare: a scene fits its organ, whichever organ that is.
+#include "geometry/closest_points.h"
+#include "organ/organ.h"
+#include "runtime/scene.h"
+
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <limits>
+
+namespace omentum::test {
+namespace {
+
+using geometry::Vec3;
+
+const std::string kOwnScene = OMENTUM_SOURCE_DIR "/scenes/liver.toml";
+/// Closest points and interpolated positions are doubles on an organ of decimetres.
+constexpr double kOnSurfaceM = 1e-9;
+/// A slide may leave a curved surface by this part of its length: the hand's target is 10 mm below it.
+constexpr double kLiftShare = 0.3;
+
+Vec3 to_vector(const runtime::Triple& t) {
+  return {t[0], t[1], t[2]};
+}
+
+class Skin {
+ public:
+  explicit Skin(const std::string& organ_file)
+      : organ_(organ::load_organ(organ_file, organ::Load::kMeshOnly)),
+        x_(geometry::surface_positions(organ_.mesh, organ_.surface)) {}
+
+  double distance(const Vec3& p) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (const geometry::Triangle& t : organ_.surface.triangles)
+      best = std::min(best,
+                      geometry::closest_point_on_triangle(p, x_[t[0]], x_[t[1]], x_[t[2]]).squared_distance);
+    return std::sqrt(best);
+  }
+  /// By the parity of a ray's crossings, in a direction that no mesh is aligned with.
+  bool inside(const Vec3& p) const {
+    const Vec3 far = p + Vec3(0.5773, 0.3217, 0.7512) * 10;
+    int crossings = 0;
+    for (const geometry::Triangle& t : organ_.surface.triangles)
+      crossings +=
+          geometry::intersect_segment_triangle(p, far, x_[t[0]], x_[t[1]], x_[t[2]]).has_value() ? 1 : 0;
+    return crossings % 2 == 1;
+  }
+  double diagonal() const {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : x_) box.extend(p);
+    return box.diagonal().norm();
+  }
+  double to_support(const Vec3& p) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < organ_.fixed.size(); ++n)
+      if (organ_.fixed[n] != 0) best = std::min(best, (organ_.mesh.positions[n] - p).norm());
+    return best;
+  }
+
+ private:
+  organ::Organ organ_;
+  std::vector<Vec3> x_;
+};
+
+void expect_hand_fits(const Skin& skin, const runtime::HandSpec& hand) {
+  const Vec3 p = to_vector(hand.press_point), n = to_vector(hand.press_normal),
+             d = to_vector(hand.slide_direction);
+  EXPECT_LE(skin.distance(p), kOnSurfaceM);
+  EXPECT_NEAR(n.norm(), 1, 1e-9);
+  EXPECT_NEAR(d.norm(), 1, 1e-9);
+  EXPECT_NEAR(n.dot(d), 0, 1e-9) << "the slide is tangential";
+  const double step = 0.01 * skin.diagonal();
+  EXPECT_FALSE(skin.inside(p + step * n)) << "the normal points outward";
+  EXPECT_TRUE(skin.inside(p - step * n));
+  EXPECT_TRUE(skin.inside(p - hand.depth_m * n)) << "the organ is thicker than the hand presses";
+}
+
+class ForeignOrganTest : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(ForeignOrganTest, HandsPressOnTheSurfaceApartAndAwayFromTheSupportsAndSlideAlongIt) {
+  const auto& [name, supports] = GetParam();
+  const auto mesh = data_file("tet/" + name);
+  if (!std::filesystem::exists(mesh)) GTEST_SKIP() << "the real meshes are absent";
+  const ScratchFolder folder;
+  const std::string organ = folder / "organ.h5", fitted = folder / "scene.toml";
+  Process build("organ_build", {mesh, "-o", organ, "--young", "12000", "--poisson", "0.45", "--density",
+                                "1060", "--scale", "0.001", "--fixed", supports});
+  ASSERT_EQ(build.wait(), 0) << build.messages();
+  Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
+  ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
+
+  const runtime::Scene scene = runtime::load_scene(fitted);
+  EXPECT_EQ(scene.organs.front().file, organ);
+  const Skin skin(organ);
+  for (const runtime::HandSpec& hand : scene.hands) {
+    SCOPED_TRACE(hand.tool);
+    expect_hand_fits(skin, hand);
+    const Vec3 p = to_vector(hand.press_point), d = to_vector(hand.slide_direction);
+    EXPECT_GT(skin.to_support(p), 0.1 * skin.diagonal());
+    for (const double part : {0.5, 1.0})
+      EXPECT_LE(skin.distance(p + part * hand.slide_m * d), kLiftShare * hand.slide_m + kOnSurfaceM);
+  }
+  const Vec3 between = to_vector(scene.hands[0].press_point) - to_vector(scene.hands[1].press_point);
+  EXPECT_GT(between.norm(), 0.1 * skin.diagonal());
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, ForeignOrganTest,
+                         ::testing::Values(std::pair{"openhelp_liver_7k.msh", "plane:y>0.159"},
+                                           std::pair{"sofaenv_gallbladder.vtk", "plane:y>0.0267"}),
+                         [](const auto& test) {
+                           return test.param.first.substr(0, test.param.first.find('.'));
+                         });
+
+TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
+  const runtime::Scene held = runtime::load_scene(OMENTUM_HELD_SCENE);
+  const ScratchFolder folder;
+  const std::string fitted = folder / "scene.toml";
+  Process prepare("scene_prepare",
+                  {kOwnScene, "--organ", held.organs.front().file, "-o", fitted, "--keep-points"});
+  ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
+  const runtime::Scene before = runtime::load_scene(kOwnScene), after = runtime::load_scene(fitted);
+  const Skin skin(held.organs.front().file);
+  ASSERT_EQ(after.hands.size(), before.hands.size());
+  for (std::size_t i = 0; i < after.hands.size(); ++i) {
+    expect_hand_fits(skin, after.hands[i]);
+    const Vec3 wanted = to_vector(before.hands[i].press_point);
+    EXPECT_NEAR((to_vector(after.hands[i].press_point) - wanted).norm(), skin.distance(wanted), kOnSurfaceM)
+        << "the nearest surface point";
+    EXPECT_EQ(after.hands[i].slide_m, before.hands[i].slide_m);
+    EXPECT_EQ(after.hands[i].depth_m, before.hands[i].depth_m);
+  }
+  EXPECT_EQ(after.tools.front().trocar, before.tools.front().trocar);
+  EXPECT_EQ(after.camera.eye, before.camera.eye);
+  EXPECT_EQ(after.haptics.max_force_n, before.haptics.max_force_n);
+}
+
+}  // namespace
+}  // namespace omentum::test
