@@ -9,7 +9,7 @@
 namespace omentum::render {
 namespace {
 
-constexpr float kHorizonM = 0.011f;  // the size of a dent under a fingertip or a tool
+constexpr float kHorizonM = 0.018f;  // the width of a dent that a tool presses into soft tissue
 
 }  // namespace
 

@@ -62,10 +62,12 @@ float lit(vec3 p_W, vec3 n, float n_dot_l) {
 // The room as a smooth surface mirrors it: dark floor, dim walls, a wide soft box around the key light and a strip.
 vec3 room(vec3 direction, float blur) {
   float height = direction.z * 0.5 + 0.5;
-  vec3 walls = mix(vec3(0.060, 0.050, 0.048), vec3(0.30, 0.33, 0.37), smoothstep(0.2, 1.0, height));
+  vec3 walls = mix(vec3(0.085, 0.090, 0.092), vec3(0.30, 0.33, 0.37), smoothstep(0.2, 1.0, height));
   float edge = mix(0.04, 0.35, blur);
   float key = smoothstep(0.86 - edge, 0.86 + edge * 0.5, dot(direction, towards_key));
   vec3 side = normalize(vec3(-towards_key.y, towards_key.x, 0.45));
+  // one side of the room is brighter: without that, a shaft would be an even grey
+  walls *= mix(0.7, 1.5, smoothstep(-0.5, 0.9, dot(direction, side)));
   float strip = smoothstep(0.82 - edge, 0.82 + edge * 0.5, dot(direction, side));
   vec3 light = walls + key * vec3(3.2, 3.1, 2.9) * (1.0 - 0.6 * blur) + strip * vec3(0.9, 1.05, 1.25);
   return mix(light, light * vec3(1.0, 0.62, 0.52), scope);

@@ -21,5 +21,6 @@ void main() {
   vec3 fresnel = f0 + (max(vec3(1.0 - material_roughness), f0) - f0) * pow(1.0 - nv, 5.0);
   vec3 mirror = room(reflect(-v, n), material_roughness) * fresnel * mix(1.0, 1.5, material_metalness);
   vec3 glint = gloss(n, v, towards_key, material_roughness, f0) * key_colour * pi * shade * 0.6;
+  glint += gloss(n, v, v, material_roughness * 1.4, f0) * fill_colour * pi * 0.5;
   colour = vec4(film(body + mirror + glint), 1.0);
 }
