@@ -33,7 +33,7 @@ def main():
     if failed == 0:
         failed = arguments.failed_steps
     print(f"{passed} passed, {failed} failed, {skipped} skipped")
-    return 1 if failed or not passed else 0
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
