@@ -86,6 +86,10 @@ RenderLoop::RenderLoop(const RenderOptions& options, const runtime::Scene& scene
     rows_[t].colour = tool_colour(scene_.tools[t].id);
   }
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
+  if (!options.node.log.empty()) {
+    log_ = std::make_unique<runtime::LoopLog>(options.node.log);
+    pace_.log_to(*log_);
+  }
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
   inbox_ = std::make_unique<Inbox>(*bus_, loaded_.first, faults_);

@@ -7,6 +7,7 @@
 #include "render_node/picture_schedule.h"
 #include "render_node/picture_writer.h"
 #include "render_node/scene_view.h"
+#include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
 
@@ -74,6 +75,7 @@ class RenderLoop {
   FrameRateControl control_;
   PictureSchedule schedule_;
   std::unique_ptr<PictureWriter> writer_;
+  std::unique_ptr<runtime::LoopLog> log_;
   runtime::TickAccount account_;  // frames, not the pace's ticks: a slow machine skips some of those
   runtime::Histogram hand_to_force_, hand_to_picture_;
   std::int64_t begin_ns_ = 0;
