@@ -40,7 +40,7 @@ std::uint32_t bits_of(const std::vector<std::uint32_t>& tools) {
 
 HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
     : options_(options),
-      setup_(make_setup(node::load_scene(options.node))),
+      setup_(make_setup(node::load_scene(options.node), options.rate_hz)),
       loop_(loop),
       state_(setup_.model),
       work_(setup_.model),

@@ -4,10 +4,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace omentum::haptic {
 namespace {
+
+// A pose that is this many periods old is late for its successor too: one period and a half is what jitter
+// makes of a device that runs slowly (300 Hz: 5 ms), not silence.
+constexpr double kStalePeriods = 2.5;
 
 Vec3 to_vector(const runtime::Triple& t) {
   return {t[0], t[1], t[2]};
@@ -53,7 +58,7 @@ HapticModel make_model(const runtime::Scene& scene, organ::Organ&& organ) {
 
 }  // namespace
 
-HapticSetup make_setup(const runtime::Scene& scene) {
+HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
   if (scene.organs.empty()) refuse(scene, "no organ, expected one at least");
   const std::filesystem::path& file = scene.organs.front().file;
   if (file.empty())
@@ -64,7 +69,8 @@ HapticSetup make_setup(const runtime::Scene& scene) {
   const runtime::HapticsSpec& h = scene.haptics;
   HapticSetup setup{make_model(scene, std::move(organ)),
                     {},
-                    {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s, h.stale_s, h.decay_s},
+                    {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s,
+                     std::max(h.stale_s, kStalePeriods / rate_hz), h.decay_s},
                     hash};
   for (const runtime::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
   return setup;

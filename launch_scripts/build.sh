@@ -1,6 +1,9 @@
 # shellcheck shell=bash
 # Sourced by run, test and bench: builds a preset, with a line of progress every few seconds.
 
+# one cache for all clones of the repository
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
+
 # build_preset PRESET [-DNAME=VALUE ...] -- [TARGET ...]
 build_preset() {
   local preset=$1 definitions=()

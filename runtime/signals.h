@@ -5,9 +5,8 @@
 
 namespace omentum::runtime {
 
-/// While it lives, calls `on_stop` once, on a thread of its own, when SIGINT or SIGTERM arrives. Construct it
-/// before any other thread starts (it blocks the signals in the calling thread, and threads inherit that).
-/// One at a time.
+/// While it lives, calls `on_stop` once, on a thread of its own, when SIGINT or SIGTERM arrives, whichever
+/// thread takes it. One at a time. Throws std::runtime_error where the system gives no eventfd.
 class StopSignal {
  public:
   explicit StopSignal(std::function<void()> on_stop);
