@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 namespace omentum::haptic {
 namespace {
@@ -15,10 +14,6 @@ using geometry::kClusterSize;
 
 // Above the rounding of float coordinates within 8 m of W's origin and of superposed displacements, m.
 constexpr float kRounding_m = 1e-6f;
-// Tilt of a contact normal against its direction at rest. Linear elasticity under a point load dips into a
-// funnel whose walls are no surface to lean on.
-constexpr double kCosMaxTilt = std::numbers::sqrt2 / 2;  // 45 degrees
-constexpr double kSinMaxTilt = std::numbers::sqrt2 / 2;
 // Triangles that a sliding contact may cross in one tick; a fast instrument crosses three.
 constexpr int kMaxSlideSteps = 64;
 // Clusters outside of all regions that are made exact in a tick, so that those inside know their neighbours.
@@ -30,17 +25,6 @@ constexpr double kOnEdge = 1e-12;
 
 Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a);
-}
-
-Vec3 limit_tilt(const Vec3& direction, const Vec3& rest) {
-  const double length = direction.norm();
-  if (!(length > 0)) return rest;
-  const Vec3 n = direction / length;
-  const double along = n.dot(rest);
-  if (along >= kCosMaxTilt) return n;
-  const Vec3 across = n - along * rest;
-  const double side = across.norm();
-  return side > 0 ? Vec3(kCosMaxTilt * rest + kSinMaxTilt / side * across) : rest;
 }
 
 double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
@@ -63,6 +47,7 @@ DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<con
   nodes_.reserve(kMaxForces);
   forces_.reserve(kMaxForces);
   index_clusters();
+  find_normals();
   restore_rest();
 }
 
@@ -106,11 +91,7 @@ void DeformedSurface::restore_rest() {
   pending_.reserve(clusters);
   unbinned_.reserve(kMaxRegions * clusters);
   cluster_version_.assign(clusters, version_);
-  normal_version_.assign(rest_.size(), 0);
-  normals_.resize(rest_.size());
   for (std::int32_t c = 0; c < clusters_; ++c) enclose(c);
-  for (std::int32_t n = 0; n < surface_.node_count(); ++n) vertex_normal(SurfaceId(n));
-  rest_normals_ = normals_;
 }
 
 bool DeformedSurface::fresh(std::int32_t cluster) const noexcept {
@@ -284,27 +265,22 @@ DeformedSurface::Corners DeformedSurface::stored_corners(TriangleId triangle) co
   return {&positions_[t[0]], &positions_[t[1]], &positions_[t[2]]};
 }
 
-const Vec3& DeformedSurface::vertex_normal(SurfaceId node) noexcept {
-  if (normal_version_[node] == version_) return normals_[node];
-  Vec3 sum = Vec3::Zero();
-  for (const TriangleId around : surface_.triangles_of(node)) {
-    const geometry::Triangle& t = surface_.triangles[around];
-    sum += area_normal(position(t[0]), position(t[1]), position(t[2]));
+void DeformedSurface::find_normals() {
+  normals_.assign(rest_.size(), Vec3::Zero());
+  for (const geometry::Triangle& t : surface_.triangles) {
+    const Vec3 normal = area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]);
+    for (const SurfaceId n : t) normals_[n] += normal;
   }
-  const double length = sum.norm();
-  normals_[node] = length > 0 ? Vec3(sum / length) : rest_normals_[node];
-  normal_version_[node] = version_;
-  return normals_[node];
+  for (Vec3& normal : normals_) normal.normalize();
 }
 
-Vec3 DeformedSurface::normal(const SurfacePoint& point) noexcept {
+Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
   const geometry::Triangle& t = surface_.triangles[point.triangle];
-  Vec3 deformed = Vec3::Zero(), rest = Vec3::Zero();
-  for (int v = 0; v < 3; ++v) {
-    deformed += point.barycentric[v] * vertex_normal(t[v]);
-    rest += point.barycentric[v] * rest_normals_[t[v]];
-  }
-  return limit_tilt(deformed, rest.normalized());
+  const Vec3& k = point.barycentric;
+  const Vec3 sum = k[0] * normals_[t[0]] + k[1] * normals_[t[1]] + k[2] * normals_[t[2]];
+  const double length = sum.norm();
+  // on a blade two opposite normals may cancel: then the face's own
+  return length > 0 ? Vec3(sum / length) : area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]).normalized();
 }
 
 std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) noexcept {

@@ -65,9 +65,12 @@ class DeformedSurface {
   /// Rest position X of a material point, m.
   Vec3 rest_position(const SurfacePoint& point) const noexcept;
 
-  /// Unit outward normal at a material point: vertex normals (of the triangles around, weighted by area),
-  /// interpolated, so that it is continuous across edges; at most 45 degrees away from the same at rest.
-  Vec3 normal(const SurfacePoint& point) noexcept;
+  /// The direction in which tissue pushes at a material point, unit, outward: rest normals of the triangle's
+  /// vertices (area-weighted over their fans), interpolated, so that it is continuous across edges. Of the
+  /// rest shape on purpose: linear elasticity states equilibrium there, and under a sharp tool it dips into a
+  /// funnel one edge wide whose walls are no surface to lean on (with the normals of the deformed shape
+  /// forces on a fine mesh flickered between two directions from tick to tick).
+  Vec3 normal(const SurfacePoint& point) const noexcept;
 
   /// The first place where the segment p -> q, inside an evaluated region, passes a triangle from outside to
   /// inside. Looks through every bucket that it crosses.
@@ -114,7 +117,7 @@ class DeformedSurface {
   template <class Visit>
   void visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept;
   Corners stored_corners(TriangleId triangle) const noexcept;
-  const Vec3& vertex_normal(SurfaceId node) noexcept;
+  void find_normals();
   bool outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept;
 
   const geometry::Surface& surface_;
@@ -125,7 +128,7 @@ class DeformedSurface {
   // constant: which nodes and triangles hang on a cluster
   std::vector<std::int32_t> outer_start_, outer_;  // nodes of its triangles in other clusters
   std::vector<std::int32_t> owned_start_, owned_;  // triangles binned with it
-  std::vector<Vec3> rest_normals_;                 // [S] unit
+  std::vector<Vec3> normals_;                      // [S] at rest, unit
 
   std::vector<Vec3> positions_;             // [S] exact when last superposed
   std::vector<float> low_[3], high_[3];     // [clusters] box of all triangles that touch the cluster ...
@@ -137,8 +140,6 @@ class DeformedSurface {
   std::vector<std::int32_t> pending_;           // clusters to evaluate
   std::vector<std::int32_t> unbinned_;          // evaluated ones whose triangles may have left their buckets
   std::vector<std::uint32_t> cluster_version_;  // of the forces it was superposed with
-  std::vector<std::uint32_t> normal_version_;   // [S]
-  std::vector<Vec3> normals_;                   // [S]
   std::uint32_t version_ = 1;
 
   std::vector<SurfaceId> nodes_;

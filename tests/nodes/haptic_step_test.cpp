@@ -196,6 +196,32 @@ TEST(HapticStep, StepsDoNotDependOnTheirNumber) {
   }
 }
 
+// Far beyond what a linear model can say, a press must still feel like one thing: twice as deep as an element
+// is wide, the dent is a funnel. (With the normals of the deformed shape the force flickered here.)
+TEST(HapticStep, ADeepPressIsSteadyAndSlidesWithoutJumps) {
+  constexpr double kStep_m = 5e-5, kElement_m = 0.01;
+  // F = d / W, and W = sum k_a k_b C_ab is quadratic over an element: |dW/dx| <= 2 W_node / h with W_node <=
+  // 2 W
+  constexpr double kLargestChange = 4 * kStep_m / kElement_m;
+  for (const double friction : {0.0, 0.3}) {
+    Bench bench(make_model(block(), {needle()}, friction));
+    bench.step_to({0.031, 0.048, 0.041});
+    bench.move_to({0.031, 0.048, 0.020}, 420);
+    Vec3 before = bench.output().force;
+    for (int i = 0; i < 200; ++i) {
+      bench.step();
+      EXPECT_TRUE(i < 50 || (bench.output().force - before).norm() < 1e-6) << "held, friction " << friction;
+      before = bench.output().force;
+    }
+    for (double x = 0.031; x < 0.065; x += kStep_m) {
+      const Vec3 force = bench.step_to({x, 0.048, 0.020});
+      EXPECT_LE((force - before).norm(), kLargestChange * force.norm())
+          << "slid to " << x << ", friction " << friction;
+      before = force;
+    }
+  }
+}
+
 TEST(HapticStep, RelocatedToolsLetGo) {
   Bench bench(make_model(block(), {round_tool()}));
   bench.step_to(kAbove);
