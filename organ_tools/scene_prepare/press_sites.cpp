@@ -167,6 +167,7 @@ class SiteSearch {
 std::vector<PressSite> choose_press_sites(const OrganSkin& skin, const std::vector<double>& slides_m) {
   const SiteSearch search(skin);
   std::vector<PressSite> sites;
+  sites.reserve(slides_m.size());
   for (const double slide_m : slides_m) sites.push_back(search.best(slide_m, sites));
   return sites;
 }
