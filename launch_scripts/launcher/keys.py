@@ -7,6 +7,14 @@ import time
 import tty
 
 
+def in_foreground(stream):
+    """Whether keys typed there are meant for us: not so for a job in the background, or another's terminal."""
+    try:
+        return stream.isatty() and os.tcgetpgrp(stream.fileno()) == os.getpgrp()
+    except OSError:
+        return False
+
+
 class Keys:
     """While it is open, keys arrive one by one; elsewhere than in a foreground terminal none ever does."""
 
@@ -14,7 +22,7 @@ class Keys:
         self.saved = None
 
     def __enter__(self):
-        if sys.stdin.isatty() and os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp():
+        if in_foreground(sys.stdin):
             self.saved = termios.tcgetattr(sys.stdin)
             tty.setcbreak(sys.stdin)
         return self

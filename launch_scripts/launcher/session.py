@@ -123,6 +123,10 @@ class Session:
         if node.exit == processes.REFUSED and node.starts == 1 and elapsed < REFUSAL_WINDOW_S:
             print(f"run: {node.name} refused to start; ending", flush=True)
             return processes.REFUSED
+        if node.name == "render_node" and node.exit == 0 and not self.headless:
+            print("run: the window was closed", flush=True)
+            self.stop()
+            return 0
         print(f"run: {node.name} {node.how_it_ended()}; the others go on", flush=True)
         if self.options.restart and node.exit != 0:
             self.restarts[node.name] = time.monotonic() + RESTART_PAUSE_S

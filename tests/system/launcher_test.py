@@ -3,12 +3,15 @@
 
 Environment: OMENTUM_BIN and OMENTUM_CACHE, as for launch_scripts/run. A single test: launcher_test.py Class.test
 """
+import fcntl
 import json
 import os
 import pathlib
+import pty
 import signal
 import subprocess
 import tempfile
+import termios
 import time
 import unittest
 
@@ -165,6 +168,24 @@ class Endings(LauncherTest):
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(PATIENCE_S), 0, process.stdout.read())
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
+        self.check_shape(self.report(), SHAPE)
+
+    def test_keys_in_a_terminal_pause_and_end_it(self):
+        ours, theirs = pty.openpty()
+        self.addCleanup(os.close, ours)
+        log = open(self.folder / "log", "w+", encoding="utf-8")
+        self.addCleanup(log.close)
+        process = subprocess.Popen(
+            [RUN, HOLD, "--headless", "--out", self.out], cwd=self.folder, stdin=theirs, stdout=log, stderr=log,
+            start_new_session=True, preexec_fn=lambda: fcntl.ioctl(theirs, termios.TIOCSCTTY, 0))
+        os.close(theirs)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        self.nodes_of(process)
+        os.write(ours, b"p")
+        time.sleep(1)
+        os.write(ours, b"q")
+        self.assertEqual(process.wait(PATIENCE_S), 0)
+        self.assertIn("run: paused", (self.folder / "log").read_text())
         self.check_shape(self.report(), SHAPE)
 
     def test_a_killed_node_leaves_the_others_running_and_is_reported(self):
