@@ -77,7 +77,6 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   if (safety_.faulted() && !fault_before) faults_.raise(force_fault_);
 
   force_.tool = id_;
-  ++force_.seq;
   force_.echo_seq = heard.pose.seq;
   force_.echo_stamp_ns = heard.pose.stamp_ns;
   force_.force = to_message(safe.wrench.force);
@@ -85,6 +84,12 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   force_.grip_torque = 0;  // rigid jaws: the tissue between them does not push them open
   force_.valid_for_s = valid_for_s_;
   force_.state = safe.state;
+  return force_;
+}
+
+const msg::ToolForce& ToolLine::to_send(std::uint64_t tick) noexcept {
+  ++force_.seq;
+  force_.tick = tick;
   return force_;
 }
 

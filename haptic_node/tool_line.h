@@ -44,9 +44,12 @@ class ToolLine {
 
   /// Takes the newest pose; what the step shall see of it. Returns whether it is a new one.
   bool listen(std::int64_t now_ns, ToolInput& input) noexcept;
-  /// The force that may leave, with the echo of the pose that `listen` took.
+  /// The force that may leave, with the echo of the pose that `listen` took. Every tick: safety follows the
+  /// hand.
   const msg::ToolForce& answer(const ToolOutput& output, std::int64_t now_ns, double dt_s,
                                bool paused) noexcept;
+  /// The newest answer as the next sample of the topic: only what is sent is counted.
+  const msg::ToolForce& to_send(std::uint64_t tick) noexcept;
 
   void restart() noexcept;
   void clear_fault() noexcept { safety_.clear_fault(); }

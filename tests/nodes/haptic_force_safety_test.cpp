@@ -363,6 +363,16 @@ TEST(SafetyThroughTheStep, EchoesThePoseThatItAnswers) {
   EXPECT_GT(force.valid_for_s, 0);
 }
 
+TEST(SafetyThroughTheStep, SequenceNumbersCountWhatIsSent) {
+  LineBench line;
+  line.press({0.05, 0.05, 0.05});
+  EXPECT_EQ(line.line().to_send(7).seq, 1u);
+  for (int i = 0; i < 5; ++i) line.press({0.05, 0.05, 0.05});
+  const msg::ToolForce& next = line.line().to_send(12);
+  EXPECT_EQ(next.seq, 2u);
+  EXPECT_EQ(next.tick, 12u);
+}
+
 // A hand of 200 g on a spring and a damper, pressing, holding, sliding and letting go through the real step
 // and safety.
 struct HandRun {
