@@ -28,8 +28,8 @@ class FrameRateControl {
   double period_s_;
   double duty_;
   Quality quality_ = Quality::kCoarse;  // a slow machine must not begin with its slowest frames
-  double cost_s_ = 0;  // smoothed, of this quality
-  int frames_ = 0;     // of this quality
+  double cost_s_ = 0;                   // smoothed, of this quality
+  int frames_ = 0;                      // of this quality
   double next_s_ = 0;
 };
 
