@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <future>
 #include <thread>
@@ -13,15 +14,18 @@ namespace {
 
 // OpenBLAS starts threads before main: they take signals like any other.
 TEST(StopSignal, HearsASignalThatAnEarlierThreadTakes) {
-  std::promise<void> done;
-  std::thread earlier([waiting = done.get_future()] { waiting.wait(); });
+  std::atomic<bool> done = false;
+  // short sleeps: thread sanitizer hands a signal on when a thread comes back from one
+  std::thread earlier([&] {
+    while (!done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
   std::promise<void> heard;
   {
     const StopSignal stop([&] { heard.set_value(); });
     pthread_kill(earlier.native_handle(), SIGTERM);
     heard.get_future().wait();
   }
-  done.set_value();
+  done = true;
   earlier.join();
 }
 
