@@ -314,7 +314,7 @@ std::optional<SurfacePoint> DeformedSurface::touch(const Vec3& p, const Vec3& q)
   // what was out of reach before the last step passed over p only if it moved that far
   const double moved = entered_motion_ < kReach_m ? known_motion_ : kReach_m;
   const double reach = std::min(moved, kReach_m - kRounding_m) + kRounding_m;
-  if (const auto overtaken = nearest_if_inside(p, reach)) return overtaken;
+  if (auto overtaken = nearest_if_inside(p, reach)) return overtaken;
   if (const auto entry = first_entry(p, q)) return entry->point;
   return std::nullopt;
 }
@@ -355,7 +355,7 @@ bool DeformedSurface::outside_of_feature(const SurfacePoint& nearest, const Vec3
   return normal.dot(p - position(nearest)) >= 0;
 }
 
-SurfacePoint DeformedSurface::slide(SurfacePoint from, const Vec3& p) noexcept {
+SurfacePoint DeformedSurface::slide(const SurfacePoint& from, const Vec3& p) noexcept {
   const auto closest_on = [&](TriangleId triangle) {
     const geometry::Triangle& t = surface_.triangles[triangle];
     return geometry::closest_point_on_triangle(p, position(t[0]), position(t[1]), position(t[2]));

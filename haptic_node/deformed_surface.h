@@ -96,7 +96,7 @@ class DeformedSurface {
 
   /// The closest material point to p that is reached from `from` by going from triangle to touching
   /// triangle, always nearer: sliding without search.
-  SurfacePoint slide(SurfacePoint from, const Vec3& p) noexcept;
+  SurfacePoint slide(const SurfacePoint& from, const Vec3& p) noexcept;
 
   /// Nodes superposed since the last set_forces.
   int evaluated_nodes() const noexcept { return evaluated_clusters_ * geometry::kClusterSize; }

@@ -114,7 +114,7 @@ void HapticLoop::refuse(std::string why) {
 // ---- the loop's thread
 
 void HapticLoop::run() {
-  watch_ = std::jthread([this](std::stop_token stop) { watch(std::move(stop)); });
+  watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
   grant_ = runtime::request_realtime(kPriority);
   if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
   serve_from_ns_ = runtime::steady_now_ns() + kListen_ns;
@@ -205,7 +205,7 @@ void HapticLoop::account() noexcept {
 
 // ---- the ordinary thread
 
-void HapticLoop::watch(std::stop_token stop) {
+void HapticLoop::watch(const std::stop_token& stop) {
   std::mutex mutex;
   std::condition_variable_any wake;
   std::unique_lock lock(mutex);

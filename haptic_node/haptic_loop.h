@@ -59,7 +59,7 @@ class HapticLoop {
   void hear(const msg::DeviceInfo& info) noexcept;
   void hear(const msg::SessionCommand& command) noexcept;
   void refuse(std::string why);
-  void watch(std::stop_token stop);
+  void watch(const std::stop_token& stop);
   void publish_status();
 
   HapticOptions options_;

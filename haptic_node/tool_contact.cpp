@@ -87,7 +87,7 @@ std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, Deformed
   room = std::min(room - way - surface.known_motion(),
                   DeformedSurface::kReach_m - way - surface.entered_motion());
   if (room > 0) return std::nullopt;
-  const auto found = surface.touch(tool.before[p], tool.now[p]);
+  auto found = surface.touch(tool.before[p], tool.now[p]);
   room = found ? 0
                : surface.clearance(tool.now[p],
                                    std::clamp(kArmGrowth * before, kShortArm_m, DeformedSurface::kReach_m));
