@@ -24,7 +24,7 @@ class Keys:
     def __enter__(self):
         if in_foreground(sys.stdin):
             self.saved = termios.tcgetattr(sys.stdin)
-            tty.setcbreak(sys.stdin)
+            tty.setcbreak(sys.stdin, termios.TCSADRAIN)  # keeps what was typed already
         return self
 
     def __exit__(self, *_):

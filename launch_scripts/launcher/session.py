@@ -89,18 +89,18 @@ class Session:
         self.announce()
         begin = time.monotonic()
         code = 0
-        try:
-            processes.start_all(self.nodes)
-            if self.options.paused:
-                self.toggle_pause()
-            with Keys() as keys:
+        with Keys() as keys:
+            try:
+                processes.start_all(self.nodes)
+                if self.options.paused:
+                    self.toggle_pause()
                 code = self.watch(keys, begin)
-        finally:
-            seconds = time.monotonic() - begin
-            processes.stop_all(self.nodes)
-            for messenger in self.messengers:
-                messenger.kill()
-                messenger.wait()
+            finally:
+                seconds = time.monotonic() - begin
+                processes.stop_all(self.nodes)
+                for messenger in self.messengers:
+                    messenger.kill()
+                    messenger.wait()
         self.finish(seconds)
         return code or (1 if any(node.exit != 0 for node in self.nodes) else 0)
 

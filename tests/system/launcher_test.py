@@ -112,7 +112,7 @@ class LauncherTest(unittest.TestCase):
 
 class Sessions(LauncherTest):
     def check_session(self, dds, vendors, *more):
-        done = self.run_it(*more, "--headless", "--seconds", "6", "--out", self.out, "--dds", dds)
+        done = self.run_it(*more, "--headless", "--seconds", "8", "--out", self.out, "--dds", dds)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         report = self.report()
         self.check_shape(report, SHAPE)
@@ -143,7 +143,7 @@ class RealOrgan(LauncherTest):
     def test_default_scene_on_a_real_liver(self):
         if not REAL_LIVER.is_file():
             self.skipTest("the real meshes are absent")
-        done = self.run_it("--organ", REAL_LIVER, "--headless", "--seconds", "6", "--out", self.out)
+        done = self.run_it("--organ", REAL_LIVER, "--headless", "--seconds", "8", "--out", self.out)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("taken as millimetres", done.stdout)
         self.assertGreater(self.report()["nodes"]["haptic_node"]["force_n"]["max"], 0.1)

@@ -84,6 +84,8 @@ TEST_P(SurvivalTest, WithoutHapticNodeTheHandFeelsNothingTheOrganRestsAndANewNod
   EXPECT_TRUE(session_["virtual_device"].running());
   EXPECT_TRUE(session_["deform_node"].running());
   session_.start("haptic_node");
+  observer_.forget();
+  ASSERT_TRUE(comes_true([&] { return observer_.force().has_value(); })) << "the new node does not answer";
   // the tip is inside the organ now: it must come out before it can press again
   EXPECT_EQ(session_.command("reset"), 0);
   EXPECT_TRUE(felt_again(observer_));
