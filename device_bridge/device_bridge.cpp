@@ -13,7 +13,6 @@
 namespace omentum::device {
 namespace {
 
-constexpr int kPriority = 80;  // above ordinary threads, below the kernel's own (99)
 constexpr std::chrono::milliseconds kStatusPause{500};
 constexpr double kRecordPeriod_s = 0.4;  // a fresh loop record is ready for each status
 
@@ -44,7 +43,15 @@ DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique
     channels_.push_back(std::make_unique<ToolChannel>(std::move(device), faults_));
     answers_.serve(channels_.back()->tool());
   }
+  connect();
+  status_ = std::make_unique<runtime::Background>(kStatusPause, [this] { publish_status(); });
+}
 
+DeviceBridge::~DeviceBridge() = default;
+
+void DeviceBridge::connect() {
+  const runtime::RealtimeStart start(runtime::kHandLinkPriority);
+  const runtime::NodeOptions& node = options_.node;
   bus_ = transport::Bus::open({transport::parse_vendor(node.dds), node.domain,
                                transport::parse_profile(node.profile), "virtual_device", node.keystore});
   info_writer_ = bus_->writer<msg::DeviceInfo>();
@@ -56,13 +63,10 @@ DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique
   command_reader_ =
       bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& command) { receive(command); });
   for (const auto& channel : channels_) info_writer_->write(channel->info());
-  status_ = std::make_unique<runtime::Background>(kStatusPause, [this] { publish_status(); });
 }
 
-DeviceBridge::~DeviceBridge() = default;
-
 void DeviceBridge::run() {
-  realtime_ = runtime::request_realtime(kPriority);
+  realtime_ = runtime::request_realtime(runtime::kHandLoopPriority);
   if (!realtime_.warning.empty()) std::cerr << "virtual_device: " << realtime_.warning << std::endl;
   const std::int64_t begin_ns = runtime::steady_now_ns();
   std::int64_t recorded_ns = begin_ns;
@@ -98,7 +102,6 @@ void DeviceBridge::obey() noexcept {
 }
 
 void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
-  runtime::follow_realtime(kPriority);
   const std::int64_t now_ns = runtime::steady_now_ns();
   for (const auto& channel : channels_) {
     if (channel->tool() == answer.tool) channel->receive(answer, now_ns);

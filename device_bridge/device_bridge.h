@@ -42,6 +42,7 @@ class DeviceBridge {
   nlohmann::json report() const;
 
  private:
+  void connect();
   void obey() noexcept;
   void exchange(ToolChannel& channel) noexcept;
   void receive(const msg::ToolForce& answer) noexcept;

@@ -13,9 +13,6 @@
 namespace omentum::haptic {
 namespace {
 
-// SCHED_FIFO, above everything that is not the kernel's own; the loop sleeps most of each period.
-constexpr int kPriority = 60;
-
 // How long to listen for a node that serves these tools already: discovery takes up to a second (DESIGN 2).
 constexpr std::int64_t kListen_ns = 1'000'000'000;
 
@@ -44,7 +41,6 @@ HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
       loop_(loop),
       state_(setup_.model),
       work_(setup_.model),
-      bus_(transport::Bus::open(node::bus_options(options.node, "haptic_node"))),
       status_(node::introduce(msg::NODE_HAPTIC, options.rate_hz)) {
   status_.tools_served = bits_of(setup_.tool_ids);
   claim_ = {status_.instance, status_.tools_served, setup_.organ_hash};
@@ -68,6 +64,8 @@ HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
 HapticLoop::~HapticLoop() = default;
 
 void HapticLoop::connect() {
+  const runtime::RealtimeStart start(runtime::kHandLinkPriority);
+  bus_ = transport::Bus::open(node::bus_options(options_.node, "haptic_node"));
   force_writer_ = bus_->writer<msg::ToolForce>();
   contact_writer_ = bus_->writer<msg::Contact>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
@@ -115,7 +113,7 @@ void HapticLoop::refuse(std::string why) {
 
 void HapticLoop::run() {
   watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
-  grant_ = runtime::request_realtime(kPriority);
+  grant_ = runtime::request_realtime(runtime::kHandLoopPriority);
   if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
   serve_from_ns_ = runtime::steady_now_ns() + kListen_ns;
   while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {

@@ -25,14 +25,10 @@ bool may_lock_everything() {
   return (data[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
-// Zero or the error. The threads that the calling one starts later do not inherit the priority.
-int set_fifo(int priority) noexcept {
-  const sched_param parameters{.sched_priority = priority};
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
-}
-
 bool request_fifo(int priority, std::string& warning) {
-  const int error = set_fifo(priority);
+  const sched_param parameters{.sched_priority = priority};
+  // the threads that this one starts later do not inherit the priority
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
   if (error == 0) return true;
   // ordinary threads' timers may fire 50 us late to save power; 1 ns asks for the hardware's best
   prctl(PR_SET_TIMERSLACK, 1UL);
@@ -58,9 +54,14 @@ RealtimeGrant request_realtime(int priority) {
   return grant;
 }
 
-void follow_realtime(int priority) noexcept {
-  thread_local const int asked = set_fifo(priority);
-  (void)asked;
+RealtimeStart::RealtimeStart(int priority) noexcept {
+  pthread_getschedparam(pthread_self(), &policy_, &parameters_);
+  const sched_param fifo{.sched_priority = priority};
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &fifo);
+}
+
+RealtimeStart::~RealtimeStart() {
+  pthread_setschedparam(pthread_self(), policy_, &parameters_);
 }
 
 }  // namespace omentum::runtime

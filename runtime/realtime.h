@@ -3,7 +3,17 @@
 
 #include <string>
 
+#include <sched.h>
+
 namespace omentum::runtime {
+
+/// SCHED_FIFO priorities of the hand's loop, in haptic_node and in a device's program alike: above everything
+/// that is not the kernel's own. Equal on both sides, so that neither cuts the other short in the middle of a
+/// write.
+inline constexpr int kHandLoopPriority = 60;
+/// The DDS vendor's threads that carry its samples: above all ordinary work, which would hold a lock that the
+/// loop needs while a picture is drawn, and below the loop itself.
+inline constexpr int kHandLinkPriority = 59;
 
 struct RealtimeGrant {
   bool fifo = false;
@@ -14,8 +24,19 @@ struct RealtimeGrant {
 /// Asks for SCHED_FIFO for the calling thread, and for locked memory for the process. Never throws.
 RealtimeGrant request_realtime(int priority);
 
-/// For a callback that is a link of the hand's loop but runs on a thread of the DDS vendor: asks for
-/// SCHED_FIFO for the calling thread the first time it comes by, silently; costs nothing after that.
-void follow_realtime(int priority) noexcept;
+/// While it lives, the calling thread runs under SCHED_FIFO, and so do the threads that it starts, for good:
+/// wrapped around the start of a library whose threads are links of a real-time loop. Where that is not
+/// permitted it does nothing, silently: request_realtime says so. Ends on the thread it began on.
+class RealtimeStart {
+ public:
+  explicit RealtimeStart(int priority) noexcept;
+  ~RealtimeStart();
+  RealtimeStart(const RealtimeStart&) = delete;
+  RealtimeStart& operator=(const RealtimeStart&) = delete;
+
+ private:
+  int policy_ = 0;
+  sched_param parameters_{};
+};
 
 }  // namespace omentum::runtime

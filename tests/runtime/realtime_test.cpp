@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 #include <linux/capability.h>
@@ -61,8 +62,27 @@ TEST(Realtime, WhatIsGrantedIsNotWarnedOf) {
 
 TEST(Realtime, ThreadsStartedLaterDoNotInheritThePriority) {
   std::thread([] {
-    follow_realtime(kPriority);
+    request_realtime(kPriority);
     std::thread([] { EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER); }).join();
+  }).join();
+  munlockall();
+}
+
+TEST(Realtime, ThreadsOfAStartKeepThePriorityAndTheStarterDoesNot) {
+  std::thread([] {
+    std::atomic<bool> ended{false};
+    std::thread link;
+    {
+      const RealtimeStart start(kPriority);
+      if (sched_getscheduler(0) != SCHED_FIFO) GTEST_SKIP() << "real-time priority is not permitted here";
+      link = std::thread([&] {
+        while (!ended) std::this_thread::yield();
+        EXPECT_EQ(sched_getscheduler(0), SCHED_FIFO);
+      });
+    }
+    EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+    ended = true;
+    link.join();
   }).join();
 }
 
