@@ -9,7 +9,11 @@ namespace {
 // Sixteen values at once; the compiler splits them where registers are narrower.
 constexpr int kLanes = 16;
 typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float))));
-typedef double WideLanes __attribute__((vector_size(kLanes * sizeof(double))));
+
+// Eight in double: a wider accumulator than a register would live in memory.
+constexpr int kHalf = kLanes / 2;
+typedef float HalfLanes __attribute__((vector_size(kHalf * sizeof(float)), aligned(4), may_alias));
+typedef double WideLanes __attribute__((vector_size(kHalf * sizeof(double))));
 
 // The same at any address.
 struct __attribute__((packed, may_alias)) LooseLanes {
@@ -56,9 +60,16 @@ void mark_meeting(const Boxes& boxes, const float* grow, const float* low, const
 }
 
 void combine_blocks(const float* const* blocks, const double* weights, int count, double* sum) noexcept {
-  WideLanes lanes{};
-  for (int q = 0; q < count; ++q) lanes += weights[q] * __builtin_convertvector(load(blocks[q]), WideLanes);
-  for (int l = 0; l < kBlockStride; ++l) sum[l] = lanes[l];
+  const auto widened = [](const float* p) {
+    return __builtin_convertvector(*reinterpret_cast<const HalfLanes*>(p), WideLanes);
+  };
+  WideLanes low{}, high{};
+  for (int q = 0; q < count; ++q) {
+    low += weights[q] * widened(blocks[q]);
+    high += weights[q] * widened(blocks[q] + kHalf);
+  }
+  __builtin_memcpy(sum, &low, sizeof low);
+  __builtin_memcpy(sum + kHalf, &high, sizeof high);
 }
 
 }  // namespace omentum::haptic::kernels

@@ -4,8 +4,10 @@
 #include "haptic_node/cluster_kernels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 namespace omentum::haptic {
 namespace {
@@ -14,12 +16,19 @@ using geometry::kClusterSize;
 
 // Above the rounding of float coordinates within 8 m of W's origin and of superposed displacements, m.
 constexpr float kRounding_m = 1e-6f;
+// Drift after which a cluster's box is drawn anew, m, and the part of the binning margin that it may be at
+// most: some ticks of a moving dent, little beside kReach_m.
+constexpr float kLooseBox_m = 5e-5f;
+constexpr double kLoosePart = 0.25;
 // Triangles that a sliding contact may cross in one tick; a fast instrument crosses three.
 constexpr int kMaxSlideSteps = 64;
 // Clusters outside of all regions that are made exact in a tick, so that those inside know their neighbours.
 constexpr int kRefreshesPerTick = 4;
 // Regions evaluated in a tick: one per tool.
 constexpr std::size_t kMaxRegions = 8;
+// So many clusters' marks are looked at together: the first one is the lowest byte.
+using MarkWord = std::uint64_t;
+static_assert(std::endian::native == std::endian::little);
 // Barycentric coordinates below this lie on the opposite edge.
 constexpr double kOnEdge = 1e-12;
 
@@ -32,6 +41,34 @@ double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
   return std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
+// Looks at triangle after triangle for the nearest point to p within a distance.
+struct NearestSearch {
+  const Vec3& p;
+  double squared_m;  // of what was found, else of the reach
+  std::optional<SurfacePoint> found{};
+
+  void look_at(TriangleId triangle, const std::array<const Vec3*, 3>& corners) {
+    const auto point = geometry::closest_point_on_triangle(p, *corners[0], *corners[1], *corners[2]);
+    if (point.squared_distance > squared_m) return;
+    squared_m = point.squared_distance;
+    found = SurfacePoint{triangle, point.barycentric};
+  }
+};
+
+// The same for the first triangle that the segment p -> q passes from outside.
+struct EntrySearch {
+  const Vec3 &p, &q;
+  std::optional<Entry> first{};
+
+  void look_at(TriangleId triangle, const std::array<const Vec3*, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    if ((q - p).dot(area_normal(*a, *b, *c)) >= 0) return;
+    const auto hit = geometry::intersect_segment_triangle(p, q, *a, *b, *c);
+    if (hit && (!first || hit->parameter < first->parameter))
+      first = Entry{hit->parameter, {triangle, hit->barycentric}};
+  }
+};
+
 }  // namespace
 
 DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
@@ -43,7 +80,8 @@ DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<con
       positions_(rest.begin(), rest.end()),
       index_of_(rest.size(), -1),
       grid_(surface, rest, geometry::BucketGrid::suitable_slack(surface, rest)),
-      binning_margin_(grid_.slack() / 2) {
+      binning_margin_(grid_.slack() / 2),
+      loosest_(std::min(kLooseBox_m, static_cast<float>(kLoosePart * binning_margin_))) {
   nodes_.reserve(kMaxForces);
   forces_.reserve(kMaxForces);
   index_clusters();
@@ -69,11 +107,18 @@ void DeformedSurface::index_clusters() {
     std::sort(outer[c].begin(), outer[c].end());
     outer[c].erase(std::unique(outer[c].begin(), outer[c].end()), outer[c].end());
     outer_start_.push_back(static_cast<std::int32_t>(outer_.size()));
+    next_start_.push_back(static_cast<std::int32_t>(next_.size()));
     owned_start_.push_back(static_cast<std::int32_t>(owned_.size()));
     outer_.insert(outer_.end(), outer[c].begin(), outer[c].end());
     owned_.insert(owned_.end(), owned[c].begin(), owned[c].end());
+    for (const std::int32_t n : outer[c]) {  // ascending, so clusters come in runs
+      const std::int32_t home = n / kClusterSize;
+      if (home < clusters_ && (std::ssize(next_) == next_start_[c] || next_.back() != home))
+        next_.push_back(home);
+    }
   }
   outer_start_.push_back(static_cast<std::int32_t>(outer_.size()));
+  next_start_.push_back(static_cast<std::int32_t>(next_.size()));
   owned_start_.push_back(static_cast<std::int32_t>(owned_.size()));
 }
 
@@ -87,20 +132,11 @@ void DeformedSurface::restore_rest() {
   moved_since_binning_.assign(clusters, 0);
   step_.assign(clusters, 0);
   motion_.assign(clusters, 0);
-  marks_.assign(clusters, 0);
+  marks_.assign((clusters / sizeof(MarkWord) + 1) * sizeof(MarkWord), 0);
   pending_.reserve(clusters);
   unbinned_.reserve(kMaxRegions * clusters);
   cluster_version_.assign(clusters, version_);
   for (std::int32_t c = 0; c < clusters_; ++c) enclose(c);
-}
-
-bool DeformedSurface::fresh(std::int32_t cluster) const noexcept {
-  return cluster >= clusters_ || cluster_version_[cluster] == version_;
-}
-
-bool DeformedSurface::fresh(TriangleId triangle) const noexcept {
-  const geometry::Triangle& t = surface_.triangles[triangle];
-  return fresh(t[0] / kClusterSize) && fresh(t[1] / kClusterSize) && fresh(t[2] / kClusterSize);
 }
 
 void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
@@ -144,14 +180,16 @@ void DeformedSurface::evaluate(const Region& region) noexcept {
                              {high_[0].data(), high_[1].data(), high_[2].data()}};
   kernels::mark_meeting(boxes, moved_.data(), low.data(), high.data(), clusters_, marks_.data());
   pending_.clear();
-  for (std::int32_t c = 0; c < clusters_; ++c) {
-    if (marks_[c]) pending_.push_back(c);
+  for (std::int32_t word = 0; word < clusters_; word += sizeof(MarkWord)) {
+    MarkWord marks;
+    std::memcpy(&marks, &marks_[word], sizeof marks);
+    for (; marks != 0; marks &= marks - 1) pending_.push_back(word + std::countr_zero(marks) / 8);
   }
   // all positions first: boxes then see their neighbours' exact ones
   const auto exact =
       std::partition(pending_.begin(), pending_.end(), [this](std::int32_t c) { return !fresh(c); });
   for (auto c = pending_.begin(); c != exact; ++c) superpose(*c);
-  for (auto c = pending_.begin(); c != exact; ++c) enclose(*c);
+  for (auto c = pending_.begin(); c != exact; ++c) learn_motion(*c);
   for (const std::int32_t c : pending_) {
     if (moved_since_binning_[c] > binning_margin_) unbinned_.push_back(c);
   }
@@ -160,7 +198,7 @@ void DeformedSurface::evaluate(const Region& region) noexcept {
 void DeformedSurface::ensure(std::int32_t cluster) noexcept {
   if (fresh(cluster)) return;
   superpose(cluster);
-  enclose(cluster);
+  learn_motion(cluster);
 }
 
 void DeformedSurface::superpose(std::int32_t cluster) noexcept {
@@ -185,6 +223,17 @@ void DeformedSurface::superpose(std::int32_t cluster) noexcept {
   ++evaluated_clusters_;
 }
 
+// The last step was added with its bound; now that the motion is known, this replaces it.
+void DeformedSurface::learn_motion(std::int32_t cluster) noexcept {
+  float motion = motion_[cluster];
+  for (std::int32_t o = next_start_[cluster]; o < next_start_[cluster + 1]; ++o)
+    motion = std::max(motion, motion_[next_[o]]);
+  const float surplus = step_[cluster] - std::min(motion, step_[cluster]);
+  moved_since_binning_[cluster] -= surplus;
+  moved_[cluster] -= surplus;
+  if (moved_[cluster] > loosest_) enclose(cluster);
+}
+
 void DeformedSurface::enclose(std::int32_t cluster) noexcept {
   const std::int32_t first = cluster * kClusterSize;
   const std::int32_t last = std::min(first + kClusterSize, surface_.node_count());
@@ -194,11 +243,9 @@ void DeformedSurface::enclose(std::int32_t cluster) noexcept {
     high = high.max(positions_[n].array());
   }
   // neighbours that were not superposed with these forces may be anywhere within what they moved since
-  float motion = motion_[cluster];
   for (std::int32_t o = outer_start_[cluster]; o < outer_start_[cluster + 1]; ++o) {
     const std::int32_t n = outer_[o], home = n / kClusterSize;
     const float moved = fresh(home) ? 0.0f : moved_[home];
-    if (home < clusters_) motion = std::max(motion, motion_[home]);
     low = low.min(positions_[n].array() - moved);
     high = high.max(positions_[n].array() + moved);
   }
@@ -207,8 +254,6 @@ void DeformedSurface::enclose(std::int32_t cluster) noexcept {
     high_[i][cluster] = static_cast<float>(high[i]) + kRounding_m;
   }
   moved_[cluster] = 0;
-  // the last step was added with its bound
-  moved_since_binning_[cluster] -= step_[cluster] - std::min(motion, step_[cluster]);
 }
 
 void DeformedSurface::bin(std::int32_t cluster) noexcept {
@@ -232,12 +277,16 @@ void DeformedSurface::bin(std::int32_t cluster) noexcept {
   moved_since_binning_[cluster] = stale;
 }
 
+void DeformedSurface::bin_pending() noexcept {
+  for (const std::int32_t c : unbinned_) bin(c);  // adds none: what bin() makes exact lies outside
+  unbinned_.clear();
+}
+
 // Queries reach further by the margin, so that a cluster's buckets need a look only when that is used up, and
 // then only when somebody asks.
 template <class Visit>
 void DeformedSurface::visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept {
-  for (const std::int32_t c : unbinned_) bin(c);  // adds none: what bin() makes exact lies outside
-  unbinned_.clear();
+  bin_pending();
   grid_.visit_segment(p, q, radius_m + binning_margin_, [&](TriangleId triangle) {
     if (fresh(triangle)) visit(triangle);  // others cannot be here: evaluate() looked
   });
@@ -284,48 +333,49 @@ Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
 }
 
 std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) noexcept {
-  std::optional<Entry> first;
-  visit_near(p, q, 0, [&](TriangleId triangle) {
-    const auto [a, b, c] = stored_corners(triangle);
-    if ((q - p).dot(area_normal(*a, *b, *c)) >= 0) return;
-    const auto hit = geometry::intersect_segment_triangle(p, q, *a, *b, *c);
-    if (hit && (!first || hit->parameter < first->parameter)) {
-      first = Entry{hit->parameter, {triangle, hit->barycentric}};
-    }
-  });
-  return first;
+  EntrySearch entry{p, q};
+  visit_near(p, q, 0, [&](TriangleId triangle) { entry.look_at(triangle, stored_corners(triangle)); });
+  return entry.first;
 }
 
 std::optional<SurfacePoint> DeformedSurface::nearest_if_inside(const Vec3& p, double reach_m) noexcept {
-  std::optional<SurfacePoint> nearest;
-  double best = reach_m * reach_m;
-  visit_near(p, p, reach_m, [&](TriangleId triangle) {
-    const auto [a, b, c] = stored_corners(triangle);
-    const geometry::TrianglePoint point = geometry::closest_point_on_triangle(p, *a, *b, *c);
-    if (point.squared_distance > best) return;
-    best = point.squared_distance;
-    nearest = SurfacePoint{triangle, point.barycentric};
-  });
-  if (nearest && outside_of_feature(*nearest, p)) nearest.reset();
-  return nearest;
+  NearestSearch nearest{p, reach_m * reach_m};
+  visit_near(p, p, reach_m,
+             [&](TriangleId triangle) { nearest.look_at(triangle, stored_corners(triangle)); });
+  if (nearest.found && outside_of_feature(*nearest.found, p)) return std::nullopt;
+  return nearest.found;
 }
 
-std::optional<SurfacePoint> DeformedSurface::touch(const Vec3& p, const Vec3& q) noexcept {
+std::optional<DeformedSurface::Immersion> DeformedSurface::immersion(const Vec3& p, double reach_m) noexcept {
+  for (double reach = std::min(kReach_m, reach_m);; reach = std::min(2 * reach, reach_m)) {
+    evaluate({p.array() - reach, p.array() + reach});
+    bin_pending();
+    if (const auto nearest = grid_.nearest(p, reach, positions_)) {
+      const SurfacePoint point{nearest->triangle, nearest->barycentric};
+      if (outside_of_feature(point, p)) return std::nullopt;
+      return Immersion{point, std::sqrt(nearest->squared_distance)};
+    }
+    if (reach == reach_m) return std::nullopt;
+  }
+}
+
+DeformedSurface::Encounter DeformedSurface::meet(const Vec3& p, const Vec3& q, double radius_m) noexcept {
   // what was out of reach before the last step passed over p only if it moved that far
   const double moved = entered_motion_ < kReach_m ? known_motion_ : kReach_m;
   const double reach = std::min(moved, kReach_m - kRounding_m) + kRounding_m;
-  if (auto overtaken = nearest_if_inside(p, reach)) return overtaken;
-  if (const auto entry = first_entry(p, q)) return entry->point;
-  return std::nullopt;
-}
-
-double DeformedSurface::clearance(const Vec3& p, double radius_m) noexcept {
-  double best = radius_m * radius_m;
-  visit_near(p, p, radius_m, [&](TriangleId triangle) {
-    const auto [a, b, c] = stored_corners(triangle);
-    best = std::min(best, geometry::closest_point_on_triangle(p, *a, *b, *c).squared_distance);
+  NearestSearch around_p{p, reach * reach}, around_q{q, radius_m * radius_m};
+  EntrySearch entry{p, q};
+  visit_near(p, q, std::max(radius_m, reach), [&](TriangleId triangle) {
+    around_p.look_at(triangle, stored_corners(triangle));
+    around_q.look_at(triangle, stored_corners(triangle));
+    entry.look_at(triangle, stored_corners(triangle));
   });
-  return std::sqrt(best);
+  Encounter met{std::nullopt, std::sqrt(around_q.squared_m)};
+  if (around_p.found && !outside_of_feature(*around_p.found, p))
+    met.touched = around_p.found;
+  else if (entry.first)
+    met.touched = entry.first->point;
+  return met;
 }
 
 // The sign of a distance follows from the normal of the face, from the sum of both faces' normals on an edge,

@@ -46,8 +46,7 @@ class DeformedSurface {
   static constexpr int kMaxForces = 96;
 
   /// How far around a region the surface is made exact, m. Tissue that passes over a resting point goes less
-  /// far in one tick (2 m/s at 1 kHz); a point found deeper came there otherwise (a tool that was switched on
-  /// inside an organ): no force throws it out.
+  /// far in one tick (2 m/s at 1 kHz); a point that is deeper came there otherwise (see immersion()).
   static constexpr double kReach_m = 2e-3;
 
   DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
@@ -80,14 +79,25 @@ class DeformedSurface {
   /// deep.
   std::optional<SurfacePoint> nearest_if_inside(const Vec3& p, double reach_m) noexcept;
 
-  /// Where a point that went from p to q, inside an evaluated region, touches the surface: where the surface
-  /// passed over it by the last set_forces (then p is inside, no deeper than anything near moved), else its
-  /// first entry.
-  std::optional<SurfacePoint> touch(const Vec3& p, const Vec3& q) noexcept;
+  /// Where a point that did not come by moving is inside the organ.
+  struct Immersion {
+    SurfacePoint nearest;  // of all the surface
+    double depth_m;
+  };
+  /// Nothing when p is outside, or deeper than `reach_m`. Evaluates what it needs around p: microseconds to a
+  /// millisecond, for the tick in which a tool appears.
+  std::optional<Immersion> immersion(const Vec3& p, double reach_m) noexcept;
 
-  /// How far p, inside an evaluated region, is from the surface, m; `radius_m` (at most kReach_m) where that
-  /// is farther.
-  double clearance(const Vec3& p, double radius_m) noexcept;
+  /// What a point that went from p to q, inside an evaluated region, met on its way.
+  struct Encounter {
+    /// Where it touches: where the surface passed over it by the last set_forces (then p is inside, no deeper
+    /// than anything near moved), else its first entry.
+    std::optional<SurfacePoint> touched;
+    /// How far q is from the surface, m; the radius asked for where that is farther.
+    double clearance_m;
+  };
+  /// `radius_m`: at most kReach_m.
+  Encounter meet(const Vec3& p, const Vec3& q, double radius_m) noexcept;
 
   /// How far at most the last set_forces moved anything that was exact before it and is exact now, m.
   double known_motion() const noexcept { return known_motion_; }
@@ -108,12 +118,20 @@ class DeformedSurface {
 
   void index_clusters();
   void restore_rest();
-  bool fresh(std::int32_t cluster) const noexcept;
-  bool fresh(TriangleId triangle) const noexcept;
+  bool fresh(std::int32_t cluster) const noexcept {
+    return cluster >= clusters_ || cluster_version_[cluster] == version_;
+  }
+  bool fresh(TriangleId triangle) const noexcept {
+    const geometry::Triangle& t = surface_.triangles[triangle];
+    return fresh(t[0] / geometry::kClusterSize) && fresh(t[1] / geometry::kClusterSize) &&
+           fresh(t[2] / geometry::kClusterSize);
+  }
   void ensure(std::int32_t cluster) noexcept;
   void superpose(std::int32_t cluster) noexcept;
+  void learn_motion(std::int32_t cluster) noexcept;
   void enclose(std::int32_t cluster) noexcept;
   void bin(std::int32_t cluster) noexcept;
+  void bin_pending() noexcept;
   template <class Visit>
   void visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept;
   Corners stored_corners(TriangleId triangle) const noexcept;
@@ -126,7 +144,8 @@ class DeformedSurface {
   std::int32_t clusters_;  // of mobile nodes
 
   // constant: which nodes and triangles hang on a cluster
-  std::vector<std::int32_t> outer_start_, outer_;  // nodes of its triangles in other clusters
+  std::vector<std::int32_t> outer_start_, outer_;  // nodes of its triangles in other clusters ...
+  std::vector<std::int32_t> next_start_, next_;    // ... and these clusters, mobile ones
   std::vector<std::int32_t> owned_start_, owned_;  // triangles binned with it
   std::vector<Vec3> normals_;                      // [S] at rest, unit
 
@@ -147,6 +166,7 @@ class DeformedSurface {
   std::vector<std::int16_t> index_of_;  // [S] position in nodes_, -1
   geometry::BucketGrid grid_;
   double binning_margin_;
+  float loosest_;  // a box is drawn anew when its triangles may have left it by more, m
   double known_motion_ = 0, entered_motion_ = 0;
   int evaluated_clusters_ = 0;
   int refreshed_ = 0;

@@ -47,6 +47,7 @@ struct ToolContact {
   Vec3 normal = Vec3::UnitZ();  // outward at the material point
   Vec3 force = Vec3::Zero();    // lambda, on the tissue, N
   Vec3 offset = Vec3::Zero();   // gap that a grasp keeps, m
+  double sunken_m = 0;          // depth that is no press: the point appeared there (see meet_appeared)
   bool sliding = false;         // friction was used up: the material point moves on
   bool grasped = false;
 
@@ -62,6 +63,7 @@ struct NodeForce {
 
 struct ToolState {
   bool engaged = false;
+  bool appeared = false;  // in this tick, without moving there
   ToolFrame frame;
   std::vector<Vec3> before, now;  // [P] points at the last tick and at this one, in W
   std::vector<double> clearance;  // [P] how far each point is from the surface at least, m

@@ -17,6 +17,8 @@ constexpr double kReleaseGap_m = 1e-4;
 // kShortArm_m. A point that has 1 mm of room needs no look for the next 40 ticks at 25 mm/s.
 constexpr double kArmGrowth = 4;
 constexpr double kShortArm_m = 2e-4;
+// A point may appear this deep, m: half a liver.
+constexpr double kDeepestAppearance_m = 0.06;
 // Rounding of positions, m.
 constexpr double kHair_m = 1e-6;
 
@@ -41,7 +43,8 @@ void begin_grasp(HapticState& state, std::int32_t tool, DeformedSurface& surface
     holds = true;
     contact.grasped = true;
     // what is between jaw and tissue when they close stays there: no force comes from closing alone
-    contact.offset = state.tools[tool].before[contact.point] - surface.position(contact.held);
+    contact.offset = state.tools[tool].before[contact.point] - surface.position(contact.held) +
+                     contact.sunken_m * contact.normal;
   }
   if (!holds) return;
   state.tools[tool].grasping = true;
@@ -79,6 +82,19 @@ ToolContact* contact_of(HapticState& state, std::int32_t tool, std::int32_t poin
   return nullptr;
 }
 
+ToolContact& add_contact(HapticState& state, std::int32_t tool, std::int32_t point) {
+  ToolContact& contact = state.contacts[state.contact_count++];
+  contact = ToolContact{};
+  contact.tool = tool;
+  contact.point = point;
+  return contact;
+}
+
+double depth_of(const HapticState& state, const ToolContact& contact, DeformedSurface& surface) {
+  const Vec3& p = state.tools[contact.tool].now[contact.point];
+  return (surface.position(contact.held) - p).dot(contact.normal);
+}
+
 // The surface point that tool point p met on its way, if any. Whoever has more room than tool and surface
 // moved together met nothing.
 std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, DeformedSurface& surface) {
@@ -87,11 +103,22 @@ std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, Deformed
   room = std::min(room - way - surface.known_motion(),
                   DeformedSurface::kReach_m - way - surface.entered_motion());
   if (room > 0) return std::nullopt;
-  auto found = surface.touch(tool.before[p], tool.now[p]);
-  room = found ? 0
-               : surface.clearance(tool.now[p],
-                                   std::clamp(kArmGrowth * before, kShortArm_m, DeformedSurface::kReach_m));
-  return found;
+  const double arm = std::clamp(kArmGrowth * before, kShortArm_m, DeformedSurface::kReach_m);
+  const DeformedSurface::Encounter met = surface.meet(tool.before[p], tool.now[p], arm);
+  room = met.touched ? 0 : met.clearance_m;
+  return met.touched;
+}
+
+// A tool that appeared inside and goes out takes the depth with it that is no press. Only once nothing pushes
+// it any more: what one point gave up while another still pressed would push later, with energy from nowhere.
+void surface_with_tools(HapticState& state, DeformedSurface& surface) {
+  std::uint32_t pressing = 0;
+  for (const ToolContact& contact : state.active())
+    pressing |= std::uint32_t{contact.touches()} << contact.tool;
+  for (ToolContact& contact : state.active()) {
+    if (contact.sunken_m == 0 || (pressing >> contact.tool & 1) != 0) continue;
+    contact.sunken_m = std::clamp(depth_of(state, contact, surface), 0.0, contact.sunken_m);
+  }
 }
 
 }  // namespace
@@ -108,6 +135,7 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
       drop_contacts(state, [&](const ToolContact& contact) { return contact.tool == index; });
     }
     tool.engaged = input.engaged;
+    tool.appeared = input.engaged && !moved_here;
     if (!input.engaged) continue;
     const auto& trocar = model.tools[i].trocar;
     tool.frame = trocar ? through_trocar(input.frame, *trocar) : input.frame;
@@ -140,6 +168,29 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
     }
     contact.normal = surface.normal(contact.held);
   }
+  surface_with_tools(state, surface);
+}
+
+void meet_appeared(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept {
+  for (std::size_t i = 0; i < state.tools.size(); ++i) {
+    const ToolState& tool = state.tools[i];
+    if (!tool.engaged || !tool.appeared) continue;
+    const int first = state.contact_count;
+    Vec3 way_out = Vec3::Zero();
+    for (std::size_t p = 0; p < tool.now.size(); ++p) {
+      const auto inside = surface.immersion(tool.now[p], kDeepestAppearance_m);
+      if (!inside) continue;
+      ToolContact& contact = add_contact(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
+      contact.held = inside->nearest;
+      contact.normal = surface.normal(contact.held);
+      contact.sunken_m = depth_of(state, contact, surface);
+      way_out += contact.normal;
+    }
+    int index = 0;
+    drop_contacts(state, [&](const ToolContact& contact) {
+      return index++ >= first && (contact.normal.dot(way_out) <= 0 || contact.sunken_m <= 0);
+    });
+  }
 }
 
 void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
@@ -148,18 +199,13 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
     if (!tool.engaged) continue;
     for (std::size_t p = 0; p < tool.now.size(); ++p) {
       ToolContact* known = contact_of(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
-      if (known && (known->touches() || known->grasped)) {
+      if (known && (known->touches() || known->grasped || known->sunken_m > 0)) {
         tool.clearance[p] = 0;
         continue;
       }
       const auto found = look_around(tool, p, surface);
       if (!found) continue;
-      if (!known) {
-        known = &state.contacts[state.contact_count++];
-        *known = ToolContact{};
-        known->tool = static_cast<std::int32_t>(i);
-        known->point = static_cast<std::int32_t>(p);
-      }
+      if (!known) known = &add_contact(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
       known->held = *found;
       known->normal = surface.normal(*found);
     }
@@ -176,7 +222,8 @@ void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept {
 
 Vec3 free_gap(const HapticState& state, const ToolContact& contact, const DeformedSurface& surface) noexcept {
   const Vec3 offset = contact.grasped ? contact.offset : Vec3::Zero();
-  return state.tools[contact.tool].now[contact.point] - surface.rest_position(contact.held) - offset;
+  return state.tools[contact.tool].now[contact.point] - surface.rest_position(contact.held) - offset +
+         contact.sunken_m * contact.normal;
 }
 
 }  // namespace omentum::haptic

@@ -29,10 +29,17 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
 /// it on their way (swept segment against every triangle in the buckets that it crosses).
 void find_contacts(HapticState& state, DeformedSurface& surface) noexcept;
 
+/// Points of a tool that is inside the organ without having come there by moving (a device or node that was
+/// started again): each holds the nearest surface point from where it is. It is not pushed out, is held back
+/// from going deeper at once, may leave freely, and outside is a point like any other. What of a tool's
+/// points would leave through another side of the organ than most holds nothing until it left.
+void meet_appeared(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept;
+
 /// Lets go of contacts without force that are open by more than a hair.
 void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept;
 
-/// p - X: the tool's point minus the rest position of its material point, m; less what a grasp keeps.
+/// p - X: the tool's point minus the rest position of its material point, m; less what a grasp keeps, and
+/// without the depth in which the point appeared.
 Vec3 free_gap(const HapticState& state, const ToolContact& contact, const DeformedSurface& surface) noexcept;
 
 }  // namespace omentum::haptic

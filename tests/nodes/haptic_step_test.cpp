@@ -14,6 +14,7 @@ const Vec3 kAbove(0.052, 0.047, 0.045);
 
 TEST(HapticStep, NoForceWithoutContact) {
   Bench bench(make_model(block(), {round_tool()}));
+  bench.step_to(kAbove + Vec3(0, 0, 0.05));
   EXPECT_EQ(bench.move_to(kAbove, 10), Vec3::Zero());
   EXPECT_EQ(bench.result().contacts, 0);
 }
@@ -101,11 +102,63 @@ TEST(HapticStep, SurfaceThatMovesOverARestingPointIsNoticed) {
   EXPECT_LT(bench.output(1).force.z(), 0) << "the plate presses the needle down";
 }
 
-TEST(HapticStep, ATrappedPointFeelsNothingUntilItLeaves) {
+// The same from a needle's view that goes the other way: in one tick tissue rises past where the needle was,
+// and the needle goes far deeper than the tissue rose.
+TEST(HapticStep, SurfaceThatMovesOverAPointOnItsWayInIsNoticed) {
+  Bench bench(make_model(block(), {round_tool(), needle()}));
+  const Vec3 beside = kAbove + Vec3(0.012, 0, 0);
+  bench.place(1, beside).step_to(kAbove);
+  bench.move_to(kAbove - Vec3(0, 0, 0.01), 100);
+  const haptic::SurfacePoint under = bench.work().surface.slide({TriangleId(0), Vec3(1, 0, 0)}, beside);
+  const Vec3 dented = bench.work().surface.position(under);
+  bench.move_to(dented + Vec3(0, 0, 5e-5), 100, 1);  // rests just above the dent's flank
+  ASSERT_EQ(bench.output(1).force, Vec3::Zero());
+  bench.step_to(kAbove - Vec3(0, 0, 0.009));    // the flank will rise by more than that in the next tick ...
+  bench.step_to(dented - Vec3(0, 0, 2e-3), 1);  // ... in which the needle goes in
+  for (int i = 0; i < 3; ++i) bench.step();
+  EXPECT_GT(bench.output(1).force.z(), 0);
+}
+
+TEST(HapticStep, AToolThatAppearsInsideIsNotPushedOut) {
   Bench bench(make_model(block(), {needle()}));
-  bench.step_to({0.05, 0.05, 0.02});
-  EXPECT_EQ(bench.move_to({0.05, 0.05, 0.06}, 100), Vec3::Zero());
-  EXPECT_GT(bench.move_to({0.05, 0.05, 0.035}, 50).z(), 0);
+  EXPECT_EQ(bench.step_to({0.05, 0.05, 0.028}), Vec3::Zero());
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(bench.step().contacts, 0);
+  EXPECT_EQ(bench.move_to({0.05, 0.05, 0.06}, 100), Vec3::Zero()) << "it may leave freely";
+  EXPECT_GT(bench.move_to({0.05, 0.05, 0.035}, 50).z(), 0) << "outside it is a tool like any other";
+}
+
+TEST(HapticStep, AToolThatAppearsInsideIsHeldBackFromGoingDeeper) {
+  Bench bench(make_model(block(), {round_tool()}));
+  bench.step_to({0.05, 0.05, 0.030});
+  const Vec3 deeper = bench.move_to({0.05, 0.05, 0.025}, 50);
+  Bench fresh(make_model(block(), {round_tool()}));
+  fresh.step_to({0.05, 0.05, 0.041});
+  const Vec3 pressed = fresh.move_to({0.05, 0.05, 0.035}, 60);
+  EXPECT_NEAR(deeper.z(), pressed.z(), 0.3 * pressed.z()) << "as the same way feels from the surface";
+  EXPECT_LE(bench.move_to({0.05, 0.05, 0.0301}, 50).z(), 0.1 * deeper.z()) << "and lets go where it began";
+}
+
+// Whatever it does inside and outside, it gets no energy out of where it began.
+TEST(HapticStep, AToolThatAppearsInsideGainsNothing) {
+  for (const double friction : {0.0, 0.3}) {
+    Bench bench(make_model(block(), {round_tool()}, friction));
+    Vec3 tip(0.05, 0.05, 0.03), force = bench.step_to(tip);
+    double given_j = 0, taken_j = 0;
+    for (int i = 1; i <= 4000; ++i) {
+      const double t = 0.005 * i;
+      // deeper first, then up to the surface, and so on
+      const Vec3 next =
+          Vec3(0.05, 0.05, 0.03) - 0.01 * Vec3(0.5 * std::sin(1.1 * t), 0.5 * std::sin(0.7 * t), std::sin(t));
+      const Vec3 middle = 0.5 * (force + bench.step_to(next));
+      const double work = middle.dot(next - tip);
+      (work > 0 ? given_j : taken_j) += std::abs(work);
+      tip = next;
+      force = bench.output().force;
+      // sampling and facets: what a tool that began outside may show as well
+      ASSERT_LE(given_j, 1.02 * taken_j + 1e-6) << "friction " << friction << ", tick " << i;
+    }
+    EXPECT_GT(taken_j, 1e-3) << "it was meant to press";
+  }
 }
 
 TEST(HapticStep, ContactIsOneSided) {

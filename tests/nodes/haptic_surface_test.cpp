@@ -115,6 +115,39 @@ TEST(DeformedSurface, FastSegmentsAgreeWithBruteForceOnAThinPlate) {
   expect_no_miss(plate(), 50'000, 0.002, 3);
 }
 
+// A dent that grows, wanders and goes again, a little in each tick, looked at around a moving place only:
+// boxes and buckets elsewhere live on bounds for hundreds of ticks.
+TEST(DeformedSurface, SegmentsAgreeWithBruteForceWhileDentsDrift) {
+  constexpr int kTicks = 4000, kSegments = 4;
+  std::mt19937 random(7);
+  const TestOrgan& organ = block();
+  DeformedSurface surface(organ.surface, organ.rest, organ.compliance),
+      reference(organ.surface, organ.rest, organ.compliance);
+  RandomForces f(organ, 12, 0.0, random);
+  int entries = 0;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    for (std::size_t q = 0; q < f.forces.size(); ++q) {
+      const double phase = 0.01 * tick + static_cast<double>(q);
+      f.forces[q] = Vec3(0.1 * std::sin(phase), 0.1 * std::cos(0.7 * phase), -0.6 * std::sin(0.4 * phase));
+    }
+    surface.set_forces(f.nodes, f.forces);
+    reference.set_forces(f.nodes, f.forces);
+    std::vector<Vec3> x = organ.rest;
+    for (std::int32_t n = 0; n < organ.surface.node_count(); ++n) x[n] = reference.position(SurfaceId(n));
+    const Vec3 centre(0.05 + 0.04 * std::sin(0.003 * tick), 0.05 + 0.04 * std::cos(0.002 * tick), 0.035);
+    surface.evaluate({centre - Vec3::Constant(0.01), centre + Vec3::Constant(0.01)});
+    for (int i = 0; i < kSegments; ++i) {
+      const Vec3 start = centre + uniform(random, -0.01, 0.01), end = centre + uniform(random, -0.01, 0.01);
+      const auto found = surface.first_entry(start, end), expected = brute_force_entry(organ, x, start, end);
+      ASSERT_EQ(found.has_value(), expected.has_value()) << "tick " << tick;
+      if (!found) continue;
+      ++entries;
+      EXPECT_NEAR(found->parameter, expected->parameter, 1e-9);
+    }
+  }
+  EXPECT_GT(entries, kTicks * kSegments / 20) << "the segments were meant to hit";
+}
+
 TEST(DeformedSurface, FindsThePointsThatLieInside) {
   std::mt19937 random(4);
   DeformedSurface surface(block().surface, block().rest, block().compliance);
@@ -124,6 +157,18 @@ TEST(DeformedSurface, FindsThePointsThatLieInside) {
     const Vec3 depth = p.cwiseMin(Vec3(0.1, 0.1, 0.04) - p);
     const bool inside = depth.minCoeff() > 0 && depth.minCoeff() < 0.005;
     EXPECT_EQ(surface.nearest_if_inside(p, 0.005).has_value(), inside) << p.transpose();
+  }
+}
+
+TEST(DeformedSurface, ImmersionIsTheDepthBelowTheNearestFace) {
+  std::mt19937 random(5);
+  DeformedSurface surface(block().surface, block().rest, block().compliance);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 p = uniform(random, 0, 0.12) - Vec3(0.01, 0.01, 0.01);
+    const double depth = p.cwiseMin(Vec3(0.1, 0.1, 0.04) - p).minCoeff();
+    const auto inside = surface.immersion(p, 0.05);
+    ASSERT_EQ(inside.has_value(), depth > 0) << p.transpose();
+    if (inside) EXPECT_NEAR(inside->depth_m, depth, 1e-9);
   }
 }
 
