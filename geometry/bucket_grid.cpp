@@ -26,6 +26,10 @@ constexpr double kRoundingPad = 1e-9;
 // less saves nothing on updates worth having, at 1/2 a query looks at three times as many triangles.
 constexpr double kSuitableSlack = 0.25;
 
+// Entries along each side of a triangle's block, at most: eight times the mean edge. Longer triangles of a
+// mesh that is graded so steeply live in the overflow list; their blocks would take all memory.
+constexpr std::int32_t kLargestSide = 8;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double mean_edge(const Surface& surface, std::span<const Vec3> positions) {
@@ -60,7 +64,8 @@ BucketGrid::BucketGrid(const Surface& surface, std::span<const Vec3> positions, 
     for (int i = 0; i < 3; ++i)
       longest = std::max(longest, (positions[t[i]] - positions[t[(i + 1) % 3]]).norm());
     const double widest = kStretch * longest + 2 * slack_;
-    const auto side = static_cast<std::int32_t>(std::ceil(widest * cells_per_metre_)) + 1;
+    const auto side = 1 + static_cast<std::int32_t>(
+                              std::ceil(std::min<double>(widest * cells_per_metre_, kLargestSide - 1)));
     blocks_.push_back({next_entry, side});
     next_entry += side * side * side + 1;  // the last one is for the overflow list
   }

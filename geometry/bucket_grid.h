@@ -15,9 +15,9 @@ namespace omentum::geometry {
 ///
 /// No allocation after construction: each triangle owns enough list entries for all buckets that it can
 /// touch, turned any way and stretched up to kStretch times its longest edge at construction. A triangle
-/// stretched further is kept in an overflow list, which every query looks through: slower, never wrong. A
-/// triangle with a position that is not finite is found by no query until it is updated with finite ones. One
-/// thread at a time; the surface must outlive the grid.
+/// stretched further, or several mean edges long, is kept in an overflow list, which every query looks
+/// through: slower, never wrong. A triangle with a position that is not finite is found by no query until it
+/// is updated with finite ones. One thread at a time; the surface must outlive the grid.
 class BucketGrid {
  public:
   /// Growth of a triangle's longest edge that its list entries still cover: tissue that is stretched by more
@@ -67,7 +67,6 @@ class BucketGrid {
   std::optional<Nearest> nearest(const Vec3& p, double max_distance_m,
                                  std::span<const Vec3> positions) noexcept;
 
-  double bucket_edge() const { return edge_; }
   double slack() const { return slack_; }
   /// Triangles in the overflow list now.
   std::int32_t overflow_count() const { return overflow_count_; }

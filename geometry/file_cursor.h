@@ -46,6 +46,12 @@ class FileCursor {
     return std::bit_cast<T>(bytes);
   }
 
+  /// Passes over what is not looked at.
+  void skip(std::size_t bytes, const char* expected) {
+    if (remaining() < bytes) fail("the end of the file", expected);
+    position_ += bytes;
+  }
+
   [[noreturn]] void fail(std::string_view found, std::string_view expected) const;
 
  private:

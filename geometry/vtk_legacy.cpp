@@ -4,6 +4,7 @@
 #include "geometry/vtk_cells.h"
 
 #include <cstdlib>
+#include <utility>
 
 namespace omentum::geometry {
 namespace {
@@ -20,6 +21,9 @@ class VtkReader {
   void read_cells();
   void read_cells_of_version_5(std::size_t offsets, std::size_t connectivity);
   void read_cell_types();
+  void skip_field();
+  void skip_metadata();
+  std::size_t bytes_of(const std::string& type);
   std::int64_t integer_of(const std::string& type, const char* expected);
   double real_of(const std::string& type, const char* expected);
   std::vector<std::int64_t> integers(const std::string& type, std::size_t count, const char* expected);
@@ -41,8 +45,12 @@ RawMesh VtkReader::read() {
       read_cells();
     } else if (keyword == "CELL_TYPES") {
       read_cell_types();
-    } else if (keyword == "FIELD" || keyword == "METADATA") {
-      in_.fail(keyword, "POINTS, CELLS and CELL_TYPES before any other data");
+    } else if (keyword == "FIELD") {
+      skip_field();
+    } else if (keyword == "METADATA") {
+      skip_metadata();
+    } else {
+      in_.fail(keyword, "POINTS, CELLS, CELL_TYPES, FIELD or METADATA");
     }
   }
   append_tetrahedra(cells_, 0, mesh_);
@@ -133,6 +141,43 @@ void VtkReader::read_cell_types() {
   if (count + 1 != cells_.start.size()) in_.fail(std::to_string(count) + " cell types", "one for each cell");
   if (binary_) in_.rest_of_line();
   cells_.types = integers("int", count, "a cell type");
+}
+
+// Data that belong to the grid as a whole, such as its time: arrays of `components` x `tuples` numbers.
+void VtkReader::skip_field() {
+  in_.word("the name of a field");
+  const std::size_t arrays = in_.count("the number of arrays");
+  for (std::size_t a = 0; a < arrays; ++a) {
+    in_.word("the name of an array");
+    const std::size_t components = in_.count("the number of components"),
+                      tuples = in_.count("the number of tuples");
+    const std::string type(in_.word("the type of an array"));
+    if (tuples != 0 && components > in_.remaining() / tuples)
+      in_.fail("an array that is longer than the file", "components and tuples");
+    if (!binary_) {
+      for (std::size_t i = 0; i < components * tuples; ++i) in_.word("a value of an array");
+      continue;
+    }
+    in_.rest_of_line();
+    in_.skip(components * tuples * bytes_of(type), "the values of an array");
+  }
+}
+
+std::size_t VtkReader::bytes_of(const std::string& type) {
+  constexpr std::pair<const char*, std::size_t> kBytes[] = {
+      {"char", 1},          {"unsigned_char", 1}, {"short", 2},         {"unsigned_short", 2},
+      {"int", 4},           {"unsigned_int", 4},  {"float", 4},         {"long", 8},
+      {"unsigned_long", 8}, {"vtktypeint64", 8},  {"vtktypeuint64", 8}, {"double", 8}};
+  for (const auto& [name, bytes] : kBytes) {
+    if (type == name) return bytes;
+  }
+  in_.fail("an array of type " + type, "an array of numbers");
+}
+
+// Lines up to an empty one.
+void VtkReader::skip_metadata() {
+  in_.rest_of_line();
+  while (in_.remaining() > 0 && !in_.rest_of_line().empty()) continue;
 }
 
 }  // namespace

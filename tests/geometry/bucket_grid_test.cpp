@@ -189,6 +189,26 @@ TEST_F(BucketGridTest, TurningAndStretchingWithinBoundsNeedsNoOverflow) {
   }
 }
 
+// One tetrahedron with edges a thousand times those of the others: found, and no memory of a million buckets.
+TEST(BucketGrid, TrianglesFarLongerThanTheMeanAreFound) {
+  RawMesh raw = test::make_raw_box(12, 12, 12, {0.012, 0.012, 0.012});
+  const auto far = static_cast<std::int32_t>(raw.positions.size());
+  raw.positions.push_back({0.05, 0.06, 2.0});
+  raw.tetrahedra.push_back(raw.tetrahedra.back());
+  auto& last = raw.tetrahedra.back();
+  for (auto& node : last) {
+    if (raw.positions[static_cast<std::size_t>(node)].z() < 0.0115) node = far;
+  }
+  const TetraMesh mesh = check_mesh(raw, 1).mesh;
+  const Surface surface = extract_surface(mesh, {});
+  const std::vector<Vec3> at = surface_positions(mesh, surface);
+  BucketGrid grid(surface, at, BucketGrid::suitable_slack(surface, at));
+  EXPECT_GT(grid.overflow_count(), 0);
+  const auto nearest = grid.nearest({0.05, 0.06, 2.1}, 1.0, at);
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(std::sqrt(nearest->squared_distance), 0.1, 1e-12);
+}
+
 TEST_F(BucketGridTest, NearestPointAgreesWithBruteForce) {
   deform(0.5);
   update_all();

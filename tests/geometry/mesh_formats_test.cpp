@@ -178,6 +178,20 @@ std::string vtk_binary(const RawMesh& m) {
   return out.text("\n").content;
 }
 
+// As VTK itself writes: a field before the points, and what it knows of an array's range behind them.
+std::string vtk_with_fields(const RawMesh& m, bool binary) {
+  std::string plain = binary ? vtk_binary(m) : vtk_text(m);
+  Bytes field;
+  field.text("FIELD FieldData 2\nTIME 1 1 double\n");
+  binary ? field.value(0.25, std::endian::big) : field.text(0.25);
+  field.text("\nlabels 2 3 int\n");
+  for (std::int32_t i = 0; i < 6; ++i) binary ? field.value(i, std::endian::big) : field.text(i);
+  plain.insert(plain.find("POINTS"), field.text("\n").content);
+  const std::string range =
+      "METADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0.5 CELLS \n\n";
+  return plain.insert(plain.find("\nCELLS") + 1, range);
+}
+
 std::string vtk_5_binary(const RawMesh& m) {
   constexpr auto big = std::endian::big;
   const std::size_t cells = m.tetrahedra.size();
@@ -312,6 +326,8 @@ const std::vector<Format>& formats() {
       {"Gmsh41Binary", ".msh", [](const RawMesh& m) { return gmsh_4_1(m, true); }},
       {"VtkText", ".vtk", vtk_text},
       {"VtkBinary", ".vtk", vtk_binary},
+      {"VtkTextWithFields", ".vtk", [](const RawMesh& m) { return vtk_with_fields(m, false); }},
+      {"VtkBinaryWithFields", ".vtk", [](const RawMesh& m) { return vtk_with_fields(m, true); }},
       {"Vtk5Binary", ".vtk", vtk_5_binary},
       {"VtuText", ".vtu", vtu_text},
       {"VtuBase64", ".vtu",
