@@ -98,9 +98,10 @@ void Checker::check_node_numbers() const {
 }
 
 void Checker::check_finite() const {
-  for (std::size_t n = 0; n < positions_.size(); ++n) {
-    if (!positions_[n].allFinite()) {
-      throw InputError(raw_.source + ": the position of node " + std::to_string(n) + " is not finite");
+  for (const auto& tetrahedron : raw_.tetrahedra) {
+    for (const std::int32_t node : tetrahedron) {
+      if (!position(node).allFinite())
+        throw InputError(raw_.source + ": the position of node " + std::to_string(node) + " is not finite");
     }
   }
 }

@@ -3,13 +3,18 @@
 #include "geometry/tetra_mesh.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <string_view>
 
 namespace omentum::organ {
 
 namespace {
+
+// What spreadsheets put in front of UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 template <class T>
 std::optional<T> parse_whole(const std::string& field) {
@@ -20,6 +25,12 @@ std::optional<T> parse_whole(const std::string& field) {
   const auto [end, error] = std::from_chars(first, last, value);
   if (error != std::errc{} || end != last || first == last) return std::nullopt;
   return value;
+}
+
+// A name of a column, not a number gone wrong.
+bool is_name(const std::string& field) {
+  if (field.empty() || !std::isalpha(static_cast<unsigned char>(field[0]))) return false;
+  return !parse_whole<double>(field);
 }
 
 }  // namespace
@@ -56,12 +67,11 @@ std::vector<CsvLine> read_csv(const std::filesystem::path& file) {
   std::string text;
   bool first = true;
   for (int number = 1; std::getline(in, text); ++number) {
+    if (number == 1 && text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     std::vector<std::string> fields = split_fields(text);
     if (fields[0].empty() && fields.size() == 1) continue;
     if (fields[0].rfind('#', 0) == 0) continue;
-    const bool header = first && std::ranges::none_of(fields, [](const std::string& f) {
-                          return parse_number(f).has_value();
-                        });
+    const bool header = first && std::ranges::all_of(fields, is_name);
     first = false;
     if (!header) lines.push_back({file.string() + ":" + std::to_string(number), std::move(fields)});
   }

@@ -15,8 +15,9 @@ struct CsvLine {
   std::vector<std::string> fields;  // without blanks around them
 };
 
-/// The lines of a CSV file; empty ones, those that begin with '#' and a header (a first line without any
-/// number) are left out. Throws geometry::InputError when the file cannot be read or holds no line.
+/// The lines of a CSV file; empty ones, those that begin with '#', a byte order mark and a header
+/// (a first line of names: fields that begin with a letter, but are not nan or inf) are left out. Throws
+/// geometry::InputError when the file cannot be read or holds no line.
 std::vector<CsvLine> read_csv(const std::filesystem::path& file);
 
 /// The fields of "a, b, c".

@@ -2,7 +2,11 @@
 
 #include <hdf5.h>
 
+#include <cerrno>
+#include <cstring>
 #include <numeric>
+
+#include <unistd.h>
 
 namespace omentum::organ {
 
@@ -74,6 +78,16 @@ std::uint64_t count_of(const std::vector<std::uint64_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
 }
 
+// A damaged shape must not ask for all memory.
+bool fits_into(std::uint64_t bytes, const std::vector<std::uint64_t>& shape, std::uint64_t each) {
+  std::uint64_t room = bytes / each;
+  for (const std::uint64_t extent : shape) {
+    if (extent == 0) return true;
+    room /= extent;
+  }
+  return room > 0;
+}
+
 std::string words(const std::vector<std::uint64_t>& shape) {
   std::string text;
   for (const std::uint64_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
@@ -92,6 +106,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
     return;
   }
   if (!std::filesystem::exists(file)) fail("no such file");
+  if (!std::filesystem::is_regular_file(file)) fail("is not a file; expected an organ file");
+  if (access(file.c_str(), mode == Mode::kRead ? R_OK : R_OK | W_OK) != 0)
+    fail(std::string("cannot be opened: ") + std::strerror(errno));
   file_ = H5Fopen(file.c_str(), mode == Mode::kRead ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT);
   if (file_ < 0)
     fail("is not a whole HDF5 file (damaged, truncated or of another kind); expected an organ file");
@@ -123,7 +140,10 @@ template <class T>
 std::vector<T> Hdf5File::read(const std::string& dataset) const {
   const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   if (!data.ok()) fail("has no dataset '" + dataset + "'; expected an organ file");
-  std::vector<T> values(count_of(shape_of(data)));
+  const std::vector<std::uint64_t> shape = shape_of(data);
+  if (!fits_into(std::filesystem::file_size(path_), shape, sizeof(T)))
+    fail("dataset '" + dataset + "' is damaged: " + words(shape) + " numbers are more than the file holds");
+  std::vector<T> values(count_of(shape));
   if (!values.empty() && H5Dread(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     fail("dataset '" + dataset + "' cannot be read");
   }

@@ -18,8 +18,8 @@ struct Extent {
   std::uint64_t bytes = 0;
 };
 
-/// An open HDF5 file. Errors are geometry::InputError "FILE: ...". HDF5's own error printing is off while one
-/// is open. One thread of a process at a time.
+/// An open HDF5 file. Errors are geometry::InputError "FILE: ...". From the first one on, HDF5's own error
+/// printing is off in this process. One thread of a process at a time.
 class Hdf5File {
  public:
   enum class Mode { kRead, kUpdate, kCreate };

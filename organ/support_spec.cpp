@@ -28,7 +28,9 @@ struct Spec {
 Spec split_components(const std::string& text) {
   Spec spec{text, text, physics::kPinned};
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos) return spec;
+  // the colon of "plane:x" is not that of components
+  if (colon == std::string::npos || text.substr(0, colon) == "plane" || text.substr(0, colon) == "box")
+    return spec;
   const std::string letters = text.substr(colon + 1);
   if (letters.empty() || letters.size() > 3 || letters.find_first_not_of("xyz") != std::string::npos)
     return spec;

@@ -21,7 +21,7 @@ struct TensorOptions {
 
 /// Fills `tiles` with C_nk for all mobile surface nodes, and `bounds` ([mobile][clusters], as
 /// SurfaceCompliance has them). Held components and unused lanes are zero; C_kn = C_nk^T exactly. Memory
-/// beyond the tiles: the factor, and per worker about 64 doubles per degree of freedom. Sets OpenBLAS to one
+/// beyond the tiles: the factor, and per worker 48 to 129 doubles per degree of freedom. Sets OpenBLAS to one
 /// thread meanwhile. Returns false when it was stopped: then the tiles are incomplete. `Scalar` is float or
 /// double.
 template <class Scalar>

@@ -2,6 +2,11 @@
 
 #include "physics/direct_solve.h"
 
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
 namespace omentum::physics {
 
 namespace {
@@ -39,9 +44,11 @@ SurfaceSolution tensor_solve(const ComplianceTiles<const Scalar>& tiles, const g
       C_AA(a, b) = tiles.at(n.node, rows[a].axis, imposed[rows[b].imposed].node, rows[b].axis);
     }
   }
-  const Eigen::VectorXd f_A = C_AA.ldlt().solve(u_star);
-
+  const Eigen::LLT<Eigen::MatrixXd> factor(C_AA);
+  const Eigen::VectorXd f_A =
+      factor.info() == Eigen::Success ? factor.solve(u_star).eval() : Eigen::VectorXd::Constant(count, NAN);
   SurfaceSolution solution;
+  solution.rcond = count > 0 ? factor.rcond() : 1;
   solution.holding_forces.assign(imposed.size(), Vec3::Zero());
   for (Eigen::Index a = 0; a < count; ++a) solution.holding_forces[rows[a].imposed][rows[a].axis] = f_A[a];
   solution.displacements.assign(tiles.mobile_count, Vec3::Zero());
@@ -53,6 +60,11 @@ SurfaceSolution tensor_solve(const ComplianceTiles<const Scalar>& tiles, const g
         }
       }
     }
+  }
+  const auto finite = [](const Vec3& v) { return v.allFinite(); };
+  if (!std::ranges::all_of(solution.holding_forces, finite) ||
+      !std::ranges::all_of(solution.displacements, finite)) {
+    throw geometry::InputError("the stored tensors are damaged: they give no finite forces");
   }
   return solution;
 }

@@ -10,6 +10,7 @@ namespace omentum::physics {
 struct SurfaceSolution {
   std::vector<Vec3> displacements;   // [mobile], m
   std::vector<Vec3> holding_forces;  // one per imposed node, N
+  double rcond = 1;                  // estimated reciprocal condition number of C_AA
 };
 
 /// A surface node and its imposed displacement, m.
@@ -20,7 +21,9 @@ struct ImposedSurfaceNode {
 
 /// f_A = C_AA^-1 u*, u = C_:A f_A, both in double whatever the tensors are stored in (DESIGN 3; the same as
 /// eq. 7-9 with M u~ = u*, without their transposed indices). Held components of an imposed node get no
-/// force. `Scalar` is float or double. Preconditions: nodes are mobile and differ.
+/// force. `Scalar` is float or double: its rounding enters the result up to 1 / rcond times (neighbours that
+/// are moved each their own way). Throws InputError when the tensors are damaged: C_AA is not positive
+/// definite, or a result is not finite. Preconditions: nodes are mobile and differ.
 template <class Scalar>
 SurfaceSolution tensor_solve(const ComplianceTiles<const Scalar>& tiles, const geometry::Surface& surface,
                              const FixedComponents& fixed, std::span<const ImposedSurfaceNode> imposed);

@@ -48,4 +48,16 @@ void require_offered(const BuildCommand& command) {
   if (!command.dynamic.empty()) refuse("--dynamic " + command.dynamic);
 }
 
+void require_own_output(const BuildCommand& command) {
+  // .node and .ele are one mesh, named by either
+  for (const char* extension : {"", ".node", ".ele"}) {
+    const std::filesystem::path input =
+        *extension == '\0' ? command.mesh : std::filesystem::path(command.mesh).replace_extension(extension);
+    std::error_code absent;
+    if (std::filesystem::equivalent(input, command.output, absent))
+      throw geometry::InputError("-o " + command.output.string() +
+                                 ": is the mesh itself; expected another file");
+  }
+}
+
 }  // namespace omentum::organ_tools

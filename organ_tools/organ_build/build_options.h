@@ -33,4 +33,7 @@ void add_build_options(CLI::App& app, BuildCommand& command);
 /// Throws geometry::InputError for what this version does not offer, rather than ignoring it.
 void require_offered(const BuildCommand& command);
 
+/// Throws geometry::InputError where the organ file would replace the mesh that it is made from.
+void require_own_output(const BuildCommand& command);
+
 }  // namespace omentum::organ_tools

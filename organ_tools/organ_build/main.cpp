@@ -50,6 +50,7 @@ void print_summary(const organ::Organ& organ, const organ::BuildResult& built,
 
 void build(const organ_tools::BuildCommand& command) {
   organ_tools::require_offered(command);
+  organ_tools::require_own_output(command);
   if (const std::string warning = physics::blas_warning(); !warning.empty()) warn(warning);
   organ_tools::ProgressLine progress("organ_build");
   const organ::Organ organ = read_organ(command);

@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <iostream>
+
 namespace {
 
 using namespace omentum;
@@ -65,9 +67,12 @@ void solve(const SolveCommand& command) {
   const organ::Organ organ = organ::load_organ(command.organ, organ::Load::kMeshOnly);
   std::vector<physics::ImposedDisplacement> imposed;
   if (!command.imposed.empty()) imposed = organ_tools::read_imposed(command.imposed, organ);
+  std::string warning;
   const physics::StaticSolution solution =
-      command.model == "direct" ? organ_tools::solve_directly(organ, imposed, gravity)
-                                : organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity);
+      command.model == "direct"
+          ? organ_tools::solve_directly(organ, imposed, gravity)
+          : organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity, warning);
+  if (!warning.empty()) std::cerr << "organ_solve: warning: " << warning << std::endl;
   organ_tools::write_solution(command.prefix, organ, imposed, solution);
 }
 

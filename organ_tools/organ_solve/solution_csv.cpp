@@ -3,6 +3,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+
+#include <unistd.h>
 
 namespace omentum::organ_tools {
 
@@ -16,16 +19,40 @@ void append_row(std::string& text, std::int32_t node, const Vec3& v) {
   text += row;
 }
 
-void write_whole(const std::string& file, const std::string& text) {
-  const std::string partial = file + ".partial";
-  std::FILE* out = std::fopen(partial.c_str(), "w");
-  bool whole = out != nullptr && std::fwrite(text.data(), 1, text.size(), out) == text.size();
-  if (out != nullptr) whole = std::fclose(out) == 0 && whole;
-  if (whole && std::rename(partial.c_str(), file.c_str()) == 0) return;
-  const std::string reason = std::strerror(errno);
-  std::remove(partial.c_str());
-  throw geometry::InputError(file + ": cannot be written: " + reason);
+[[noreturn]] void refuse(const std::string& file) {
+  throw geometry::InputError(file + ": cannot be written: " + std::strerror(errno));
 }
+
+// A file that is written beside its place; it vanishes unless it was moved there.
+class PartialFile {
+ public:
+  PartialFile(std::string file, const std::string& text)
+      : file_(std::move(file)), partial_(file_ + ".partial-" + std::to_string(getpid())) {
+    if (std::filesystem::is_directory(file_)) {
+      errno = EISDIR;
+      refuse(file_);
+    }
+    std::FILE* out = std::fopen(partial_.c_str(), "w");
+    if (out == nullptr) refuse(file_);
+    bool whole = std::fwrite(text.data(), 1, text.size(), out) == text.size();
+    whole = std::fclose(out) == 0 && whole;
+    if (whole) return;
+    const int reason = errno;
+    std::remove(partial_.c_str());
+    errno = reason;
+    refuse(file_);
+  }
+  ~PartialFile() { std::remove(partial_.c_str()); }
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  void move_to_its_place() {
+    if (std::rename(partial_.c_str(), file_.c_str()) != 0) refuse(file_);
+  }
+
+ private:
+  std::string file_, partial_;
+};
 
 }  // namespace
 
@@ -43,8 +70,10 @@ void write_solution(const std::string& prefix, const organ::Organ& organ, Impose
   for (std::size_t i = 0; i < imposed.size(); ++i) {
     append_row(forces, organ.mesh.file_node[imposed[i].node], solution.holding_forces[i]);
   }
-  write_whole(prefix + ".u.csv", displacements);
-  write_whole(prefix + ".f.csv", forces);
+  // nothing is in its place before both are whole
+  PartialFile u(prefix + ".u.csv", displacements), f(prefix + ".f.csv", forces);
+  u.move_to_its_place();
+  f.move_to_its_place();
 }
 
 }  // namespace omentum::organ_tools

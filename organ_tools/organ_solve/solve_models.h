@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace omentum::organ_tools {
 
@@ -19,7 +20,9 @@ physics::StaticSolution solve_directly(const organ::Organ& organ, Imposed impose
 /// nodes follow elastically. Under gravity the organ first sags (one direct solve, u_g), and the tensors add
 /// what u* - u_g calls for. Throws geometry::InputError for an imposed node without tensors (an inner one),
 /// naming it.
+/// `warning`: set when the tensors' precision may not give 1e-5 of the largest force, saying what would.
 physics::StaticSolution solve_with_tensors(const organ::Organ& organ, const std::filesystem::path& file,
-                                           Imposed imposed, const geometry::Vec3& gravity);
+                                           Imposed imposed, const geometry::Vec3& gravity,
+                                           std::string& warning);
 
 }  // namespace omentum::organ_tools

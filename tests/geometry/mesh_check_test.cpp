@@ -208,6 +208,9 @@ TEST(CheckMesh, RefusesPositionsAndNumbersThatAreNone) {
   raw.positions[3].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal(raw), HasSubstr("the position of node 3 is not finite"));
   raw = test::make_raw_box(1, 1, 1, {1, 1, 1});
+  raw.positions.push_back(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_EQ(refusal(raw), "accepted") << "nobody uses it";
+  raw = test::make_raw_box(1, 1, 1, {1, 1, 1});
   raw.tetrahedra[4][2] = 8;
   EXPECT_THAT(refusal(raw), HasSubstr("tetrahedron 4 names node 8, expected 0 to 7"));
   raw.tetrahedra[4][2] = -1;

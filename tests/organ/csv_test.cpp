@@ -31,6 +31,21 @@ TEST_F(CsvTest, AFirstLineWithNumbersIsNoHeader) {
   EXPECT_EQ(read("nan,1,2,3\n").size(), 1u);
 }
 
+// A table that begins with a slip of the pen must not lose that line in silence.
+TEST_F(CsvTest, AMalformedFirstLineIsNoHeader) {
+  for (const char* slip : {"1O\n2\n", "12;\n2\n", "3 4\n2\n", "nan,nan\n1,2\n", "-,-\n1,2\n"}) {
+    EXPECT_EQ(read(slip).size(), 2u) << slip;
+  }
+}
+
+TEST_F(CsvTest, AByteOrderMarkIsNotPartOfTheFirstField) {
+  EXPECT_THAT(read("\xEF\xBB\xBF"
+                   "12\n2\n")[0]
+                  .fields,
+              ElementsAre("12"));
+  EXPECT_EQ(read("\xEF\xBB\xBFnode\n2\n").size(), 1u);
+}
+
 TEST_F(CsvTest, AFileWithoutNumbersIsRefused) {
   EXPECT_THROW(read("node,ux\n"), geometry::InputError);
   EXPECT_THROW(read(""), geometry::InputError);

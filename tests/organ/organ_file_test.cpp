@@ -211,6 +211,22 @@ TEST_F(OrganFileTest, ChangedMaterialIsNotServedFromOldTensors) {
   EXPECT_THAT(refusal(), HasSubstr("hash"));
 }
 
+TEST_F(OrganFileTest, AShapeLargerThanTheFileIsRefusedAndBuiltAnew) {
+  build(small_organ());
+  damage([](hid_t hdf5) {
+    H5Ldelete(hdf5, layout::kPositions, H5P_DEFAULT);
+    const hsize_t rows = hsize_t{1} << 40;
+    const hid_t space = H5Screate_simple(1, &rows, nullptr), storage = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_alloc_time(storage, H5D_ALLOC_TIME_LATE);  // claimed, not there
+    H5Dclose(
+        H5Dcreate2(hdf5, layout::kPositions, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, storage, H5P_DEFAULT));
+    H5Pclose(storage);
+    H5Sclose(space);
+  });
+  EXPECT_THAT(refusal(), HasSubstr("more than the file holds"));
+  EXPECT_FALSE(is_up_to_date(file, small_organ()));
+}
+
 TEST_F(OrganFileTest, AnotherKindOfHdf5FileIsRefused) {
   H5Fclose(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   EXPECT_THAT(refusal(), HasSubstr("no organ file"));

@@ -76,7 +76,8 @@ TEST_F(SupportSpecTest, ASpecThatHoldsNothingNamesTheExtent) {
 }
 
 TEST_F(SupportSpecTest, WrongSpecsAreRefusedWithAnExample) {
-  for (const char* wrong : {"plane:w<1", "plane:x=1", "plane:x<", "plane:", "plane:x<1e999", "plane:x<1:q"}) {
+  for (const char* wrong :
+       {"plane:w<1", "plane:x=1", "plane:x<", "plane:", "plane:x<1e999", "plane:x<1:q", "plane:x"}) {
     EXPECT_THAT(refusal(wrong), HasSubstr("plane:x<0.03")) << wrong;
   }
   for (const char* wrong : {"box:1,2,3", "box:", "box:a,b,c,d,e,f"}) {
