@@ -200,6 +200,8 @@ void Checker::check_neighbours() {
          "winding around a shared edge more than once (overlapping)");
   refuse("tetrahedra", crossing_at_boundary(positions_, sides),
          "boundary faces pass through each other (overlapping)");
+  refuse("tetrahedra", covered_at_boundary(positions_, tetrahedra_, sides),
+         "at the boundary lying inside another one (overlapping)");
   stop_if_refused();
 }
 

@@ -3,6 +3,10 @@
 #include "geometry/self_intersection.h"
 #include "geometry/tetra_faces.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/StdVector>
+#include <unsupported/Eigen/BVH>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -95,6 +99,37 @@ double dihedral_angle(const std::array<Vec3, 4>& p, int i, int j, int k, int l) 
   const Vec3 w = to_l - along * along.dot(to_l);
   return std::atan2(u.cross(w).norm(), u.dot(w));
 }
+
+// Finds a tetrahedron with a point inside, other than one; for Eigen's tree of bounding boxes.
+class PointInTetrahedron {
+ public:
+  PointInTetrahedron(std::span<const Vec3> positions, RawTetrahedra tetrahedra, const Vec3& point,
+                     std::size_t besides)
+      : positions_(positions), tetrahedra_(tetrahedra), point_(point), besides_(besides) {}
+
+  bool intersectVolume(const Eigen::AlignedBox3d& box) const { return box.contains(point_); }
+  bool intersectObject(std::size_t t) {
+    found_ = found_ || (t != besides_ && holds(t));
+    return found_;
+  }
+  bool found() const { return found_; }
+
+ private:
+  bool holds(std::size_t t) const {
+    const auto at = [&](int v) -> const Vec3& { return positions_[tetrahedra_[t][v]]; };
+    for (const auto& [a, b, c] : kFaceOpposite) {
+      const Vec3 outward = (at(b) - at(a)).cross(at(c) - at(a));
+      if (outward.dot(point_ - at(a)) >= 0) return false;
+    }
+    return true;
+  }
+
+  std::span<const Vec3> positions_;
+  RawTetrahedra tetrahedra_;
+  Vec3 point_;
+  std::size_t besides_;
+  bool found_ = false;
+};
 
 }  // namespace
 
@@ -245,6 +280,26 @@ Offenders crossing_at_boundary(std::span<const Vec3> positions, const std::vecto
   Offenders which;
   for (const auto& [i, j] : crossing_triangles(positions, triangles)) {
     which.insert(which.end(), {faces[i].tetrahedron, faces[j].tetrahedron});
+  }
+  return which;
+}
+
+Offenders covered_at_boundary(std::span<const Vec3> positions, RawTetrahedra tetrahedra,
+                              const std::vector<FaceSide>& sides) {
+  std::vector<Eigen::AlignedBox3d> boxes(tetrahedra.size());
+  std::vector<std::size_t> numbers(tetrahedra.size());
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    numbers[t] = t;
+    for (const std::int32_t node : tetrahedra[t]) boxes[t].extend(positions[node]);
+  }
+  const Eigen::KdBVH<double, 3, std::size_t> tree(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
+  Offenders which;
+  for (const FaceSide& face : boundary_faces(sides)) {
+    Vec3 centre = Vec3::Zero();
+    for (const std::int32_t node : tetrahedra[face.tetrahedron]) centre += positions[node] / 4;
+    PointInTetrahedron search(positions, tetrahedra, centre, face.tetrahedron);
+    Eigen::BVIntersect(tree, search);
+    if (search.found()) which.push_back(face.tetrahedron);
   }
   return which;
 }

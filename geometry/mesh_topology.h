@@ -51,7 +51,12 @@ Offenders pinched_boundary_nodes(const std::vector<FaceSide>& sides, std::size_t
 Offenders winding_around_edges(std::span<const Vec3> positions, RawTetrahedra tetrahedra);
 
 /// Tetrahedra whose boundary faces pass through each other. Where all the faults above are absent, tetrahedra
-/// can overlap only so.
+/// can overlap only so, or where faces of both parts lie in one place.
 Offenders crossing_at_boundary(std::span<const Vec3> positions, const std::vector<FaceSide>& sides);
+
+/// Tetrahedra at the boundary whose centre lies inside another one: what overlaps face upon face, without a
+/// crossing.
+Offenders covered_at_boundary(std::span<const Vec3> positions, RawTetrahedra tetrahedra,
+                              const std::vector<FaceSide>& sides);
 
 }  // namespace omentum::geometry

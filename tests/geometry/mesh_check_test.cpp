@@ -199,6 +199,7 @@ RawMesh bent_bar(double turns, double pitch) {
 
 TEST(CheckMesh, RefusesABodyThatRunsThroughItself) {
   EXPECT_THAT(refusal(bent_bar(1.2, 0.13)), HasSubstr("pass through each other (overlapping)"));
+  EXPECT_THAT(refusal(bent_bar(1.2, 0.0)), HasSubstr("inside another one (overlapping)")) << "face upon face";
   EXPECT_EQ(refusal(bent_bar(1.2, 0.6)), "accepted");
   EXPECT_EQ(refusal(bent_bar(0.9, 0.0)), "accepted");
 }

@@ -5,6 +5,7 @@
 
 #include "tests/support/process.h"
 
+#include <gtest/gtest.h>
 #include <Eigen/Core>
 
 #include <deque>
@@ -21,6 +22,22 @@ using Vendors = std::map<std::string, std::string>;  // process -> vendor
 inline Vendors all_on(const std::string& vendor) {
   return {
       {"haptic_node", vendor}, {"deform_node", vendor}, {"render_node", vendor}, {"virtual_device", vendor}};
+}
+
+/// A scene made ready by the launcher itself, as a user's would be; its file lies in `folder`. `arguments`:
+/// what a user adds, such as --organ FILE. Empty where the launcher refused, with its words as a test
+/// failure.
+inline std::string prepare_scene(const std::string& scene, std::vector<std::string> arguments,
+                                 const std::filesystem::path& folder) {
+  const std::string source = OMENTUM_SOURCE_DIR, programs = OMENTUM_BIN_DIR;
+  arguments.insert(
+      arguments.begin(),
+      {"OMENTUM_BIN=" + programs, "OMENTUM_CACHE=" + programs + "/../tests/system/cache", "python3", "-B",
+       source + "/launch_scripts/supervisor.py", scene, "--prepare", "--out", folder.string()});
+  Process launcher("/usr/bin/env", arguments);
+  if (launcher.wait() == 0) return folder / "scene.toml";
+  ADD_FAILURE() << launcher.messages();
+  return {};
 }
 
 /// Starts processes by name and keeps them until the end. Arguments beyond the shared ones come with start().
