@@ -155,7 +155,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   place_tools(model, inputs, state, work.surface);
   evaluate_neighbourhood(state, work.surface);
   follow_surface(model, state, work.surface);
-  meet_appeared(model, state, work.surface);
+  meet_appeared(state, work.surface);
   find_contacts(state, work.surface);
   result.neighbourhood = work.surface.evaluated_nodes();
 

@@ -171,7 +171,7 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
   surface_with_tools(state, surface);
 }
 
-void meet_appeared(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept {
+void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     const ToolState& tool = state.tools[i];
     if (!tool.engaged || !tool.appeared) continue;

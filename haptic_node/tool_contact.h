@@ -33,7 +33,7 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept;
 /// started again): each holds the nearest surface point from where it is. It is not pushed out, is held back
 /// from going deeper at once, may leave freely, and outside is a point like any other. What of a tool's
 /// points would leave through another side of the organ than most holds nothing until it left.
-void meet_appeared(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept;
+void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept;
 
 /// Lets go of contacts without force that are open by more than a hair.
 void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept;

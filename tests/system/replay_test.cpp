@@ -162,7 +162,7 @@ void expect_replay_agrees(const std::string& scene, milliseconds apart) {
   for (const Moment& moment : moments) {
     SCOPED_TRACE("tick " + std::to_string(moment.contacts.front().tick));
     const Solved solved = solve_directly(organ_file, moment);
-    if (HasFailure()) return;
+    if (::testing::Test::HasFailure()) return;
     expect_same_forces(moment, solved);
     expect_same_surface(organ, moment, solved);
   }
