@@ -41,6 +41,14 @@ struct ToolChannelTest : ::testing::Test {
     answer.valid_for_s = 0.005;
     channel.receive(answer, now_ns);
   }
+
+  // Answers of `force` in every millisecond of the second before time zero: it is exerted in full by then.
+  void fade_in(const Vec3& force) {
+    for (std::int64_t ms = -1000; ms < 0; ++ms) {
+      channel.tick(ms * kMs);
+      answer(force, ms * kMs);
+    }
+  }
 };
 
 TEST_F(ToolChannelTest, PosesCountUpAndCarryTheMeasurementAndItsTime) {
@@ -59,8 +67,8 @@ TEST_F(ToolChannelTest, PosesCountUpAndCarryTheMeasurementAndItsTime) {
 }
 
 TEST_F(ToolChannelTest, CommandsTheNewestAnswerWithinTheDevicesLimits) {
+  fade_in({0, 0, 9});
   channel.tick(0);
-  EXPECT_EQ(device->commanded.force.norm(), 0);
   answer({1, 0, 0}, kMs);
   answer({0, 0, 9}, kMs);
   channel.tick(2 * kMs);
@@ -68,8 +76,9 @@ TEST_F(ToolChannelTest, CommandsTheNewestAnswerWithinTheDevicesLimits) {
 }
 
 TEST_F(ToolChannelTest, WithoutAnswersTheCommandedForceVanishes) {
-  answer({0, 0, 2}, 0);
+  fade_in({0, 0, 2});
   channel.tick(0);
+  EXPECT_EQ(device->commanded.force, Vec3(0, 0, 2));
   channel.tick(30 * kMs);
   EXPECT_EQ(device->commanded.force.norm(), 0);
   EXPECT_EQ(channel.expired(), 1u);
@@ -97,6 +106,7 @@ TEST_F(ToolChannelTest, ADeviceWithoutAMeasurementIsNoFault) {
 }
 
 TEST_F(ToolChannelTest, EnergyIsTheForcesWorkOnTheHand) {
+  fade_in({0, 0, 2});
   channel.tick(0);
   answer({0, 0, 2}, kMs);
   device->measurement.position = {0.1, 0, -0.03};  // against the force: the hand gives
@@ -108,6 +118,7 @@ TEST_F(ToolChannelTest, EnergyIsTheForcesWorkOnTheHand) {
 }
 
 TEST_F(ToolChannelTest, AJumpWhileTheMeasurementWasInvalidIsNoWork) {
+  fade_in({0, 0, 2});
   channel.tick(0);
   answer({0, 0, 2}, 0);
   device->measurement.valid = false;
@@ -118,8 +129,9 @@ TEST_F(ToolChannelTest, AJumpWhileTheMeasurementWasInvalidIsNoWork) {
 }
 
 TEST_F(ToolChannelTest, ReleaseLetsTheHandGo) {
-  answer({0, 0, 2}, 0);
+  fade_in({0, 0, 2});
   channel.tick(0);
+  ASSERT_GT(device->commanded.force.norm(), 0);
   channel.release();
   EXPECT_EQ(device->commanded.force.norm(), 0);
 }
