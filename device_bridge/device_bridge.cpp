@@ -104,9 +104,11 @@ void DeviceBridge::obey() noexcept {
 void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
   const std::int64_t now_ns = runtime::steady_now_ns();
   for (const auto& channel : channels_) {
-    if (channel->tool() == answer.tool) channel->receive(answer, now_ns);
+    if (channel->tool() != answer.tool) continue;
+    const AnswerVerdict verdict = channel->receive(answer, now_ns);
+    // a late one is not exerted, but how late it was is worth knowing
+    if (verdict == AnswerVerdict::kAccepted || verdict == AnswerVerdict::kLate) answers_.add(answer, now_ns);
   }
-  answers_.add(answer, now_ns);
 }
 
 void DeviceBridge::receive(const msg::SessionCommand& command) noexcept {
@@ -135,10 +137,12 @@ void DeviceBridge::publish_status() {
 
 nlohmann::json DeviceBridge::report() const {
   const AnswerReport answers = answers_.report();
+  AnswerCounts counts;
   std::uint64_t sent = 0, expired = 0;
   double energy_j = 0;
   nlohmann::json hands = nlohmann::json::array();
   for (const auto& channel : channels_) {
+    counts += channel->answers();
     sent += channel->sent();
     expired += channel->expired();
     energy_j += channel->energy_j();
@@ -152,7 +156,10 @@ nlohmann::json DeviceBridge::report() const {
           {"realtime", {{"fifo", realtime_.fifo}, {"locked", realtime_.locked}}},
           {"round_trip_us", round_trip},
           {"sent", sent},
-          {"lost", answers.lost},
+          {"answers", counts.accepted},
+          {"lost", counts.lost},
+          {"unanswered", answers.unanswered},
+          {"refused", {{"repeated", counts.repeated}, {"foreign", counts.foreign}, {"late", counts.late}}},
           {"expired", expired},
           {"energy_j", energy_j},
           {"hands", hands},

@@ -19,6 +19,8 @@ ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& fau
       faults_(faults),
       bad_force_("tool " + std::to_string(info_.tool) +
                  ": a force that is not finite arrived and was ignored"),
+      foreign_answer_("tool " + std::to_string(info_.tool) +
+                      ": an answer to another device's pose arrived and was ignored"),
       bad_measurement_("tool " + std::to_string(info_.tool) +
                        ": the device measured a pose that is not finite"),
       hold_(info_.max_force_n, info_.max_torque_nm) {
@@ -26,9 +28,13 @@ ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& fau
   pose_.orientation.w = 1;
 }
 
-void ToolChannel::receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept {
+AnswerVerdict ToolChannel::receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept {
+  const AnswerVerdict verdict = gate_.judge(answer, now_ns);
+  if (verdict == AnswerVerdict::kForeign) faults_.raise(foreign_answer_);
+  if (verdict != AnswerVerdict::kAccepted) return verdict;
   received_.draft() = {answer, now_ns};
   received_.post();
+  return verdict;
 }
 
 const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
@@ -44,6 +50,7 @@ const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
   if (moved_from_there && pose_.valid) {
     energy_j_ += wrench.force.dot(from_message(pose_.position) - before);
   }
+  gate_.sent(pose_.seq, pose_.stamp_ns);
   return pose_;
 }
 

@@ -1,6 +1,7 @@
 // One tool's half of the hand's loop: forces in, poses out.
 #pragma once
 
+#include "device_bridge/answer_gate.h"
 #include "device_bridge/device.h"
 #include "device_bridge/force_hold.h"
 #include "runtime/faults.h"
@@ -24,8 +25,9 @@ class ToolChannel {
   Device& device() { return *device_; }
   const Device& device() const { return *device_; }
 
-  /// An answer of haptic_node. One thread (the reader's) at a time.
-  void receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept;
+  /// An answer of haptic_node. Only those that are accepted are exerted; one to another device's pose raises
+  /// a fault. One thread (the reader's) at a time.
+  AnswerVerdict receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept;
 
   /// Once a period, the loop's thread: commands the newest force and returns the pose to publish. A
   /// measurement that is not finite goes out with its valid flag down and raises a fault.
@@ -39,6 +41,8 @@ class ToolChannel {
   double energy_j() const { return energy_j_; }
   /// How many times answers did not come in time, so that the force decayed.
   std::uint64_t expired() const { return hold_.expired(); }
+  /// Any thread.
+  AnswerCounts answers() const noexcept { return gate_.counts(); }
 
  private:
   struct Received {
@@ -51,7 +55,8 @@ class ToolChannel {
   std::unique_ptr<Device> device_;
   msg::DeviceInfo info_;
   runtime::FaultList& faults_;
-  std::string bad_force_, bad_measurement_;  // fault texts, made beforehand
+  std::string bad_force_, foreign_answer_, bad_measurement_;  // fault texts, made beforehand
+  AnswerGate gate_;
   runtime::Mailbox<Received> received_;
   ForceHold hold_;
   msg::ToolPose pose_;
