@@ -29,8 +29,9 @@ class ToolChannel {
   /// a fault. One thread (the reader's) at a time.
   AnswerVerdict receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept;
 
-  /// Once a period, the loop's thread: commands the newest force and returns the pose to publish. A
-  /// measurement that is not finite goes out with its valid flag down and raises a fault.
+  /// Once a period, the loop's thread: commands the newest force and returns the pose to publish, stamped
+  /// with the time of its measurement. A measurement that is not finite, or too old (kOldestMeasurement_s),
+  /// goes out with its valid flag down and raises a fault.
   const msg::ToolPose& tick(std::int64_t now_ns) noexcept;
 
   /// Lets the hand go: commands nothing.
@@ -50,12 +51,14 @@ class ToolChannel {
     std::int64_t at_ns = 0;
   };
 
+  const std::string* objection(const Measurement& measured, std::int64_t now_ns) const noexcept;
   void fill(const Measurement& measured, std::int64_t now_ns) noexcept;
 
   std::unique_ptr<Device> device_;
   msg::DeviceInfo info_;
   runtime::FaultList& faults_;
-  std::string bad_force_, foreign_answer_, bad_measurement_;  // fault texts, made beforehand
+  // the faults' texts, made beforehand
+  std::string bad_force_, foreign_answer_, bad_measurement_, old_measurement_;
   AnswerGate gate_;
   runtime::Mailbox<Received> received_;
   ForceHold hold_;

@@ -23,9 +23,14 @@ struct FakeDevice : Device {
     return info;
   }
   void command(const Wrench& wrench) noexcept override { commanded = wrench; }
-  Measurement measure() noexcept override { return measurement; }
+  Measurement measure(std::int64_t now_ns) noexcept override {
+    if (alive) measurement.measured_ns = now_ns - age_ns;
+    return measurement;
+  }
 
   Measurement measurement{.valid = true};
+  bool alive = true;        // false: its last measurement stays behind
+  std::int64_t age_ns = 0;  // of its measurements when they are read
   Wrench commanded;
 };
 
@@ -132,6 +137,34 @@ TEST_F(ToolChannelTest, AMeasurementThatIsNotFiniteGoesOutAsInvalid) {
   EXPECT_EQ(tick(1).position.y, 0);
   ASSERT_EQ(faults.list().size(), 1u);
   EXPECT_EQ(faults.list()[0].count, 2u);
+}
+
+TEST_F(ToolChannelTest, APoseIsStampedWithTheTimeOfItsMeasurementNotOfItsReading) {
+  device->age_ns = 3 * kMs;
+  EXPECT_EQ(tick(100 * kMs).stamp_ns, 97 * kMs);
+  EXPECT_TRUE(pose.valid);
+}
+
+TEST_F(ToolChannelTest, TheLastMeasurementOfADeadCallbackIsNotAMeasurementForEver) {
+  constexpr auto kOldest_ns = static_cast<std::int64_t>(1e9 * kOldestMeasurement_s);
+  tick(0);
+  device->alive = false;
+  EXPECT_TRUE(tick(kOldest_ns).valid);
+  EXPECT_EQ(pose.stamp_ns, 0) << "an old measurement must not look young";
+  EXPECT_FALSE(tick(kOldest_ns + 1).valid);
+  EXPECT_FALSE(tick(1000 * kMs).valid);
+  ASSERT_EQ(faults.list().size(), 1u);
+  device->alive = true;
+  EXPECT_TRUE(tick(1001 * kMs).valid);
+}
+
+TEST_F(ToolChannelTest, AMeasurementOfAnotherClockOrOfNoTimeIsNone) {
+  for (const std::int64_t measured_ns : {std::int64_t{0}, std::numeric_limits<std::int64_t>::min(),
+                                         std::numeric_limits<std::int64_t>::max(), 5000 * kMs}) {
+    device->alive = false;
+    device->measurement.measured_ns = measured_ns;
+    EXPECT_FALSE(tick(1000 * kMs).valid) << measured_ns;
+  }
 }
 
 TEST_F(ToolChannelTest, ADeviceWithoutAMeasurementIsNoFault) {
