@@ -60,7 +60,7 @@ class DeviceBridge {
   std::atomic<bool> paused_{false};
   std::atomic<bool> restart_{false};
   runtime::Mailbox<runtime::LoopRecord> status_record_;  // from the loop to the status
-  std::uint64_t instance_;
+  msg::NodeStatus status_message_;                       // the status thread's
 
   // declared last: callbacks end before what they touch
   std::unique_ptr<transport::Bus> bus_;
