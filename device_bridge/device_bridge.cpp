@@ -98,6 +98,9 @@ void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
 }
 
 void DeviceBridge::receive(const msg::SessionCommand& command) noexcept {
+  // a sender repeats a command that may have been lost: a second RESET would start the glide again
+  if (command.seq == last_command_) return;
+  last_command_ = command.seq;
   if (command.command == msg::COMMAND_START) paused_ = false;
   if (command.command == msg::COMMAND_PAUSE) paused_ = true;
   if (command.command == msg::COMMAND_RESET) restart_ = true;

@@ -59,6 +59,7 @@ class DeviceBridge {
   std::unique_ptr<TraceLog> record_;
   std::atomic<bool> paused_{false};
   std::atomic<bool> restart_{false};
+  std::uint64_t last_command_ = 0;                       // its seq; the command reader's
   runtime::Mailbox<runtime::LoopRecord> status_record_;  // from the loop to the status
   msg::NodeStatus status_message_;                       // the status thread's
 
