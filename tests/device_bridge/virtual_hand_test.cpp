@@ -118,6 +118,32 @@ TEST(VirtualHand, TheShaftPassesThroughTheTrocar) {
   }
 }
 
+TEST(VirtualHand, ATrocarTurnsTheShaftAboutThePivotWithoutSpinAndLeavesTheTipToTheHand) {
+  const runtime::HandSpec hand;
+  runtime::ToolSpec tool;
+  tool.trocar = runtime::Triple{0.05, -0.1, 0.2};
+  const Vec3 pivot(tool.trocar->data());
+  VirtualHand held(hand, tool, 1000), free(hand, {}, 1000);
+  const auto held_way = press(held, hand, 1000, script_period_s(hand));
+  const auto free_way = press(free, hand, 1000, script_period_s(hand));
+  double turned = 0;
+  for (std::size_t i = 1; i < held_way.size(); ++i) {
+    const Measurement &before = held_way[i - 1], &now = held_way[i];
+    ASSERT_EQ(now.position, free_way[i].position) << "insertion is free, the pivot does not push the tip";
+    // The least rotation that tilts z by theta onto the shaft turns 1 / cos(theta / 2) times as fast as the
+    // shaft at most; one that spun about the shaft would turn faster.
+    const Vec3 shaft = now.orientation * Vec3::UnitZ();
+    const double half_tilt = 0.5 * std::acos(shaft.z());
+    const double lever_m = std::min((pivot - before.position).norm(), (pivot - now.position).norm());
+    const double swept = (now.position - before.position).norm() / lever_m;
+    const double turn = before.orientation.angularDistance(now.orientation);
+    // the tilt changes by `swept` at most meanwhile; below 1e-9 rad there is rounding only
+    ASSERT_LE(turn, swept / std::cos(half_tilt + swept) + 1e-9) << i;
+    turned += turn;
+  }
+  EXPECT_GT(turned, 0.1);
+}
+
 TEST(VirtualHand, WithoutATrocarTheShaftStandsOnTheSurface) {
   runtime::HandSpec hand;
   hand.press_normal = {0, 0.6, 0.8};
