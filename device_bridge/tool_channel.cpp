@@ -1,6 +1,7 @@
 #include "device_bridge/tool_channel.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace omentum::device {
@@ -13,11 +14,28 @@ bool finite(const Measurement& m) {
          m.angular_velocity.allFinite() && std::isfinite(m.grip);
 }
 
+void require_limit(const char* name, double limit, std::uint32_t tool) {
+  if (std::isfinite(limit) && limit >= 0) return;
+  throw std::runtime_error("tool " + std::to_string(tool) + ": DeviceInfo." + name + ": found " +
+                           std::to_string(limit) + ", expected a finite number, not negative");
+}
+
+// a limit that is no number would clamp nothing
+msg::DeviceInfo checked(const msg::DeviceInfo& info) {
+  if (info.tool >= msg::MAX_TOOLS) {
+    throw std::runtime_error("DeviceInfo.tool: found " + std::to_string(info.tool) + ", expected at most " +
+                             std::to_string(msg::MAX_TOOLS - 1));
+  }
+  require_limit("max_force_n", info.max_force_n, info.tool);
+  require_limit("max_torque_nm", info.max_torque_nm, info.tool);
+  return info;
+}
+
 }  // namespace
 
 ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults)
     : device_(std::move(device)),
-      info_(device_->info()),
+      info_(checked(device_->info())),
       faults_(faults),
       bad_force_("tool " + std::to_string(info_.tool) +
                  ": a force that is not finite arrived and was ignored"),

@@ -17,7 +17,7 @@ namespace omentum::device {
 /// Between a Device and its topics. Reads no clock.
 class ToolChannel {
  public:
-  /// `faults` must outlive the channel.
+  /// `faults` must outlive the channel. Throws std::runtime_error naming what the device's info has wrong.
   ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults);
 
   std::uint32_t tool() const { return info_.tool; }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace omentum::device {
 namespace {
@@ -15,19 +16,19 @@ constexpr std::int64_t kMs = 1'000'000;
 
 // A device whose measurement the test sets and whose command it sees.
 struct FakeDevice : Device {
-  msg::DeviceInfo info() const override {
-    msg::DeviceInfo info;
-    info.tool = 3;
-    info.max_force_n = 5;
-    info.max_torque_nm = 1;
-    return info;
+  FakeDevice() {
+    limits.tool = 3;
+    limits.max_force_n = 5;
+    limits.max_torque_nm = 1;
   }
+  msg::DeviceInfo info() const override { return limits; }
   void command(const Wrench& wrench) noexcept override { commanded = wrench; }
   Measurement measure(std::int64_t now_ns) noexcept override {
     if (alive) measurement.measured_ns = now_ns - age_ns;
     return measurement;
   }
 
+  msg::DeviceInfo limits;
   Measurement measurement{.valid = true};
   bool alive = true;        // false: its last measurement stays behind
   std::int64_t age_ns = 0;  // of its measurements when they are read
@@ -64,6 +65,20 @@ struct ToolChannelTest : ::testing::Test {
     }
   }
 };
+
+TEST_F(ToolChannelTest, LimitsThatLimitNothingAreRefusedAtTheStart) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
+    for (const auto member : {&msg::DeviceInfo::max_force_n, &msg::DeviceInfo::max_torque_nm}) {
+      auto wrong = std::make_unique<FakeDevice>();
+      wrong->limits.*member = bad;
+      EXPECT_THROW(ToolChannel(std::move(wrong), faults), std::runtime_error) << bad;
+    }
+  }
+  auto nobodys = std::make_unique<FakeDevice>();
+  nobodys->limits.tool = msg::MAX_TOOLS;
+  EXPECT_THROW(ToolChannel(std::move(nobodys), faults), std::runtime_error);
+}
 
 TEST_F(ToolChannelTest, PosesCountUpAndCarryTheMeasurementAndItsTime) {
   device->measurement.position = {1, 2, 3};
