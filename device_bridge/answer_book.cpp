@@ -11,9 +11,11 @@ void AnswerBook::add(const msg::ToolForce& answer, std::int64_t now_ns) {
   const std::lock_guard lock(mutex_);
   if (answer.tool >= tools_.size() || !tools_[answer.tool].served) return;
   Tool& tool = tools_[answer.tool];
-  // a haptic node that was restarted counts from the beginning again: no loss
-  if (tool.force_seq > 0 && answer.seq > tool.force_seq + 1) lost_ += answer.seq - tool.force_seq - 1;
-  tool.force_seq = answer.seq;
+  // a node without a new pose answers the last one again
+  if (answer.echo_seq > tool.echo_seq) {
+    if (tool.echo_seq > 0) unanswered_ += answer.echo_seq - tool.echo_seq - 1;
+    tool.echo_seq = answer.echo_seq;
+  }
   add(kForce, answer.tool, answer.echo_stamp_ns, now_ns);
 }
 
@@ -34,7 +36,7 @@ void AnswerBook::add(Kind kind, std::uint32_t tool, std::int64_t stamp_ns, std::
 AnswerReport AnswerBook::report() const {
   const std::lock_guard lock(mutex_);
   return {latency_[kForce].percentiles(), latency_[kOrgan].percentiles(), latency_[kPicture].percentiles(),
-          lost_};
+          unanswered_};
 }
 
 }  // namespace omentum::device

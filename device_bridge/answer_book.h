@@ -13,7 +13,7 @@ namespace omentum::device {
 /// What the report says of the answers.
 struct AnswerReport {
   runtime::Percentiles to_force, to_organ, to_picture;
-  std::uint64_t lost = 0;  // answers whose sequence number never came
+  std::uint64_t unanswered = 0;  // poses between the first and the last answered one that no answer echoes
 };
 
 /// Times each pose's first answer: the force, the organ and the picture that take it into account. Echoes of
@@ -25,6 +25,7 @@ class AnswerBook {
   explicit AnswerBook(std::int64_t begin_ns) : begin_ns_(begin_ns) {}
 
   void serve(std::uint32_t tool);  // an answer to this tool's poses counts
+  /// An answer to a pose of this device, in order (AnswerGate).
   void add(const msg::ToolForce& answer, std::int64_t now_ns);
   void add(const msg::NodeStatus& status, std::int64_t now_ns);
 
@@ -34,7 +35,7 @@ class AnswerBook {
   enum Kind { kForce, kOrgan, kPicture, kKinds };
   struct Tool {
     bool served = false;
-    std::uint64_t force_seq = 0;                   // of the newest answer
+    std::uint64_t echo_seq = 0;                    // of the newest pose that was answered; 0: none yet
     std::array<std::int64_t, kKinds> newest_ns{};  // stamp of the newest pose answered
   };
 
@@ -44,7 +45,7 @@ class AnswerBook {
   mutable std::mutex mutex_;
   std::array<Tool, msg::MAX_TOOLS> tools_;
   std::array<runtime::Histogram, kKinds> latency_;
-  std::uint64_t lost_ = 0;
+  std::uint64_t unanswered_ = 0;
 };
 
 }  // namespace omentum::device

@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cstdint>
+
 namespace omentum::device {
 
 using Vec3 = Eigen::Vector3d;
@@ -20,10 +22,16 @@ struct Wrench {
   double grip_torque = 0;      // on the jaws, N m, positive opens
 };
 
+/// A measurement older than this is none, s: two periods of a 100 Hz tracker, the slowest that a hand is
+/// still followed with; the hand is up to 2 cm further by then. It must end somewhere: a vendor's callback
+/// that died leaves its last measurement behind for ever.
+inline constexpr double kOldestMeasurement_s = 0.02;
+
 /// Where the hand holds the instrument.
 struct Measurement {
-  bool valid = false;                    // false: the device has no measurement now; the rest is ignored
-  Vec3 position = Vec3::Zero();          // p_WT, of the tip, m
+  bool valid = false;            // false: the device has no measurement now; the rest is ignored
+  std::int64_t measured_ns = 0;  // when it was taken, on runtime::steady_now_ns(), not when it was read
+  Vec3 position = Vec3::Zero();  // p_WT, of the tip, m
   Quat orientation = Quat::Identity();   // q_WT: T's z points along the shaft from the tip to the handle
   Vec3 linear_velocity = Vec3::Zero();   // of the tip in W, m/s
   Vec3 angular_velocity = Vec3::Zero();  // in W, rad/s
@@ -42,8 +50,9 @@ class Device {
   /// The wrench to exert until the next call. Already finite, decayed when the answers stopped, and within
   /// limits.
   virtual void command(const Wrench& wrench) noexcept = 0;
-  /// The newest measurement.
-  virtual Measurement measure() noexcept = 0;
+  /// The newest measurement. `now_ns` is the time on runtime::steady_now_ns(): what is measured in this call
+  /// was measured then.
+  virtual Measurement measure(std::int64_t now_ns) noexcept = 0;
 
   /// For devices that move on their own: the session pauses, continues, or starts again.
   virtual void pause(bool /*paused*/) noexcept {}

@@ -1,30 +1,18 @@
 #include "device_bridge/device_bridge.h"
 
+#include "node/node_identity.h"
 #include "runtime/clock.h"
 #include "runtime/report.h"
 
-#include <array>
 #include <chrono>
 #include <iostream>
 #include <utility>
-
-#include <unistd.h>
 
 namespace omentum::device {
 namespace {
 
 constexpr std::chrono::milliseconds kStatusPause{500};
 constexpr double kRecordPeriod_s = 0.4;  // a fresh loop record is ready for each status
-
-msg::Percentiles to_message(const runtime::Percentiles& p) {
-  return {p.p50, p.p99, p.p999, p.max, p.count};
-}
-
-std::string host_name() {
-  std::array<char, 65> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
 
 }  // namespace
 
@@ -33,8 +21,7 @@ DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique
     : options_(options),
       loop_(loop),
       answers_(runtime::steady_now_ns()),
-      instance_(static_cast<std::uint64_t>(runtime::steady_now_ns()) ^
-                (static_cast<std::uint64_t>(getpid()) << 40)) {
+      status_message_(node::introduce(msg::NODE_DEVICE, loop.rate_hz())) {
   const runtime::NodeOptions& node = options.node;
   if (!node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(node.log);
   if (log_) loop_.log_to(*log_);
@@ -42,6 +29,7 @@ DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique
   for (auto& device : devices) {
     channels_.push_back(std::make_unique<ToolChannel>(std::move(device), faults_));
     answers_.serve(channels_.back()->tool());
+    status_message_.tools_served |= 1U << channels_.back()->tool();
   }
   connect();
   status_ = std::make_unique<runtime::Background>(kStatusPause, [this] { publish_status(); });
@@ -51,9 +39,7 @@ DeviceBridge::~DeviceBridge() = default;
 
 void DeviceBridge::connect() {
   const runtime::RealtimeStart start(runtime::kHandLinkPriority);
-  const runtime::NodeOptions& node = options_.node;
-  bus_ = transport::Bus::open({transport::parse_vendor(node.dds), node.domain,
-                               transport::parse_profile(node.profile), "virtual_device", node.keystore});
+  bus_ = transport::Bus::open(node::bus_options(options_.node, "virtual_device"));
   info_writer_ = bus_->writer<msg::DeviceInfo>();
   pose_writer_ = bus_->writer<msg::ToolPose>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
@@ -104,12 +90,17 @@ void DeviceBridge::obey() noexcept {
 void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
   const std::int64_t now_ns = runtime::steady_now_ns();
   for (const auto& channel : channels_) {
-    if (channel->tool() == answer.tool) channel->receive(answer, now_ns);
+    if (channel->tool() != answer.tool) continue;
+    const AnswerVerdict verdict = channel->receive(answer, now_ns);
+    // a late one is not exerted, but how late it was is worth knowing
+    if (verdict == AnswerVerdict::kAccepted || verdict == AnswerVerdict::kLate) answers_.add(answer, now_ns);
   }
-  answers_.add(answer, now_ns);
 }
 
 void DeviceBridge::receive(const msg::SessionCommand& command) noexcept {
+  // a sender repeats a command that may have been lost: a second RESET would start the glide again
+  if (command.seq == last_command_) return;
+  last_command_ = command.seq;
   if (command.command == msg::COMMAND_START) paused_ = false;
   if (command.command == msg::COMMAND_PAUSE) paused_ = true;
   if (command.command == msg::COMMAND_RESET) restart_ = true;
@@ -117,28 +108,19 @@ void DeviceBridge::receive(const msg::SessionCommand& command) noexcept {
 
 void DeviceBridge::publish_status() {
   status_record_.fetch();
-  const runtime::LoopRecord& record = status_record_.value();
-  msg::NodeStatus status;
-  status.kind = msg::NODE_DEVICE;
-  status.instance = instance_;
-  status.host = host_name();
-  for (const auto& channel : channels_) status.tools_served |= 1U << channel->tool();
-  status.paused = paused_;
-  status.rate_hz = loop_.rate_hz();
-  status.ticks = record.ticks;
-  status.missed = record.missed;
-  status.period_us = to_message(record.period.percentiles());
-  status.compute_us = to_message(record.compute.percentiles());
-  status.faults = faults_.lines();
-  status_writer_->write(status);
+  status_message_.paused = paused_;
+  node::fill_status(status_record_.value(), faults_, status_message_);
+  status_writer_->write(status_message_);
 }
 
 nlohmann::json DeviceBridge::report() const {
   const AnswerReport answers = answers_.report();
+  AnswerCounts counts;
   std::uint64_t sent = 0, expired = 0;
   double energy_j = 0;
   nlohmann::json hands = nlohmann::json::array();
   for (const auto& channel : channels_) {
+    counts += channel->answers();
     sent += channel->sent();
     expired += channel->expired();
     energy_j += channel->energy_j();
@@ -152,7 +134,10 @@ nlohmann::json DeviceBridge::report() const {
           {"realtime", {{"fifo", realtime_.fifo}, {"locked", realtime_.locked}}},
           {"round_trip_us", round_trip},
           {"sent", sent},
-          {"lost", answers.lost},
+          {"answers", counts.accepted},
+          {"lost", counts.lost},
+          {"unanswered", answers.unanswered},
+          {"refused", {{"repeated", counts.repeated}, {"foreign", counts.foreign}, {"late", counts.late}}},
           {"expired", expired},
           {"energy_j", energy_j},
           {"hands", hands},

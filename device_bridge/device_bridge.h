@@ -59,8 +59,9 @@ class DeviceBridge {
   std::unique_ptr<TraceLog> record_;
   std::atomic<bool> paused_{false};
   std::atomic<bool> restart_{false};
+  std::uint64_t last_command_ = 0;                       // its seq; the command reader's
   runtime::Mailbox<runtime::LoopRecord> status_record_;  // from the loop to the status
-  std::uint64_t instance_;
+  msg::NodeStatus status_message_;                       // the status thread's
 
   // declared last: callbacks end before what they touch
   std::unique_ptr<transport::Bus> bus_;

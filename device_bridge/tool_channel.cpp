@@ -1,34 +1,62 @@
 #include "device_bridge/tool_channel.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace omentum::device {
 namespace {
+
+constexpr auto kOldestMeasurement_ns = static_cast<std::int64_t>(1e9 * kOldestMeasurement_s);
 
 bool finite(const Measurement& m) {
   return m.position.allFinite() && m.orientation.coeffs().allFinite() && m.linear_velocity.allFinite() &&
          m.angular_velocity.allFinite() && std::isfinite(m.grip);
 }
 
+void require_limit(const char* name, double limit, std::uint32_t tool) {
+  if (std::isfinite(limit) && limit >= 0) return;
+  throw std::runtime_error("tool " + std::to_string(tool) + ": DeviceInfo." + name + ": found " +
+                           std::to_string(limit) + ", expected a finite number, not negative");
+}
+
+// a limit that is no number would clamp nothing
+msg::DeviceInfo checked(const msg::DeviceInfo& info) {
+  if (info.tool >= msg::MAX_TOOLS) {
+    throw std::runtime_error("DeviceInfo.tool: found " + std::to_string(info.tool) + ", expected at most " +
+                             std::to_string(msg::MAX_TOOLS - 1));
+  }
+  require_limit("max_force_n", info.max_force_n, info.tool);
+  require_limit("max_torque_nm", info.max_torque_nm, info.tool);
+  return info;
+}
+
 }  // namespace
 
 ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults)
     : device_(std::move(device)),
-      info_(device_->info()),
+      info_(checked(device_->info())),
       faults_(faults),
       bad_force_("tool " + std::to_string(info_.tool) +
                  ": a force that is not finite arrived and was ignored"),
+      foreign_answer_("tool " + std::to_string(info_.tool) +
+                      ": an answer to another device's pose arrived and was ignored"),
       bad_measurement_("tool " + std::to_string(info_.tool) +
                        ": the device measured a pose that is not finite"),
+      old_measurement_("tool " + std::to_string(info_.tool) +
+                       ": the device's newest measurement is not of this moment"),
       hold_(info_.max_force_n, info_.max_torque_nm) {
   pose_.tool = info_.tool;
   pose_.orientation.w = 1;
 }
 
-void ToolChannel::receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept {
+AnswerVerdict ToolChannel::receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept {
+  const AnswerVerdict verdict = gate_.judge(answer, now_ns);
+  if (verdict == AnswerVerdict::kForeign) faults_.raise(foreign_answer_);
+  if (verdict != AnswerVerdict::kAccepted) return verdict;
   received_.draft() = {answer, now_ns};
   received_.post();
+  return verdict;
 }
 
 const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
@@ -40,18 +68,29 @@ const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
 
   const Vec3 before = from_message(pose_.position);
   const bool moved_from_there = pose_.valid;
-  fill(device_->measure(), now_ns);
+  fill(device_->measure(now_ns), now_ns);
   if (moved_from_there && pose_.valid) {
     energy_j_ += wrench.force.dot(from_message(pose_.position) - before);
   }
+  gate_.sent(pose_.seq, pose_.stamp_ns);
   return pose_;
 }
 
+// The fault of a measurement that must not be used; null when it may be. One from the future is of another
+// clock.
+const std::string* ToolChannel::objection(const Measurement& m, std::int64_t now_ns) const noexcept {
+  if (!finite(m)) return &bad_measurement_;
+  const bool of_now =
+      m.measured_ns >= now_ns - kOldestMeasurement_ns && m.measured_ns <= now_ns + kOldestMeasurement_ns;
+  return of_now ? nullptr : &old_measurement_;
+}
+
 void ToolChannel::fill(const Measurement& m, std::int64_t now_ns) noexcept {
+  const std::string* fault = m.valid ? objection(m, now_ns) : nullptr;
+  if (fault) faults_.raise(*fault);
   ++pose_.seq;
-  pose_.stamp_ns = now_ns;
-  pose_.valid = m.valid && finite(m);
-  if (m.valid && !pose_.valid) faults_.raise(bad_measurement_);
+  pose_.valid = m.valid && !fault;
+  pose_.stamp_ns = pose_.valid ? m.measured_ns : now_ns;
   if (!pose_.valid) return;
   const Quat q = m.orientation.normalized();
   pose_.buttons = m.buttons;

@@ -1,6 +1,7 @@
 // One tool's half of the hand's loop: forces in, poses out.
 #pragma once
 
+#include "device_bridge/answer_gate.h"
 #include "device_bridge/device.h"
 #include "device_bridge/force_hold.h"
 #include "runtime/faults.h"
@@ -16,7 +17,7 @@ namespace omentum::device {
 /// Between a Device and its topics. Reads no clock.
 class ToolChannel {
  public:
-  /// `faults` must outlive the channel.
+  /// `faults` must outlive the channel. Throws std::runtime_error naming what the device's info has wrong.
   ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults);
 
   std::uint32_t tool() const { return info_.tool; }
@@ -24,11 +25,13 @@ class ToolChannel {
   Device& device() { return *device_; }
   const Device& device() const { return *device_; }
 
-  /// An answer of haptic_node. One thread (the reader's) at a time.
-  void receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept;
+  /// An answer of haptic_node. Only those that are accepted are exerted; one to another device's pose raises
+  /// a fault. One thread (the reader's) at a time.
+  AnswerVerdict receive(const msg::ToolForce& answer, std::int64_t now_ns) noexcept;
 
-  /// Once a period, the loop's thread: commands the newest force and returns the pose to publish. A
-  /// measurement that is not finite goes out with its valid flag down and raises a fault.
+  /// Once a period, the loop's thread: commands the newest force and returns the pose to publish, stamped
+  /// with the time of its measurement. A measurement that is not finite, or too old (kOldestMeasurement_s),
+  /// goes out with its valid flag down and raises a fault.
   const msg::ToolPose& tick(std::int64_t now_ns) noexcept;
 
   /// Lets the hand go: commands nothing.
@@ -39,6 +42,8 @@ class ToolChannel {
   double energy_j() const { return energy_j_; }
   /// How many times answers did not come in time, so that the force decayed.
   std::uint64_t expired() const { return hold_.expired(); }
+  /// Any thread.
+  AnswerCounts answers() const noexcept { return gate_.counts(); }
 
  private:
   struct Received {
@@ -46,12 +51,15 @@ class ToolChannel {
     std::int64_t at_ns = 0;
   };
 
+  const std::string* objection(const Measurement& measured, std::int64_t now_ns) const noexcept;
   void fill(const Measurement& measured, std::int64_t now_ns) noexcept;
 
   std::unique_ptr<Device> device_;
   msg::DeviceInfo info_;
   runtime::FaultList& faults_;
-  std::string bad_force_, bad_measurement_;  // fault texts, made beforehand
+  // the faults' texts, made beforehand
+  std::string bad_force_, foreign_answer_, bad_measurement_, old_measurement_;
+  AnswerGate gate_;
   runtime::Mailbox<Received> received_;
   ForceHold hold_;
   msg::ToolPose pose_;

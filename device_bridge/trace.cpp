@@ -169,12 +169,13 @@ Measurement trace_at(const Trace& trace, double t_s) noexcept {
 }
 
 TraceLog::TraceLog(const std::filesystem::path& file)
-    : SampleLog(
-          file, std::string(kHeader) + ",tool",
-          [begin_ns = std::int64_t{-1}](std::ostream& out, std::uint64_t, const msg::ToolPose& pose) mutable {
-            if (!pose.valid) return;
-            if (begin_ns < 0) begin_ns = pose.stamp_ns;
-            write_pose(out, pose, begin_ns);
-          }) {}
+    : SampleLog(file, std::string(kHeader) + ",tool",
+                [begin_ns = std::int64_t{-1}, newest_ns = std::array<std::int64_t, msg::MAX_TOOLS>{}](
+                    std::ostream& out, std::uint64_t, const msg::ToolPose& pose) mutable {
+                  if (!pose.valid || pose.stamp_ns <= newest_ns.at(pose.tool)) return;
+                  if (begin_ns < 0) begin_ns = pose.stamp_ns;
+                  newest_ns[pose.tool] = pose.stamp_ns;
+                  write_pose(out, pose, begin_ns);
+                }) {}
 
 }  // namespace omentum::device

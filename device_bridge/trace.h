@@ -29,10 +29,11 @@ std::map<std::uint32_t, Trace> read_trace(const std::filesystem::path& file);
 
 /// Where the hand is at time `t_s`: on the straight line between two points, turning evenly between their
 /// orientations (slerp); at rest at the first point before it and at the last one after it. Velocities are
-/// those of this motion. The result is valid.
+/// those of this motion. The result is valid; when it was measured is for the caller to say.
 Measurement trace_at(const Trace& trace, double t_s) noexcept;
 
-/// Writes valid poses as a trace that read_trace reads, with tool column; times count from the first pose.
+/// Writes valid poses as a trace that read_trace reads, with tool column; times count from the first pose. A
+/// measurement that was sent again is written once.
 class TraceLog : public runtime::SampleLog<msg::ToolPose> {
  public:
   /// Throws std::runtime_error when `file` cannot be written.

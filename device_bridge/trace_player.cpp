@@ -41,17 +41,16 @@ void TracePlayer::command(const Wrench& wrench) noexcept {
   peak_force_n_ = std::max(peak_force_n_, wrench.force.norm());
 }
 
-Measurement TracePlayer::measure() noexcept {
-  const Measurement measured =
-      trace_at(trace_, trace_.front().t_s + static_cast<double>(played_) * period_s_);
-  if (!paused_) {
+Measurement TracePlayer::measure(std::int64_t now_ns) noexcept {
+  Measurement measured = trace_at(trace_, trace_.front().t_s + static_cast<double>(played_) * period_s_);
+  measured.measured_ns = now_ns;
+  if (paused_) {
+    measured.linear_velocity.setZero();
+    measured.angular_velocity.setZero();
+  } else {
     ++played_;
-    return measured;
   }
-  Measurement held = measured;
-  held.linear_velocity.setZero();
-  held.angular_velocity.setZero();
-  return held;
+  return measured;
 }
 
 nlohmann::json TracePlayer::report() const {

@@ -13,7 +13,7 @@ class TracePlayer : public Device {
 
   msg::DeviceInfo info() const override;
   void command(const Wrench& wrench) noexcept override;
-  Measurement measure() noexcept override;
+  Measurement measure(std::int64_t now_ns) noexcept override;
   void pause(bool paused) noexcept override { paused_ = paused; }
   void restart() noexcept override { played_ = 0; }
   /// {"peak_force_n"}.

@@ -50,7 +50,7 @@ msg::DeviceInfo VirtualHand::info() const {
   return info;
 }
 
-Measurement VirtualHand::measure() noexcept {
+Measurement VirtualHand::measure(std::int64_t now_ns) noexcept {
   const double dt_s = period_s_ / substeps_;
   for (int i = 0; i < substeps_; ++i) {
     target_ = advance_target(dt_s);
@@ -60,6 +60,7 @@ Measurement VirtualHand::measure() noexcept {
   orientation_ = orientation();
   record();
   return {.valid = true,
+          .measured_ns = now_ns,
           .position = tip_.position,
           .orientation = orientation_,
           .linear_velocity = tip_.velocity,

@@ -15,7 +15,7 @@ class VirtualHand : public Device {
 
   msg::DeviceInfo info() const override;
   void command(const Wrench& wrench) noexcept override { wrench_ = wrench; }
-  Measurement measure() noexcept override;
+  Measurement measure(std::int64_t now_ns) noexcept override;
 
   /// The target comes to rest, or goes on, within a tenth of a second.
   void pause(bool paused) noexcept override { paused_ = paused; }

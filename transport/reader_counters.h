@@ -5,73 +5,56 @@
 
 #include <array>
 #include <atomic>
-#include <map>
-#include <mutex>
+#include <chrono>
+#include <limits>
 
 namespace omentum::transport {
 
-/// The members that tell a topic's instances apart, widened.
-using KeyValue = std::array<std::uint64_t, 2>;
-
-template <class M>
-KeyValue key_value(const M& message) noexcept {
-  KeyValue key{};
-  std::size_t next = 0;
-  for_each_field(message, [&](const msg::Field& field, const auto& member) {
-    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(member)>>) {
-      if (field.key) key[next++] = static_cast<std::uint64_t>(member);
-    }
-  });
-  return key;
-}
-
-/// Counts the whole deadline periods that passed between two samples of a key, and since its last. DDS'
+/// Counts the whole deadline periods that passed between two samples of a tool, and since its last. DDS'
 /// own deadline costs a timer per sample on the receiving side: the round trip through Fast DDS was 112-127
 /// us with it and 48-90 us without (docs/topics.md), so that writers offer a deadline and readers count.
-/// Any thread; a lock is held for some instructions.
 class DeadlineCounter {
  public:
-  explicit DeadlineCounter(std::chrono::nanoseconds period) : period_ns_(period.count()) {}
-
-  /// now_ns: when the sample came, on any steady clock.
-  void arrived(const KeyValue& key, std::int64_t now_ns) {
-    // a foreign writer must not make us remember keys without end
-    constexpr std::size_t kMostKeys = 64;
-    const std::lock_guard lock(mutex_);
-    const auto found = last_ns_.find(key);
-    if (found != last_ns_.end()) {
-      missed_ += periods(found->second, now_ns);
-      found->second = now_ns;
-    } else if (last_ns_.size() < kMostKeys) {
-      last_ns_.emplace(key, now_ns);
-    }
+  explicit DeadlineCounter(std::chrono::nanoseconds period) : period_ns_(period.count()) {
+    for (auto& last_ns : last_ns_) last_ns.store(kNever_ns, std::memory_order_relaxed);
   }
 
-  std::uint64_t missed(std::int64_t now_ns) const {
-    const std::lock_guard lock(mutex_);
-    std::uint64_t missed = missed_;
-    for (const auto& [key, last_ns] : last_ns_) missed += periods(last_ns, now_ns);
+  /// One thread at a time; neither waits nor allocates. now_ns: when the sample came, on any steady clock.
+  /// Tools from msg::MAX_TOOLS on are not counted.
+  void arrived(std::uint32_t tool, std::int64_t now_ns) noexcept {
+    if (tool >= last_ns_.size()) return;
+    const std::int64_t last_ns = last_ns_[tool].exchange(now_ns, std::memory_order_relaxed);
+    // released after the time above: who sees this gap counted does not see it open any more
+    missed_.fetch_add(periods(last_ns, now_ns), std::memory_order_release);
+  }
+
+  /// Any thread; never waits.
+  std::uint64_t missed(std::int64_t now_ns) const noexcept {
+    std::uint64_t missed = missed_.load(std::memory_order_acquire);
+    for (const auto& last_ns : last_ns_) missed += periods(last_ns.load(std::memory_order_relaxed), now_ns);
     return missed;
   }
 
  private:
-  std::uint64_t periods(std::int64_t from_ns, std::int64_t to_ns) const {
+  static constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
+
+  // none from kNever_ns on
+  std::uint64_t periods(std::int64_t from_ns, std::int64_t to_ns) const noexcept {
     return to_ns > from_ns ? static_cast<std::uint64_t>((to_ns - from_ns) / period_ns_) : 0;
   }
 
   const std::int64_t period_ns_;
-  mutable std::mutex mutex_;  // guards what follows
-  std::map<KeyValue, std::int64_t> last_ns_;
-  std::uint64_t missed_ = 0;
+  std::array<std::atomic<std::int64_t>, msg::MAX_TOOLS> last_ns_;  // when each tool's newest sample came
+  std::atomic<std::uint64_t> missed_{0};
 };
 
-/// The counters of one reader of M. Any thread.
+/// The counters of one reader of M. delivered() is for one thread at a time, all else for any; nothing waits.
 template <class M>
 class ReaderCounters {
  public:
-  void delivered(const M& sample) {
+  void delivered(const M& sample) noexcept {
     ++samples_;
-    if constexpr (kCountsDeadline) deadline_.arrived(key_value(sample), now_ns());
+    if constexpr (kCountsDeadline) deadline_.arrived(sample.tool, now_ns());
   }
   void rejected() { ++rejected_; }
   /// change: of the number of writers that are known and not alive

@@ -32,30 +32,35 @@ class Wall {
         poses_(bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { answer(pose); })) {}
 
   void send(std::uint32_t command) {
-    msg::SessionCommand message;
-    message.seq = ++command_seq_;
-    message.command = command;
-    commands_->write(message);
+    command_.seq += 1;
+    command_.command = command;
+    send_again();
   }
+  // omentum_session sends each command twice: the first copy may be lost while endpoints find each other
+  void send_again() { commands_->write(command_); }
 
   std::atomic<double> info_force_n{0};
   std::atomic<bool> device_paused{false};
   std::atomic<std::uint32_t> device_tools{0};
   std::atomic<double> pose_z{0};
+  std::atomic<std::uint64_t> numbers{0};  // of answers, those that are withheld included
+
+  // every so many numbers one is not sent: a lost answer
+  static constexpr std::uint64_t kWithheldOf = 10;
 
  private:
   void answer(const msg::ToolPose& pose) {
     pose_z = pose.position.z;
-    if (!pose.valid) return;
+    if (!pose.valid || ++numbers % kWithheldOf == 0) return;
     msg::ToolForce force;
     force.tool = pose.tool;
-    force.seq = ++force_seq_;
+    force.seq = numbers;
     force.echo_seq = pose.seq;
     force.echo_stamp_ns = pose.stamp_ns;
     force.force.z = kWall_n_m * std::max(0.0, -pose.position.z);
     force.valid_for_s = 0.005;
     forces_->write(force);
-    if (force_seq_ % 100 != 0) return;
+    if (numbers % 100 != 1) return;
     msg::NodeStatus status;
     status.echoes = {{pose.tool, pose.seq, pose.stamp_ns}};
     for (const auto kind : {msg::NODE_DEFORM, msg::NODE_RENDER}) {
@@ -64,7 +69,7 @@ class Wall {
     }
   }
 
-  std::uint64_t force_seq_ = 0, command_seq_ = 0;
+  msg::SessionCommand command_;
   std::unique_ptr<transport::Bus> bus_;
   std::unique_ptr<transport::Writer<msg::ToolForce>> forces_;
   std::unique_ptr<transport::Writer<msg::NodeStatus>> statuses_;
@@ -72,6 +77,22 @@ class Wall {
   std::unique_ptr<transport::Reader<msg::DeviceInfo>> infos_;
   std::unique_ptr<transport::Reader<msg::NodeStatus>> devices_;
   std::unique_ptr<transport::Reader<msg::ToolPose>> poses_;
+};
+
+/// Counts what the session asks of it.
+class ObservedHand : public VirtualHand {
+ public:
+  using VirtualHand::VirtualHand;
+  void pause(bool paused) noexcept override {
+    ++(paused ? paused_periods : running_periods);
+    VirtualHand::pause(paused);
+  }
+  void restart() noexcept override {
+    ++restarts;
+    VirtualHand::restart();
+  }
+
+  std::atomic<int> paused_periods{0}, running_periods{0}, restarts{0};
 };
 
 // Presses within a second of its start and holds for long.
@@ -91,8 +112,10 @@ class DeviceBridgeTest : public ::testing::TestWithParam<const char*> {
     options_.node.dds = GetParam();
     options_.node.domain = test::domain_of_test();
     wall_ = std::make_unique<Wall>(options_.node.dds, options_.node.domain);
+    auto hand = std::make_unique<ObservedHand>(eager_hand(), runtime::ToolSpec{}, loop_.rate_hz());
+    hand_ = hand.get();
     std::vector<std::unique_ptr<Device>> devices;
-    devices.push_back(std::make_unique<VirtualHand>(eager_hand(), runtime::ToolSpec{}, loop_.rate_hz()));
+    devices.push_back(std::move(hand));
     bridge_ = std::make_unique<DeviceBridge>(options_, std::move(devices), loop_);
     thread_ = std::thread([this] { bridge_->run(); });
   }
@@ -106,6 +129,7 @@ class DeviceBridgeTest : public ::testing::TestWithParam<const char*> {
   runtime::RateLoop loop_{500};
   BridgeOptions options_;
   std::unique_ptr<Wall> wall_;
+  const ObservedHand* hand_ = nullptr;  // the bridge's
   std::unique_ptr<DeviceBridge> bridge_;
   std::thread thread_;
 };
@@ -123,11 +147,48 @@ TEST_P(DeviceBridgeTest, TheHandFeelsTheWallAndTheReportSaysSo) {
   EXPECT_GT(report["link"]["tool_to_organ_us"]["count"], 0);
   EXPECT_GT(report["link"]["tool_to_picture_us"]["count"], 0);
   EXPECT_GT(report["sent"], 0);
-  EXPECT_TRUE(report["lost"].is_number());
   EXPECT_LT(report["energy_j"], 0);  // the hand deformed the wall
   EXPECT_TRUE(report["faults"].empty()) << report["faults"];
   EXPECT_GT(report["hands"][0]["peak_force_n"], 2.0);
   EXPECT_EQ(report["hands"][0]["tool"], 5);
+}
+
+TEST_P(DeviceBridgeTest, TellsLostAnswersFromUnansweredPoses) {
+  constexpr std::uint64_t kEnough = 200;
+  ASSERT_TRUE(test::comes_true([&] { return wall_->device_tools != 0 && wall_->numbers > kEnough; }));
+  end();
+
+  const nlohmann::json report = bridge_->report();
+  const std::uint64_t answers = report["answers"], lost = report["lost"], unanswered = report["unanswered"];
+  ASSERT_GT(answers, 0u);
+  // at least those that the wall withheld between the first and the last that came
+  EXPECT_GE(lost, (answers + lost) / Wall::kWithheldOf - 1);
+  EXPECT_LE(answers + lost, wall_->numbers);
+  // the wall gives each pose that it hears a number: a lost number is a pose without an answer
+  EXPECT_GE(unanswered, lost);
+  EXPECT_LE(answers + unanswered, report["sent"].get<std::uint64_t>());
+  EXPECT_EQ(report["refused"]["foreign"], 0);
+}
+
+TEST_P(DeviceBridgeTest, ACommandThatArrivesTwiceIsObeyedOnce) {
+  // once one command has come, the next ones come too, in order
+  ASSERT_TRUE(test::comes_true([&] {
+    wall_->send(msg::COMMAND_PAUSE);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return hand_->paused_periods > 0;
+  }));
+  wall_->send(msg::COMMAND_RESET);
+  ASSERT_TRUE(test::comes_true([&] { return hand_->restarts == 1; }));
+
+  const int running = hand_->running_periods;
+  wall_->send_again();
+  wall_->send(msg::COMMAND_START);
+  // what came before START is obeyed in the period that follows it, if not before
+  ASSERT_TRUE(test::comes_true([&] { return hand_->running_periods > running + 1; }));
+  EXPECT_EQ(hand_->restarts, 1);
+
+  wall_->send(msg::COMMAND_RESET);
+  EXPECT_TRUE(test::comes_true([&] { return hand_->restarts == 2; })) << "a new command is new";
 }
 
 TEST_P(DeviceBridgeTest, ObeysPauseAndStart) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace omentum::device {
@@ -25,34 +26,99 @@ TEST(ForceHold, ExertsNothingBeforeTheFirstAnswer) {
   EXPECT_EQ(hold.expired(), 0u);
 }
 
-TEST(ForceHold, HoldsAnAnswerWhileItIsValidThenLetsItDecayToZero) {
+// A hold whose force has faded in already: answers of `force` for a second before time zero.
+ForceHold holding(const Vec3& force) {
   ForceHold hold(kMaxForce_n, kMaxTorque_nm);
-  ASSERT_TRUE(hold.take(answer({0, 0, 2}), 100 * kMs));
-  EXPECT_EQ(hold.at(100 * kMs).force, Vec3(0, 0, 2));
-  EXPECT_EQ(hold.at(105 * kMs).force, Vec3(0, 0, 2));
+  for (std::int64_t ms = -1000; ms < 0; ++ms) {
+    EXPECT_TRUE(hold.take(answer(force), ms * kMs));
+    (void)hold.at(ms * kMs);
+  }
+  return hold;
+}
+
+TEST(ForceHold, HoldsAnAnswerWhileItIsValidThenLetsItDecayToZero) {
+  ForceHold hold = holding({0, 0, 2});
+  ASSERT_TRUE(hold.take(answer({0, 0, 2}), 0));
+  EXPECT_EQ(hold.at(0).force, Vec3(0, 0, 2));
+  EXPECT_EQ(hold.at(5 * kMs).force, Vec3(0, 0, 2));
   double last = 2;
-  for (int ms = 106; ms < 125; ++ms) {
+  for (int ms = 6; ms < 25; ++ms) {
     const double now = hold.at(ms * kMs).force.z();
     EXPECT_LT(now, last);
     EXPECT_GT(now, 0);
     last = now;
   }
-  EXPECT_EQ(hold.at(125 * kMs).force.norm(), 0);
+  EXPECT_EQ(hold.at(25 * kMs).force.norm(), 0);
   EXPECT_EQ(hold.at(9000 * kMs).torque.norm(), 0);
   EXPECT_EQ(hold.expired(), 1u);
 }
 
-TEST(ForceHold, ANewAnswerEndsTheDecay) {
+TEST(ForceHold, WhileAnswersComeInTimeTheyAreExertedAsTheyAre) {
+  ForceHold hold = holding({0, 0, 0.1});
+  ASSERT_TRUE(hold.take(answer({0, 0, 8}), 0));
+  EXPECT_EQ(hold.at(0).force, Vec3(0, 0, 8));
+  EXPECT_EQ(hold.expired(), 0u);
+}
+
+// The largest step of the force from one millisecond to the next while `force` is answered in each of them,
+// from `begin_ms` on until all of it is exerted.
+double largest_step_n(ForceHold& hold, const Vec3& force, std::int64_t begin_ms) {
+  Vec3 before = hold.at(begin_ms * kMs).force;
+  double largest_n = 0;
+  for (std::int64_t ms = begin_ms; before != force; ++ms) {
+    if (ms > begin_ms + 1000) return std::numeric_limits<double>::infinity();  // it never comes back
+    EXPECT_TRUE(hold.take(answer(force), ms * kMs));
+    const Vec3 now = hold.at(ms * kMs).force;
+    largest_n = std::max(largest_n, (now - before).norm());
+    before = now;
+  }
+  return largest_n;
+}
+
+// what may come back in a millisecond, with room for rounding
+constexpr double kStep_n = kMaxForce_n / ForceHold::kFadeIn_s * 1e-3 * (1 + 1e-9);
+
+TEST(ForceHold, AfterAnExpiryTheForceFadesInFromZero) {
+  ForceHold hold = holding({0, 0, 8});
+  EXPECT_EQ(hold.at(40 * kMs).force.norm(), 0);
+  EXPECT_LE(largest_step_n(hold, {0, 0, 8}, 40), kStep_n);
+}
+
+TEST(ForceHold, AnAnswerThatEndsTheDecayFadesInFromWhatIsLeft) {
+  ForceHold hold = holding({0, 0, 2});
+  const double left_n = hold.at(14 * kMs).force.z();
+  ASSERT_GT(left_n, 0);
+  ASSERT_LT(left_n, 2);
+  EXPECT_LE(largest_step_n(hold, {0, 0, 8}, 14), kStep_n);
+}
+
+TEST(ForceHold, TheFirstAnswerOfAllFadesIn) {
+  // the node may have answered for long, before the way back to the device was found
   ForceHold hold(kMaxForce_n, kMaxTorque_nm);
-  ASSERT_TRUE(hold.take(answer({0, 0, 2}), 0));
-  (void)hold.at(15 * kMs);
-  ASSERT_TRUE(hold.take(answer({0, 0, 3}), 16 * kMs));
-  EXPECT_EQ(hold.at(17 * kMs).force.z(), 3);
+  EXPECT_LE(largest_step_n(hold, {0, 0, 8}, 0), kStep_n);
+}
+
+TEST(ForceHold, AnExpiryThatNobodyLookedAtFadesInToo) {
+  // the device's loop stood still: its motors still exert what was commanded last
+  ForceHold hold = holding({0, 0, 1});
+  ASSERT_TRUE(hold.take(answer({0, 0, 8}), 50 * kMs));
+  EXPECT_LE((hold.at(50 * kMs).force - Vec3(0, 0, 1)).norm(), kStep_n);
+}
+
+TEST(ForceHold, WhileItFadesInAForceFallsAtOnceAndTorqueKeepsItsShare) {
+  ForceHold hold(kMaxForce_n, kMaxTorque_nm);
+  ASSERT_TRUE(hold.take(answer({0, 0, 8}), 0));
+  (void)hold.at(0);
+  ASSERT_TRUE(hold.take(answer({0, 0, 8}), 4 * kMs));
+  const Wrench partial = hold.at(4 * kMs);
+  EXPECT_LT(partial.force.z(), 1);
+  EXPECT_TRUE(partial.torque.isApprox(0.01 * partial.force));
+  ASSERT_TRUE(hold.take(answer({0, 0, 0}), 5 * kMs));
+  EXPECT_EQ(hold.at(5 * kMs).force.norm(), 0);
 }
 
 TEST(ForceHold, AnAnswerThatIsNotFiniteIsRefusedAndTheOldOneKept) {
-  ForceHold hold(kMaxForce_n, kMaxTorque_nm);
-  ASSERT_TRUE(hold.take(answer({1, 0, 0}), 0));
+  ForceHold hold = holding({1, 0, 0});
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_FALSE(hold.take(answer({0, bad, 0}), 1));
@@ -60,12 +126,11 @@ TEST(ForceHold, AnAnswerThatIsNotFiniteIsRefusedAndTheOldOneKept) {
     grip.grip_torque = bad;
     EXPECT_FALSE(hold.take(grip, 1));
   }
-  EXPECT_EQ(hold.at(2).force, Vec3(1, 0, 0));
+  EXPECT_EQ(hold.at(1).force, Vec3(1, 0, 0));
 }
 
 TEST(ForceHold, LimitsAreTheDevicesAndKeepTheDirection) {
-  ForceHold hold(kMaxForce_n, kMaxTorque_nm);
-  ASSERT_TRUE(hold.take(answer({300, -400, 0}), 0));
+  ForceHold hold = holding({300, -400, 0});
   EXPECT_TRUE(hold.at(0).force.isApprox(Vec3(6, -8, 0)));
   EXPECT_NEAR(hold.at(0).torque.norm(), kMaxTorque_nm, 1e-12);
 }

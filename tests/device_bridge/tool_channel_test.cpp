@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace omentum::device {
 namespace {
@@ -15,17 +16,22 @@ constexpr std::int64_t kMs = 1'000'000;
 
 // A device whose measurement the test sets and whose command it sees.
 struct FakeDevice : Device {
-  msg::DeviceInfo info() const override {
-    msg::DeviceInfo info;
-    info.tool = 3;
-    info.max_force_n = 5;
-    info.max_torque_nm = 1;
-    return info;
+  FakeDevice() {
+    limits.tool = 3;
+    limits.max_force_n = 5;
+    limits.max_torque_nm = 1;
   }
+  msg::DeviceInfo info() const override { return limits; }
   void command(const Wrench& wrench) noexcept override { commanded = wrench; }
-  Measurement measure() noexcept override { return measurement; }
+  Measurement measure(std::int64_t now_ns) noexcept override {
+    if (alive) measurement.measured_ns = now_ns - age_ns;
+    return measurement;
+  }
 
+  msg::DeviceInfo limits;
   Measurement measurement{.valid = true};
+  bool alive = true;        // false: its last measurement stays behind
+  std::int64_t age_ns = 0;  // of its measurements when they are read
   Wrench commanded;
 };
 
@@ -33,22 +39,53 @@ struct ToolChannelTest : ::testing::Test {
   runtime::FaultList faults;
   FakeDevice* device = new FakeDevice;
   ToolChannel channel{std::unique_ptr<Device>(device), faults};
+  msg::ToolPose pose;  // the newest
+  std::uint64_t answers = 0;
 
-  void answer(const Vec3& force, std::int64_t now_ns) {
+  const msg::ToolPose& tick(std::int64_t now_ns) { return pose = channel.tick(now_ns); }
+
+  // an answer to the newest pose, as haptic_node makes it
+  msg::ToolForce answer_with(const Vec3& force) {
     msg::ToolForce answer;
     answer.tool = 3;
+    answer.seq = ++answers;
+    answer.echo_seq = pose.seq;
+    answer.echo_stamp_ns = pose.stamp_ns;
     answer.force = to_message(force);
     answer.valid_for_s = 0.005;
-    channel.receive(answer, now_ns);
+    return answer;
+  }
+  void answer(const Vec3& force, std::int64_t now_ns) { channel.receive(answer_with(force), now_ns); }
+
+  // Answers of `force` in every millisecond of the second before time zero: it is exerted in full by then.
+  void fade_in(const Vec3& force) {
+    for (std::int64_t ms = -1000; ms < 0; ++ms) {
+      tick(ms * kMs);
+      answer(force, ms * kMs);
+    }
   }
 };
+
+TEST_F(ToolChannelTest, LimitsThatLimitNothingAreRefusedAtTheStart) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
+    for (const auto member : {&msg::DeviceInfo::max_force_n, &msg::DeviceInfo::max_torque_nm}) {
+      auto wrong = std::make_unique<FakeDevice>();
+      wrong->limits.*member = bad;
+      EXPECT_THROW(ToolChannel(std::move(wrong), faults), std::runtime_error) << bad;
+    }
+  }
+  auto nobodys = std::make_unique<FakeDevice>();
+  nobodys->limits.tool = msg::MAX_TOOLS;
+  EXPECT_THROW(ToolChannel(std::move(nobodys), faults), std::runtime_error);
+}
 
 TEST_F(ToolChannelTest, PosesCountUpAndCarryTheMeasurementAndItsTime) {
   device->measurement.position = {1, 2, 3};
   device->measurement.orientation = Quat(0.5, 0.5, 0.5, 0.5);
   device->measurement.grip = 0.3;
-  EXPECT_EQ(channel.tick(10).seq, 1u);
-  const msg::ToolPose& pose = channel.tick(20);
+  EXPECT_EQ(tick(10).seq, 1u);
+  const msg::ToolPose& pose = tick(20);
   EXPECT_EQ(pose.seq, 2u);
   EXPECT_EQ(pose.tool, 3u);
   EXPECT_EQ(pose.stamp_ns, 20);
@@ -59,67 +96,125 @@ TEST_F(ToolChannelTest, PosesCountUpAndCarryTheMeasurementAndItsTime) {
 }
 
 TEST_F(ToolChannelTest, CommandsTheNewestAnswerWithinTheDevicesLimits) {
-  channel.tick(0);
-  EXPECT_EQ(device->commanded.force.norm(), 0);
+  fade_in({0, 0, 9});
+  tick(0);
   answer({1, 0, 0}, kMs);
   answer({0, 0, 9}, kMs);
-  channel.tick(2 * kMs);
+  tick(2 * kMs);
   EXPECT_EQ(device->commanded.force, Vec3(0, 0, 5));
 }
 
 TEST_F(ToolChannelTest, WithoutAnswersTheCommandedForceVanishes) {
-  answer({0, 0, 2}, 0);
-  channel.tick(0);
-  channel.tick(30 * kMs);
+  fade_in({0, 0, 2});
+  tick(0);
+  EXPECT_EQ(device->commanded.force, Vec3(0, 0, 2));
+  tick(30 * kMs);
   EXPECT_EQ(device->commanded.force.norm(), 0);
   EXPECT_EQ(channel.expired(), 1u);
 }
 
 TEST_F(ToolChannelTest, AForceThatIsNotFiniteNeverReachesTheDevice) {
-  answer({0, std::numeric_limits<double>::quiet_NaN(), 0}, 0);
-  channel.tick(0);
+  fade_in({0, 0, 2});
+  tick(0);
+  answer({0, std::numeric_limits<double>::quiet_NaN(), 0}, kMs);
+  tick(kMs);
+  EXPECT_EQ(device->commanded.force, Vec3(0, 0, 2));
+  tick(100 * kMs);
   EXPECT_EQ(device->commanded.force.norm(), 0);
   ASSERT_EQ(faults.list().size(), 1u);
 }
 
+TEST_F(ToolChannelTest, AnotherDevicesForceIsNotExertedAndIsAFault) {
+  fade_in({0, 0, 2});
+  tick(0);
+  msg::ToolForce foreign = answer_with({0, 0, 5});
+  foreign.echo_stamp_ns -= kMs / 2;
+  EXPECT_EQ(channel.receive(foreign, kMs), AnswerVerdict::kForeign);
+  tick(kMs);
+  EXPECT_EQ(device->commanded.force, Vec3(0, 0, 2));
+  EXPECT_EQ(faults.list().size(), 1u);
+  EXPECT_EQ(channel.answers().foreign, 1u);
+}
+
+TEST_F(ToolChannelTest, AnAnswerThatWasKeptBackIsNotExerted) {
+  fade_in({0, 0, 2});
+  tick(0);
+  const msg::ToolForce kept_back = answer_with({0, 0, 5});
+  EXPECT_EQ(channel.receive(kept_back, 500 * kMs), AnswerVerdict::kLate);
+  tick(500 * kMs);
+  EXPECT_EQ(device->commanded.force.norm(), 0);
+  EXPECT_FALSE(faults.any());
+}
+
 TEST_F(ToolChannelTest, AMeasurementThatIsNotFiniteGoesOutAsInvalid) {
   device->measurement.position.y() = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(channel.tick(0).valid);
-  EXPECT_EQ(channel.tick(1).position.y, 0);
+  EXPECT_FALSE(tick(0).valid);
+  EXPECT_EQ(tick(1).position.y, 0);
   ASSERT_EQ(faults.list().size(), 1u);
   EXPECT_EQ(faults.list()[0].count, 2u);
 }
 
+TEST_F(ToolChannelTest, APoseIsStampedWithTheTimeOfItsMeasurementNotOfItsReading) {
+  device->age_ns = 3 * kMs;
+  EXPECT_EQ(tick(100 * kMs).stamp_ns, 97 * kMs);
+  EXPECT_TRUE(pose.valid);
+}
+
+TEST_F(ToolChannelTest, TheLastMeasurementOfADeadCallbackIsNotAMeasurementForEver) {
+  constexpr auto kOldest_ns = static_cast<std::int64_t>(1e9 * kOldestMeasurement_s);
+  tick(0);
+  device->alive = false;
+  EXPECT_TRUE(tick(kOldest_ns).valid);
+  EXPECT_EQ(pose.stamp_ns, 0) << "an old measurement must not look young";
+  EXPECT_FALSE(tick(kOldest_ns + 1).valid);
+  EXPECT_FALSE(tick(1000 * kMs).valid);
+  ASSERT_EQ(faults.list().size(), 1u);
+  device->alive = true;
+  EXPECT_TRUE(tick(1001 * kMs).valid);
+}
+
+TEST_F(ToolChannelTest, AMeasurementOfAnotherClockOrOfNoTimeIsNone) {
+  for (const std::int64_t measured_ns : {std::int64_t{0}, std::numeric_limits<std::int64_t>::min(),
+                                         std::numeric_limits<std::int64_t>::max(), 5000 * kMs}) {
+    device->alive = false;
+    device->measurement.measured_ns = measured_ns;
+    EXPECT_FALSE(tick(1000 * kMs).valid) << measured_ns;
+  }
+}
+
 TEST_F(ToolChannelTest, ADeviceWithoutAMeasurementIsNoFault) {
   device->measurement.valid = false;
-  EXPECT_FALSE(channel.tick(0).valid);
+  EXPECT_FALSE(tick(0).valid);
   EXPECT_FALSE(faults.any());
 }
 
 TEST_F(ToolChannelTest, EnergyIsTheForcesWorkOnTheHand) {
-  channel.tick(0);
+  fade_in({0, 0, 2});
+  tick(0);
   answer({0, 0, 2}, kMs);
   device->measurement.position = {0.1, 0, -0.03};  // against the force: the hand gives
-  channel.tick(kMs);
+  tick(kMs);
   EXPECT_NEAR(channel.energy_j(), -0.06, 1e-12);
   device->measurement.position = {0, 0, 0};
-  channel.tick(2 * kMs);
+  tick(2 * kMs);
   EXPECT_NEAR(channel.energy_j(), 0, 1e-12);
 }
 
 TEST_F(ToolChannelTest, AJumpWhileTheMeasurementWasInvalidIsNoWork) {
-  channel.tick(0);
+  fade_in({0, 0, 2});
+  tick(0);
   answer({0, 0, 2}, 0);
   device->measurement.valid = false;
-  channel.tick(kMs);
+  tick(kMs);
   device->measurement = {.valid = true, .position = {0, 0, 1}};
-  channel.tick(2 * kMs);
+  tick(2 * kMs);
   EXPECT_EQ(channel.energy_j(), 0);
 }
 
 TEST_F(ToolChannelTest, ReleaseLetsTheHandGo) {
-  answer({0, 0, 2}, 0);
-  channel.tick(0);
+  fade_in({0, 0, 2});
+  tick(0);
+  ASSERT_GT(device->commanded.force.norm(), 0);
   channel.release();
   EXPECT_EQ(device->commanded.force.norm(), 0);
 }
@@ -132,10 +227,13 @@ TEST(ToolChannel, PressingAnElasticWallGivesTheHandNoEnergy) {
   double deepest = 0, stored_j = 0;
   for (int i = 0; i < static_cast<int>(script_period_s(hand) * kRate_hz); ++i) {
     const std::int64_t now_ns = i * kMs;
-    const double depth = std::max(0.0, -channel.tick(now_ns).position.z);
+    const msg::ToolPose& pose = channel.tick(now_ns);
+    const double depth = std::max(0.0, -pose.position.z);
     deepest = std::max(deepest, depth);
     stored_j = std::min(stored_j, channel.energy_j());
     msg::ToolForce force;
+    force.seq = force.echo_seq = pose.seq;
+    force.echo_stamp_ns = pose.stamp_ns;
     force.force.z = kWall_n_m * depth;
     force.valid_for_s = 0.005;
     channel.receive(force, now_ns);
@@ -155,11 +253,13 @@ TEST(ToolChannel, TicksUseNoHeap) {
   ToolChannel channel(std::make_unique<VirtualHand>(hand, tool, 1000), faults);
   const std::size_t before = test::heap_allocations();
   for (int i = 0; i < 12'000; ++i) {
+    const msg::ToolPose& pose = channel.tick(i * kMs);
     msg::ToolForce force;
+    force.seq = force.echo_seq = pose.seq;
+    force.echo_stamp_ns = i % 70 == 0 ? 0 : pose.stamp_ns;
     force.force.z = i % 100 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1.0;
     force.valid_for_s = 0.005;
     channel.receive(force, i * kMs);
-    channel.tick(i * kMs);
   }
   EXPECT_EQ(test::heap_allocations(), before);
 }

@@ -64,8 +64,8 @@ TEST_F(VirtualDevice, EndsOnSigtermWithAReportOfAllFields) {
   ASSERT_TRUE(test::comes_true([&] { return test::read_text(log).find("\n100,") != std::string::npos; }));
   EXPECT_EQ(process.terminate(), 0) << process.messages();
   const auto json = nlohmann::json::parse(test::read_text(report));
-  for (const char* field :
-       {"dds", "loop", "round_trip_us", "sent", "lost", "energy_j", "faults", "hands", "link"}) {
+  for (const char* field : {"dds", "loop", "round_trip_us", "sent", "answers", "lost", "unanswered",
+                            "refused", "expired", "energy_j", "faults", "hands", "link"}) {
     EXPECT_TRUE(json.contains(field)) << field;
   }
   for (const char* field : {"tool_to_force_us", "tool_to_organ_us", "tool_to_picture_us"}) {

@@ -26,7 +26,7 @@ std::vector<Measurement> press(VirtualHand& device, const runtime::HandSpec& han
   std::vector<Measurement> measured;
   for (int i = 0; i < static_cast<int>(seconds * rate_hz); ++i) {
     if (!measured.empty()) device.command(wall_force(hand, measured.back().position));
-    measured.push_back(device.measure());
+    measured.push_back(device.measure(0));
   }
   return measured;
 }
@@ -61,13 +61,13 @@ TEST(VirtualHand, AnUnstableForceIsSeenAsOscillation) {
   // a wall that answers late and is far stiffer than the hand: the simulated hand must not hide it
   const runtime::HandSpec hand;
   VirtualHand device(hand, {}, 300);
-  std::vector<Measurement> measured{device.measure()};
+  std::vector<Measurement> measured{device.measure(0)};
   double top_speed = 0;
   for (int i = 0; i < 300 * 6; ++i) {
     Wrench wrench = wall_force(hand, measured.back().position);
     wrench.force *= 100;
     device.command(wrench);
-    measured.push_back(device.measure());
+    measured.push_back(device.measure(0));
     top_speed = std::max(top_speed, measured.back().linear_velocity.norm());
   }
   EXPECT_GT(top_speed, 10 * hand.hover_m / hand.approach_s);
@@ -79,24 +79,24 @@ TEST(VirtualHand, PauseHoldsTheTargetAndTheScriptGoesOnAfterIt) {
   press(device, hand, 1000, 2.0);
   device.pause(true);
   press(device, hand, 1000, 1.0);
-  const Vec3 held = device.measure().position;
+  const Vec3 held = device.measure(0).position;
   press(device, hand, 1000, 3.0);
-  EXPECT_LT((device.measure().position - held).norm(), 1e-9);
+  EXPECT_LT((device.measure(0).position - held).norm(), 1e-9);
   device.pause(false);
   press(device, hand, 1000, 1.0);
-  EXPECT_GT((device.measure().position - held).norm(), 1e-3);
+  EXPECT_GT((device.measure(0).position - held).norm(), 1e-3);
 }
 
 TEST(VirtualHand, RestartGlidesBackToTheStart) {
   const runtime::HandSpec hand;
   VirtualHand device(hand, {}, 1000);
-  const Vec3 start = device.measure().position;
+  const Vec3 start = device.measure(0).position;
   press(device, hand, 1000, 8.0);  // while it slides
   device.restart();
   const double speed_limit = 0.2;  // m/s: 15/8 of 5 cm in one second, and the spring's way out of the wall
   for (const Measurement& m : press(device, hand, 1000, 1.9))
     ASSERT_LT(m.linear_velocity.norm(), speed_limit);
-  EXPECT_LT((device.measure().position - start).norm(), 1e-4);
+  EXPECT_LT((device.measure(0).position - start).norm(), 1e-4);
 }
 
 TEST(VirtualHand, TheShaftPassesThroughTheTrocar) {
@@ -104,7 +104,7 @@ TEST(VirtualHand, TheShaftPassesThroughTheTrocar) {
   runtime::ToolSpec tool;
   tool.trocar = runtime::Triple{0.05, -0.1, 0.2};
   VirtualHand device(hand, tool, 1000);
-  Quat before = device.measure().orientation;
+  Quat before = device.measure(0).orientation;
   for (const Measurement& m : press(device, hand, 1000, script_period_s(hand))) {
     const Vec3 shaft = m.orientation * Vec3::UnitZ(), to_pivot = Vec3(tool.trocar->data()) - m.position;
     ASSERT_LT(shaft.cross(to_pivot.normalized()).norm(), 1e-9);
@@ -118,11 +118,37 @@ TEST(VirtualHand, TheShaftPassesThroughTheTrocar) {
   }
 }
 
+TEST(VirtualHand, ATrocarTurnsTheShaftAboutThePivotWithoutSpinAndLeavesTheTipToTheHand) {
+  const runtime::HandSpec hand;
+  runtime::ToolSpec tool;
+  tool.trocar = runtime::Triple{0.05, -0.1, 0.2};
+  const Vec3 pivot(tool.trocar->data());
+  VirtualHand held(hand, tool, 1000), free(hand, {}, 1000);
+  const auto held_way = press(held, hand, 1000, script_period_s(hand));
+  const auto free_way = press(free, hand, 1000, script_period_s(hand));
+  double turned = 0;
+  for (std::size_t i = 1; i < held_way.size(); ++i) {
+    const Measurement &before = held_way[i - 1], &now = held_way[i];
+    ASSERT_EQ(now.position, free_way[i].position) << "insertion is free, the pivot does not push the tip";
+    // The least rotation that tilts z by theta onto the shaft turns 1 / cos(theta / 2) times as fast as the
+    // shaft at most; one that spun about the shaft would turn faster.
+    const Vec3 shaft = now.orientation * Vec3::UnitZ();
+    const double half_tilt = 0.5 * std::acos(shaft.z());
+    const double lever_m = std::min((pivot - before.position).norm(), (pivot - now.position).norm());
+    const double swept = (now.position - before.position).norm() / lever_m;
+    const double turn = before.orientation.angularDistance(now.orientation);
+    // the tilt changes by `swept` at most meanwhile; below 1e-9 rad there is rounding only
+    ASSERT_LE(turn, swept / std::cos(half_tilt + swept) + 1e-9) << i;
+    turned += turn;
+  }
+  EXPECT_GT(turned, 0.1);
+}
+
 TEST(VirtualHand, WithoutATrocarTheShaftStandsOnTheSurface) {
   runtime::HandSpec hand;
   hand.press_normal = {0, 0.6, 0.8};
   VirtualHand device(hand, {}, 1000);
-  EXPECT_LT((device.measure().orientation * Vec3::UnitZ() - Vec3(0, 0.6, 0.8)).norm(), 1e-12);
+  EXPECT_LT((device.measure(0).orientation * Vec3::UnitZ() - Vec3(0, 0.6, 0.8)).norm(), 1e-12);
 }
 
 }  // namespace

@@ -84,4 +84,21 @@ inline msg::OrganState large_organ_state() {
   return state;
 }
 
+/// A surface of 20,000 nodes in blocks as deform_node cuts it for a LAN: each fits a datagram.
+inline std::vector<msg::OrganState> organ_state_in_blocks(std::size_t block_floats) {
+  constexpr std::size_t kFloats = 60'000;
+  std::vector<msg::OrganState> blocks;
+  for (std::size_t first = 0; first < kFloats; first += block_floats) {
+    msg::OrganState& block = blocks.emplace_back();
+    block.block = static_cast<std::uint32_t>(blocks.size() - 1);
+    block.block_count = static_cast<std::uint32_t>((kFloats + block_floats - 1) / block_floats);
+    block.first = static_cast<std::uint32_t>(first / 3);
+    block.node_count = kFloats / 3;
+    block.echoes.resize(msg::MAX_TOOLS);
+    for (std::size_t i = first; i < std::min(first + block_floats, kFloats); ++i)
+      block.values.push_back(static_cast<float>(i) * 1e-6F);
+  }
+  return blocks;
+}
+
 }  // namespace omentum::test

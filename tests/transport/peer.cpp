@@ -1,6 +1,6 @@
 // The other process of the contract tests: sends what the first argument names until its standard input ends,
 // and prints a line once its writers exist.
-//   transport_peer <known|durable|organ|poses> <fast|cyclone> <domain> [loopback|lan]
+//   transport_peer <known|durable|organ|blocks|contacts|poses> <fast|cyclone> <domain> <loopback|lan>
 #include "tests/transport/fill.h"
 #include "transport/topics.h"
 
@@ -72,6 +72,20 @@ void send_organ(Bus& bus) {
   until_input_ends(std::chrono::milliseconds(50), [&] { writer->write(state); });
 }
 
+// one block a millisecond, so that no receiver's buffer is filled by a state at once
+void send_blocks(Bus& bus) {
+  const auto writer = bus.writer<msg::OrganState>();
+  const auto blocks = test::organ_state_in_blocks(transport::organ_block_floats(transport::Profile::kLan));
+  std::size_t turn = 0;
+  until_input_ends(std::chrono::milliseconds(1), [&] { writer->write(blocks[turn++ % blocks.size()]); });
+}
+
+void send_contacts(Bus& bus) {
+  KnownSender<msg::Contact> contacts(bus);
+  std::size_t turn = 0;
+  until_input_ends(std::chrono::milliseconds(4), [&] { contacts.send(turn++); });
+}
+
 // two tools at 1 kHz, numbered from 1; every hundredth number is left out
 void send_poses(Bus& bus) {
   const auto writer = bus.writer<msg::ToolPose>();
@@ -89,20 +103,23 @@ void send_poses(Bus& bus) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4 && argc != 5) {
-    std::cerr << "usage: transport_peer <known|durable|organ|poses> <fast|cyclone> <domain> [loopback|lan]\n";
+  if (argc != 5) {
+    std::cerr << "usage: transport_peer <known|durable|organ|blocks|contacts|poses> <fast|cyclone> <domain> "
+                 "<loopback|lan>\n";
     return 2;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left behind by a test that was killed
   const std::string what = argv[1];
   const auto bus = Bus::open({.vendor = transport::parse_vendor(argv[2]),
                               .domain = std::stoi(argv[3]),
-                              .profile = transport::parse_profile(argc == 5 ? argv[4] : "loopback"),
+                              .profile = transport::parse_profile(argv[4]),
                               .name = what});
   if (what == "known") send_known(msg::AllTopics{}, *bus);
   if (what == "durable")
     send_durable(msg::TopicList<msg::DeviceInfo, msg::Topology, msg::SceneInfo, msg::NodeStatus>{}, *bus);
   if (what == "organ") send_organ(*bus);
+  if (what == "blocks") send_blocks(*bus);
+  if (what == "contacts") send_contacts(*bus);
   if (what == "poses") send_poses(*bus);
   return 0;
 }

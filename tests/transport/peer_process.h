@@ -3,7 +3,10 @@
 
 #include "transport/bus.h"
 
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +21,10 @@ inline const char* word(transport::Vendor vendor) {
   return vendor == transport::Vendor::kFast ? "fast" : "cyclone";
 }
 
+inline const char* word(transport::Profile profile) {
+  return profile == transport::Profile::kLan ? "lan" : "loopback";
+}
+
 /// A domain of this process's own; tests of one process that run one after the other get different ones.
 inline int own_domain() {
   constexpr int kDomains = 231;
@@ -25,10 +32,25 @@ inline int own_domain() {
   return (getpid() + 97 * uses++) % kDomains;
 }
 
+/// Whether an interface other than lo is up and does multicast: what profile `lan` finds its peers through.
+inline bool has_lan() {
+  ifaddrs* interfaces = nullptr;
+  if (getifaddrs(&interfaces) != 0) return false;
+  constexpr unsigned kNeeded = IFF_UP | IFF_RUNNING | IFF_MULTICAST;
+  bool found = false;
+  for (const ifaddrs* one = interfaces; one; one = one->ifa_next) {
+    const bool inet = one->ifa_addr && one->ifa_addr->sa_family == AF_INET;
+    found |= inet && (one->ifa_flags & (kNeeded | IFF_LOOPBACK)) == kNeeded;
+  }
+  freeifaddrs(interfaces);
+  return found;
+}
+
 /// The peer (peer.cpp), from the moment its writers exist until this object's end.
 class PeerProcess {
  public:
-  PeerProcess(const std::string& what, transport::Vendor vendor, int domain) {
+  PeerProcess(const std::string& what, transport::Vendor vendor, int domain,
+              transport::Profile profile = transport::Profile::kLoopback) {
     int to_peer[2], from_peer[2];
     if (pipe(to_peer) != 0 || pipe(from_peer) != 0) throw std::runtime_error("no pipe");
     const std::string program = std::string(OMENTUM_BIN_DIR) + "/transport_peer";
@@ -38,7 +60,8 @@ class PeerProcess {
       dup2(to_peer[0], STDIN_FILENO);
       dup2(from_peer[1], STDOUT_FILENO);
       for (const int end : {to_peer[0], to_peer[1], from_peer[0], from_peer[1]}) close(end);
-      execl(program.c_str(), program.c_str(), what.c_str(), word(vendor), number.c_str(), nullptr);
+      execl(program.c_str(), program.c_str(), what.c_str(), word(vendor), number.c_str(), word(profile),
+            nullptr);
       _exit(127);
     }
     close(to_peer[0]);

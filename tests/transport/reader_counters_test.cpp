@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 namespace omentum::transport {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
-constexpr KeyValue kFirst{0}, kSecond{1};
+constexpr std::uint32_t kFirst = 0, kSecond = 1;
 
 TEST(DeadlineCounter, CountsWholePeriodsBetweenSamples) {
   DeadlineCounter counter(std::chrono::milliseconds(40));
@@ -27,7 +30,7 @@ TEST(DeadlineCounter, CountsOnWhileNothingComes) {
   EXPECT_EQ(counter.missed(1085 * kMs), 2U) << "a gap is counted once";
 }
 
-TEST(DeadlineCounter, OneKeyDoesNotSpeakForAnother) {
+TEST(DeadlineCounter, OneToolDoesNotSpeakForAnother) {
   DeadlineCounter counter(std::chrono::milliseconds(40));
   counter.arrived(kFirst, 0);
   counter.arrived(kSecond, 0);
@@ -35,16 +38,33 @@ TEST(DeadlineCounter, OneKeyDoesNotSpeakForAnother) {
   EXPECT_EQ(counter.missed(100 * kMs), 2U);
 }
 
-TEST(DeadlineCounter, KeysWithoutEndAreNotRemembered) {
+TEST(DeadlineCounter, ToolsThatNoSceneHasAreNotCounted) {
   DeadlineCounter counter(std::chrono::milliseconds(1));
-  for (std::uint64_t key = 0; key < 1000; ++key) counter.arrived({key, 0}, 0);
-  EXPECT_LT(counter.missed(kMs), 1000U);
+  counter.arrived(msg::MAX_TOOLS, 0);
+  counter.arrived(~0U, 0);
+  EXPECT_EQ(counter.missed(1000 * kMs), 0U);
 }
 
-TEST(KeyValue, HoldsTheKeyMembersOnly) {
-  EXPECT_EQ(key_value(msg::ToolPose{.tool = 3, .seq = 9}), (KeyValue{3, 0}));
-  EXPECT_EQ(key_value(msg::NodeStatus{.kind = 1, .instance = 77}), (KeyValue{1, 77}));
-  EXPECT_EQ(key_value(msg::SceneInfo{.protocol = 1}), (KeyValue{0, 0}));
+TEST(DeadlineCounter, AGapIsNeverCountedTwiceWhileSamplesArrive) {
+  // a sample a period: no more periods can be missed than have passed
+  DeadlineCounter counter(std::chrono::nanoseconds(1));
+  constexpr std::int64_t kSamples = 200'000;
+  std::atomic<std::int64_t> now_ns{0};
+  std::atomic<int> too_many{0};
+  counter.arrived(kFirst, 0);
+  std::thread reader([&] {
+    while (now_ns < kSamples) {
+      const std::uint64_t missed = counter.missed(now_ns);
+      too_many += missed > static_cast<std::uint64_t>(now_ns.load());
+    }
+  });
+  for (std::int64_t i = 1; i <= kSamples; ++i) {
+    now_ns = i;
+    counter.arrived(kFirst, i);
+  }
+  reader.join();
+  EXPECT_EQ(too_many, 0);
+  EXPECT_EQ(counter.missed(kSamples), static_cast<std::uint64_t>(kSamples));
 }
 
 }  // namespace

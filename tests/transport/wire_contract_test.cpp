@@ -2,6 +2,7 @@
 #include "tests/transport/fill.h"
 #include "tests/transport/peer_process.h"
 #include "transport/latest.h"
+#include "transport/topics.h"
 
 #include <gtest/gtest.h>
 
@@ -24,14 +25,27 @@ struct Pairing {
 
 class WireContract : public testing::TestWithParam<Pairing> {
  protected:
+  explicit WireContract(Profile with = Profile::kLoopback) : profile(with) {}
+
   std::unique_ptr<PeerProcess> peer(const std::string& what) {
-    return std::make_unique<PeerProcess>(what, GetParam().writer, domain);
+    return std::make_unique<PeerProcess>(what, GetParam().writer, domain, profile);
   }
   std::unique_ptr<Bus> open() {
-    return Bus::open({.vendor = GetParam().reader, .domain = domain, .name = "wire_contract_test"});
+    return Bus::open(
+        {.vendor = GetParam().reader, .domain = domain, .profile = profile, .name = "wire_contract_test"});
   }
 
   int domain = test::own_domain();
+  Profile profile;
+};
+
+/// The same machine twice, but through a network's interface and with a network's message sizes.
+class LanContract : public WireContract {
+ protected:
+  LanContract() : WireContract(Profile::kLan) {}
+  void SetUp() override {
+    if (!test::has_lan()) GTEST_SKIP() << "no interface but lo is up and does multicast, which `lan` needs";
+  }
 };
 
 /// Collects which of the known messages arrived, and whether any other did.
@@ -189,17 +203,57 @@ TEST_P(WireContract, AReaderCanEndWhileSamplesArrive) {
   }
 }
 
+TEST_P(LanContract, PosesArriveForEachTool) {
+  const auto sender = peer("poses");
+  const auto bus = open();
+  const LatestByTool<msg::ToolPose> poses(*bus);
+  EXPECT_TRUE(
+      eventually([&] { return poses.counters(0).received > 100 && poses.counters(1).received > 100; }));
+  Arrived<msg::ToolPose> newest;
+  ASSERT_TRUE(poses.load(1, newest));
+  EXPECT_EQ(newest.sample.position.x, 2);
+}
+
+TEST_P(LanContract, AMessageOfSeveralDatagramsArrivesFieldByField) {
+  static_assert(msg::MAX_CONTACT_NODES * sizeof(msg::Vec3) > max_message_bytes(Profile::kLan));
+  const auto sender = peer("contacts");
+  const auto bus = open();
+  expect_all_known(KnownCollector<msg::Contact>(*bus));
+}
+
+TEST_P(LanContract, AnOrganStateArrivesInBlocksOfOneDatagram) {
+  const auto sender = peer("blocks");
+  const auto bus = open();
+  const std::vector<msg::OrganState> expected =
+      test::organ_state_in_blocks(organ_block_floats(Profile::kLan));
+  ASSERT_GT(expected.size(), 100U);
+  std::mutex mutex;
+  std::set<std::uint32_t> arrived;
+  std::size_t different = 0;
+  const auto reader = bus->reader<msg::OrganState>([&](const msg::OrganState& block) {
+    const std::lock_guard lock(mutex);
+    const bool equal = block.block < expected.size() && block == expected[block.block];
+    if (equal) arrived.insert(block.block);
+    different += !equal;
+  });
+  EXPECT_TRUE(eventually([&] {
+    const std::lock_guard lock(mutex);
+    return arrived.size() == expected.size();
+  }));
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(different, 0U);
+}
+
 std::string name(const testing::TestParamInfo<Pairing>& info) {
   const auto part = [](Vendor vendor) { return vendor == Vendor::kFast ? "Fast" : "Cyclone"; };
   return std::string(part(info.param.writer)) + "To" + part(info.param.reader);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllPairings, WireContract,
-                         testing::Values(Pairing{Vendor::kFast, Vendor::kFast},
-                                         Pairing{Vendor::kFast, Vendor::kCyclone},
-                                         Pairing{Vendor::kCyclone, Vendor::kFast},
-                                         Pairing{Vendor::kCyclone, Vendor::kCyclone}),
-                         name);
+const auto kAllPairings =
+    testing::Values(Pairing{Vendor::kFast, Vendor::kFast}, Pairing{Vendor::kFast, Vendor::kCyclone},
+                    Pairing{Vendor::kCyclone, Vendor::kFast}, Pairing{Vendor::kCyclone, Vendor::kCyclone});
+INSTANTIATE_TEST_SUITE_P(AllPairings, WireContract, kAllPairings, name);
+INSTANTIATE_TEST_SUITE_P(AllPairings, LanContract, kAllPairings, name);
 
 }  // namespace
 }  // namespace omentum::transport
