@@ -65,7 +65,7 @@ struct SafetyInput {
 
 struct SafeForce {
   Wrench wrench;
-  std::uint32_t state = 0;  // msg::FORCE_* bits; 0: exactly the model's
+  std::uint32_t state = 0;  // msg::FORCE_* bits; 0: exactly the model's, on driven axes
 };
 
 /// One tool's exit. Time base: the age of the pose on the haptic node's own clock, and the ticks' dt; both

@@ -7,17 +7,19 @@ namespace omentum::node {
 void SessionOrders::hear(const msg::SessionCommand& command) noexcept {
   switch (command.command) {
     case msg::COMMAND_START:
-      return flow_.store(Flow::kOrderedToRun, std::memory_order_relaxed);
+      flow_.store(Flow::kOrderedToRun, std::memory_order_relaxed);
+      break;
     case msg::COMMAND_PAUSE:
-      return flow_.store(Flow::kOrderedToPause, std::memory_order_relaxed);
+      flow_.store(Flow::kOrderedToPause, std::memory_order_relaxed);
+      break;
     case msg::COMMAND_RESET:
       if (is_new(command.seq)) reset_.store(true, std::memory_order_release);
-      return;
+      break;
     case msg::COMMAND_CLEAR_FAULT:
       if (is_new(command.seq)) clear_fault_.store(true, std::memory_order_release);
-      return;
+      break;
     default:
-      return;
+      break;
   }
 }
 

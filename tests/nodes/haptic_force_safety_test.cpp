@@ -479,6 +479,27 @@ TEST(SafetyThroughTheStep, ASampleThatSaysItIsNoneIsCountedAndNoFault) {
   EXPECT_FALSE(line.faults().any());
 }
 
+// The held underside of the block has no compliance of its own: the device's stiffness is felt, tick by tick.
+TEST(SafetyThroughTheStep, TheHeldBackOfAnOrganIsAsStiffAsTheDevice) {
+  constexpr double kStiffness = 1000, kStep_m = 1e-4;
+  LineBench line;
+  msg::DeviceInfo info{};
+  info.max_force_n = 20;
+  info.max_torque_nm = 1;
+  info.max_stiffness_n_m = kStiffness;
+  line.line().hear(info);
+  double before = 0, largest = 0;
+  for (int i = 0; i < 400; ++i) line.press({0.05, 0.05, -0.01});
+  for (int i = 0; i < 100; ++i) {
+    line.press({0.05, 0.05, -0.01 + i * kStep_m});
+    const double now = line.bench().output().force.norm();
+    EXPECT_LE(std::abs(now - before), 1.01 * kStiffness * kStep_m + kRounding_n) << "tick " << i;
+    before = now;
+    largest = std::max(largest, now);
+  }
+  EXPECT_GT(largest, 1) << "it was touched";
+}
+
 TEST(SafetyThroughTheStep, ADevicesNonsenseIsAFault) {
   LineBench line;
   msg::DeviceInfo info{};
