@@ -1,17 +1,13 @@
 #include "deform_node/contact_book.h"
 
+#include "node/vectors.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace omentum::deform {
 
-namespace {
-
-Vec3 to_vector(const msg::Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-}  // namespace
+using node::to_vector;
 
 double staleness_gain(double age_s) noexcept {
   return std::clamp(1.0 - (age_s - kContactStaleS) / kContactFadeS, 0.0, 1.0);

@@ -15,7 +15,8 @@ inline constexpr int kMaxTools = msg::MAX_TOOLS;
 inline constexpr int kMaxNodesPerTool = msg::MAX_CONTACT_NODES;
 inline constexpr int kMaxLoadedNodes = kMaxTools * kMaxNodesPerTool;
 
-/// A Contact comes at the haptic rate (1 kHz); when none came for this long haptic_node is gone, not late, s.
+/// Contacts come at 250 Hz, and at once when one begins or ends; when none came for this long haptic_node is
+/// gone, not late, s.
 inline constexpr double kContactStaleS = 0.1;
 /// The organ then comes back to rest within this: slow enough to be seen as a release, not as a jump, s.
 inline constexpr double kContactFadeS = 0.3;

@@ -15,6 +15,12 @@ namespace {
 
 constexpr double kStatusRateHz = 10;  // DESIGN 2: 1-10 Hz
 
+// How long to listen for a scene that is served already, ns: haptic_node listens as long, so that this delays
+// no force, and the first picture by a second.
+constexpr std::int64_t kListen_ns = 1'000'000'000;
+// A scene that is met after this is the newcomer's, ns: two Fast participants find each other within 2.9 s.
+constexpr std::int64_t kSettled_ns = 5'000'000'000;
+
 std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs) {
   std::vector<OrganNumbers> numbers;
   numbers.reserve(organs.size());
@@ -30,8 +36,12 @@ DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
       organs_(load_organs(scene_, transport::parse_profile(options.node.profile))),
       book_(numbers_of_all(organs_), faults_),
       loop_(loop),
+      start_ns_(runtime::steady_now_ns()),
+      scene_info_(describe_scene(scene_, organs_)),
+      orders_(start_ns_),
+      refusal_(loop),
       status_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
-      bus_(transport::Bus::open(node::bus_options(options.node, "deform_node"))) {
+      bus_(node::open_bus(options.node, "deform_node")) {
   if (!options.node.log.empty()) {
     log_ = std::make_unique<runtime::LoopLog>(options.node.log);
     loop_.log_to(*log_);
@@ -40,19 +50,41 @@ DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
   topology_writer_ = bus_->writer<msg::Topology>();
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
-  scene_writer_->write(describe_scene(scene_, organs_));
-  for (std::size_t i = 0; i < organs_.size(); ++i)
-    topology_writer_->write(uncut_topology(static_cast<std::uint32_t>(i), organs_[i].organ));
-
   contact_reader_ = bus_->reader<msg::Contact>(
       [this](const msg::Contact& contact) { book_.take(contact, runtime::steady_now_ns()); });
-  command_reader_ = bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { command(c); });
+  command_reader_ =
+      bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { orders_.hear(c); });
+  scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& other) { hear(other); });
+  node_reader_ = bus_->reader<msg::NodeStatus>(
+      [this](const msg::NodeStatus& other) { orders_.hear(other, runtime::steady_now_ns()); });
 }
 
 void DeformLoop::run() {
+  bool joined = false;
   while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {
-    tick();
+    if (!joined && runtime::steady_now_ns() - start_ns_ >= kListen_ns) {
+      introduce();
+      joined = true;
+    }
+    if (joined) tick();
     loop_.finish_tick();
+  }
+  refusal_.throw_if_any();
+}
+
+void DeformLoop::introduce() {
+  scene_writer_->write(scene_info_);
+  for (std::size_t i = 0; i < organs_.size(); ++i)
+    topology_writer_->write(uncut_topology(static_cast<std::uint32_t>(i), organs_[i].organ));
+}
+
+void DeformLoop::hear(const msg::SceneInfo& other) {
+  auto why = contradicts(scene_info_, other);
+  if (!why) return;
+  if (runtime::steady_now_ns() - start_ns_ > kSettled_ns) {
+    faults_.raise("scene: a deform_node with other organs or another protocol appeared, ignored");
+  } else {
+    refusal_.because(*std::move(why));
   }
 }
 
@@ -60,7 +92,7 @@ void DeformLoop::tick() noexcept {
   obey();
   const std::int64_t now_ns = runtime::steady_now_ns();
   book_.advance(now_ns);
-  if (!paused_.load(std::memory_order_relaxed)) {
+  if (!orders_.paused()) {
     for (std::size_t i = 0; i < organs_.size(); ++i)
       organs_[i].model->step(book_.loads(static_cast<std::uint32_t>(i)), 1 / options_.rate_hz);
     ++steps_;
@@ -70,7 +102,7 @@ void DeformLoop::tick() noexcept {
 }
 
 void DeformLoop::obey() noexcept {
-  if (!reset_.exchange(false, std::memory_order_acquire)) return;
+  if (!orders_.take_reset()) return;
   book_.forget(runtime::steady_now_ns());
   for (ServedOrgan& served : organs_) served.model->reset();
 }
@@ -86,16 +118,10 @@ void DeformLoop::publish(std::int64_t now_ns) noexcept {
 }
 
 void DeformLoop::publish_status() noexcept {
-  status_.paused = paused_.load(std::memory_order_relaxed);
+  status_.paused = orders_.paused();
   status_.echoes.assign(book_.echoes().begin(), book_.echoes().end());
   node::fill_status(loop_.record(), faults_, status_);
   status_writer_->write(status_);
-}
-
-void DeformLoop::command(const msg::SessionCommand& command) noexcept {
-  if (command.command == msg::COMMAND_START) paused_.store(false, std::memory_order_relaxed);
-  if (command.command == msg::COMMAND_PAUSE) paused_.store(true, std::memory_order_relaxed);
-  if (command.command == msg::COMMAND_RESET) reset_.store(true, std::memory_order_release);
 }
 
 nlohmann::json DeformLoop::report() const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "deform_node/served_organ.h"
+#include "node/refusal.h"
+#include "node/session_orders.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
@@ -10,28 +12,32 @@
 
 namespace omentum::deform {
 
+/// What deform_node's command line asks for.
 struct DeformOptions {
   runtime::NodeOptions node;
   double rate_hz = 100;  // faster than any screen, slow beside a step (DESIGN 2 asks for 60 or more)
 };
 
-/// Takes Contact and SessionCommand, publishes OrganState, Topology, SceneInfo and NodeStatus.
+/// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo and
+/// NodeStatus. Listens first: who finds a scene with other organs does not join it. Another scene that
+/// appears after kSettled_s is the newcomer's fault, and is ignored.
 class DeformLoop {
  public:
   /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace and must outlive this.
   DeformLoop(const DeformOptions& options, runtime::RateLoop& loop);
 
-  /// Until loop.stop().
+  /// Until loop.stop(). Throws std::runtime_error when another deform_node serves other organs.
   void run();
   /// After run(): the node's object of report.json (DESIGN 5).
   nlohmann::json report() const;
 
  private:
+  void introduce();
+  void hear(const msg::SceneInfo& other);
   void tick() noexcept;
   void obey() noexcept;
   void publish(std::int64_t now_ns) noexcept;
   void publish_status() noexcept;
-  void command(const msg::SessionCommand& command) noexcept;
 
   DeformOptions options_;
   runtime::Scene scene_;
@@ -40,8 +46,10 @@ class DeformLoop {
   ContactBook book_;
   runtime::RateLoop& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
-  std::atomic<bool> paused_{false};
-  std::atomic<bool> reset_{false};
+  std::int64_t start_ns_;
+  msg::SceneInfo scene_info_;
+  node::SessionOrders orders_;
+  node::Refusal refusal_;
   std::uint64_t steps_ = 0;
   std::uint64_t states_ = 0;
   std::uint64_t ticks_ = 0;
@@ -55,6 +63,8 @@ class DeformLoop {
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
   std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
+  std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;
+  std::unique_ptr<transport::Reader<msg::NodeStatus>> node_reader_;
 };
 
 }  // namespace omentum::deform

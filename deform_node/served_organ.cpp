@@ -76,6 +76,21 @@ msg::SceneInfo describe_scene(const runtime::Scene& scene, const std::vector<Ser
   return info;
 }
 
+std::optional<std::string> contradicts(const msg::SceneInfo& own, const msg::SceneInfo& other) {
+  if (other.protocol != own.protocol) {
+    return "the scene's deform_node speaks protocol " + std::to_string(other.protocol) +
+           ", this node speaks " + std::to_string(own.protocol);
+  }
+  for (std::size_t i = 0; i < std::max(own.organs.size(), other.organs.size()); ++i) {
+    const std::string mine = i < own.organs.size() ? own.organs[i].hash : "none",
+                      theirs = i < other.organs.size() ? other.organs[i].hash : "none";
+    if (mine == theirs) continue;
+    return "the scene's deform_node loaded another organ file: its hash is " + theirs + ", this node's is " +
+           mine;
+  }
+  return std::nullopt;
+}
+
 void fill_blocks(ServedOrgan& organ, std::uint64_t seq, std::int64_t stamp_ns,
                  std::span<const msg::Echo> echoes) noexcept {
   const std::span<const float> displacements = organ.model->displacements();

@@ -1,13 +1,10 @@
 #include "haptic_node/contact_message.h"
 
+#include "node/vectors.h"
+
 namespace omentum::haptic {
-namespace {
 
-msg::Vec3 to_message(const Vec3& v) {
-  return {.x = v.x(), .y = v.y(), .z = v.z()};
-}
-
-}  // namespace
+using node::to_message;
 
 msg::Contact make_contact_message(std::uint32_t tool_id) {
   msg::Contact message{};

@@ -9,6 +9,11 @@
 namespace omentum::haptic {
 namespace {
 
+// Poses that a device may be late by before it counts as silent.
+constexpr double kStaleIntervals = 2.5;
+// A stall is no reason to step: a tick counts for at most so many nominal periods of slew.
+constexpr double kSlewPeriods = 2;
+
 bool shorten(Vec3& v, double limit) {
   const double length = v.norm();
   if (length <= limit) return false;
@@ -24,10 +29,6 @@ bool approach(Vec3& target, const Vec3& from, double limit) {
 }
 
 }  // namespace
-
-bool is_finite(const Wrench& wrench) noexcept {
-  return wrench.force.allFinite() && wrench.torque.allFinite();
-}
 
 bool clamp_wrench(Wrench& wrench, double max_force_n, double max_torque_nm) noexcept {
   const bool force = shorten(wrench.force, max_force_n), torque = shorten(wrench.torque, max_torque_nm);
@@ -46,25 +47,9 @@ double fade(double gain, bool fresh, const ForceLimits& limits, double dt_s) noe
   return fresh ? std::min(1.0, gain + dt_s / limits.ramp_s) : std::max(0.0, gain - dt_s / limits.decay_s);
 }
 
-void PassivityObserver::observe(const Wrench& sent, const Vec3& way, const Vec3& turn, double stored_j,
-                                double dt_s) noexcept {
-  // exact for a device that holds its force between samples
-  const double given = sent.force.dot(way) + sent.torque.dot(turn);
-  given_j_ += given;
-  const double roof = std::max(stored_j, 0.0) + kReserve_j;
-  energy_j_ = std::min(energy_j_ - given, roof);
-  if (energy_j_ < kReserve_j) energy_j_ = std::min(energy_j_ + kRefill_w * dt_s, kReserve_j);
-}
-
-Vec3 PassivityObserver::damping(const Vec3& velocity, double dt_s) const noexcept {
-  const double speed_squared = velocity.squaredNorm();
-  if (energy_j_ >= 0 || !(speed_squared * dt_s > 0)) return Vec3::Zero();
-  return -std::min(-energy_j_ / (speed_squared * dt_s), kMaxDamping_n_s_m) * velocity;
-}
-
-void ForceSafety::set_device_limits(double max_force_n, double max_torque_nm) noexcept {
-  device_force_n_ = std::isfinite(max_force_n) ? std::max(0.0, max_force_n) : 0;
-  device_torque_nm_ = std::isfinite(max_torque_nm) ? std::max(0.0, max_torque_nm) : 0;
+double stale_after(double pose_interval_s, const ForceLimits& limits) noexcept {
+  const double longest_s = std::max(limits.stale_s, kLongestStale_s);
+  return std::clamp(kStaleIntervals * pose_interval_s, limits.stale_s, longest_s);
 }
 
 void ForceSafety::clear_fault() noexcept {
@@ -77,15 +62,19 @@ void ForceSafety::restart() noexcept {
   passivity_.restart();
 }
 
-// What the hand did since the last tick, under the force that was sent then.
+// What the hand did since the last tick, under the force that was written last.
 void ForceSafety::follow(const SafetyInput& input) noexcept {
-  if (known_place_ && !input.reconnected) {
-    const Vec3 way = input.tip - tip_;
-    if (input.dt_s > 0) velocity_ = way / input.dt_s;
-    passivity_.observe(sent_, way, rotation_between(orientation_, input.orientation), input.stored_j,
-                       input.dt_s);
-  } else {
+  if (input.written) acting_ = passed_;
+  if (!known_place_ || input.reconnected) {
     velocity_.setZero();
+  } else {
+    const Vec3 way = input.tip - tip_;
+    if (input.way_s > 0) {
+      way_s_ = input.way_s;
+      velocity_ = way / way_s_;
+    }
+    passivity_.observe(acting_, way, rotation_between(orientation_, input.orientation), input.stored_j,
+                       input.dt_s);
   }
   known_place_ = input.engaged;
   tip_ = input.tip;
@@ -94,35 +83,44 @@ void ForceSafety::follow(const SafetyInput& input) noexcept {
 
 void ForceSafety::fade_to(const SafetyInput& input, std::uint32_t& state) noexcept {
   if (input.reconnected) gain_ = 0;
-  const bool fresh = input.engaged && input.pose_age_s <= limits_.stale_s;
-  gain_ = fade(gain_, fresh, limits_, input.dt_s);
+  const double stale_s = stale_after(input.pose_interval_s, limits_);
+  const bool fresh = input.engaged && input.pose_age_s <= stale_s;
+  gain_ = fade(gain_, fresh && !input.paused, limits_, input.dt_s);
   // a tick that came late must not stretch the decay
-  const double spent = (input.pose_age_s - limits_.stale_s) / limits_.decay_s;
+  const double spent = (input.pose_age_s - stale_s) / limits_.decay_s;
   if (!fresh) gain_ = input.engaged ? std::clamp(1 - spent, 0.0, gain_) : 0;
   if (!fresh) state |= msg::FORCE_STALE;
-  if (fresh && gain_ < 1) state |= msg::FORCE_RAMP;
+  if (input.paused) {
+    state |= msg::FORCE_PAUSED;
+  } else if (fresh && gain_ < 1) {
+    state |= msg::FORCE_RAMP;
+  }
+  // what comes after a pause is a new account
+  if (input.paused && gain_ == 0) passivity_.restart();
 }
 
 Wrench ForceSafety::filter(const SafetyInput& input, std::uint32_t& state) noexcept {
-  Wrench wrench = input.model;
-  if (gain_ < 1) {
-    wrench.force *= gain_;
-    wrench.torque *= gain_;
-  }
-  const Vec3 damping = passivity_.damping(velocity_, input.dt_s);
-  if (!damping.isZero(0) && gain_ > 0) {
+  const double share = passivity_.model_share();
+  Wrench wrench{gain_ * share * input.model.force, gain_ * share * input.model.torque};
+  const Vec3 damping = passivity_.damping(velocity_, way_s_);
+  if (gain_ > 0 && (share < 1 || !damping.isZero(0))) {
     wrench.force += gain_ * damping;
     state |= msg::FORCE_PASSIVITY;
   }
-  const double max_force_n =
-      device_force_n_ > 0 ? std::min(device_force_n_, limits_.max_force_n) : limits_.max_force_n;
-  const double max_torque_nm =
-      device_torque_nm_ > 0 ? std::min(device_torque_nm_, limits_.max_torque_nm) : limits_.max_torque_nm;
-  if (clamp_wrench(wrench, max_force_n, max_torque_nm)) state |= msg::FORCE_CLAMPED;
-  if (slew_wrench(wrench, sent_, limits_, input.dt_s)) state |= msg::FORCE_SLEW;
-  // the decay binds what leaves, the slew limit included
-  if (state & msg::FORCE_STALE) clamp_wrench(wrench, gain_ * max_force_n, gain_ * max_torque_nm);
+  limit(input, wrench, state);
   return wrench;
+}
+
+void ForceSafety::limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept {
+  drop_unactuated(wrench, device_.actuated_axes, input.orientation);
+  const double max_force_n = std::min(device_.max_force_n, limits_.max_force_n);
+  const double max_torque_nm = std::min(device_.max_torque_nm, limits_.max_torque_nm);
+  if (clamp_wrench(wrench, max_force_n, max_torque_nm)) state |= msg::FORCE_CLAMPED;
+  const double slew_s = std::min(input.dt_s, kSlewPeriods * limits_.period_s);
+  if (slew_wrench(wrench, passed_, limits_, slew_s)) state |= msg::FORCE_SLEW;
+  // the decay binds what leaves, the slew limit included
+  if (state & (msg::FORCE_STALE | msg::FORCE_PAUSED))
+    clamp_wrench(wrench, gain_ * max_force_n, gain_ * max_torque_nm);
 }
 
 SafeForce ForceSafety::pass(const SafetyInput& input) noexcept {
@@ -135,17 +133,13 @@ SafeForce ForceSafety::pass(const SafetyInput& input) noexcept {
     follow(input);
     fade_to(input, out.state);
   }
-  if (input.paused) {
-    restart();
-    out.state |= msg::FORCE_PAUSED;
-  }
-  if (!faulted_ && !input.paused) out.wrench = filter(input, out.state);
+  if (!faulted_) out.wrench = filter(input, out.state);
   if (!is_finite(out.wrench)) faulted_ = true;
   if (faulted_) {
     restart();
     out = {Wrench{}, out.state | msg::FORCE_FAULT};
   }
-  sent_ = out.wrench;
+  passed_ = out.wrench;
   return out;
 }
 

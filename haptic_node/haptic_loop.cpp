@@ -13,7 +13,8 @@
 namespace omentum::haptic {
 namespace {
 
-// How long to listen for a node that serves these tools already: discovery takes up to a second (DESIGN 2).
+// How long to listen for a node that serves these tools already. Most find each other within a second; two
+// Fast participants may need 2.9 s, and who is found late is judged by its standing.
 constexpr std::int64_t kListen_ns = 1'000'000'000;
 
 // Contacts for picture and organ, which are slower; changes are told at once.
@@ -41,9 +42,10 @@ HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
       loop_(loop),
       state_(setup_.model),
       work_(setup_.model),
+      orders_(runtime::steady_now_ns()),
+      refusal_(loop),
       status_(node::introduce(msg::NODE_HAPTIC, options.rate_hz)) {
   status_.tools_served = bits_of(setup_.tool_ids);
-  claim_ = {status_.instance, status_.tools_served, setup_.organ_hash};
   if (!options.node.log.empty()) {
     log_ = std::make_unique<runtime::LoopLog>(options.node.log);
     loop_.log_to(*log_);
@@ -65,19 +67,16 @@ HapticLoop::~HapticLoop() = default;
 
 void HapticLoop::connect() {
   const runtime::RealtimeStart start(runtime::kHandLinkPriority);
-  bus_ = transport::Bus::open(node::bus_options(options_.node, "haptic_node"));
+  bus_ = node::open_bus(options_.node, "haptic_node");
   force_writer_ = bus_->writer<msg::ToolForce>();
   contact_writer_ = bus_->writer<msg::Contact>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   pose_reader_ = bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { hear(pose); });
   device_reader_ = bus_->reader<msg::DeviceInfo>([this](const msg::DeviceInfo& info) { hear(info); });
-  command_reader_ = bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { hear(c); });
-  scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& scene) {
-    if (auto why = contradicts(claim_, scene)) refuse(*std::move(why));
-  });
-  node_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& other) {
-    if (auto why = yields_to(claim_, other)) refuse(*std::move(why));
-  });
+  command_reader_ =
+      bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { orders_.hear(c); });
+  scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& scene) { hear(scene); });
+  node_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& other) { hear(other); });
 }
 
 // ---- the vendor's threads
@@ -94,24 +93,31 @@ void HapticLoop::hear(const msg::DeviceInfo& info) noexcept {
   }
 }
 
-void HapticLoop::hear(const msg::SessionCommand& command) noexcept {
-  if (command.command == msg::COMMAND_START) paused_.store(false, std::memory_order_relaxed);
-  if (command.command == msg::COMMAND_PAUSE) paused_.store(true, std::memory_order_relaxed);
-  if (command.command == msg::COMMAND_RESET) reset_.store(true, std::memory_order_release);
-  if (command.command == msg::COMMAND_CLEAR_FAULT) clear_fault_.store(true, std::memory_order_release);
+ServingClaim HapticLoop::claim() const {
+  return {status_.instance, status_.tools_served, setup_.organ_hash,
+          standing_.load(std::memory_order_relaxed)};
 }
 
-void HapticLoop::refuse(std::string why) {
-  {
-    const std::lock_guard lock(refusal_mutex_);
-    if (refusal_.empty()) refusal_ = std::move(why);
+void HapticLoop::hear(const msg::SceneInfo& scene) {
+  const ServingClaim own = claim();
+  auto why = contradicts(own, scene);
+  if (!why) return;
+  if (own.standing == Standing::kSettled) {
+    faults_.raise("scene: a deform_node with another organ file or protocol appeared, ignored");
+  } else {
+    refusal_.because(*std::move(why));
   }
-  loop_.stop();
+}
+
+void HapticLoop::hear(const msg::NodeStatus& other) {
+  orders_.hear(other, runtime::steady_now_ns());
+  if (auto why = yields_to(claim(), other)) refusal_.because(*std::move(why));
 }
 
 // ---- the loop's thread
 
 void HapticLoop::run() {
+  const std::jthread warm([this](const std::stop_token& stop) { warm_up(setup_.model.compliance, stop); });
   watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
   grant_ = runtime::request_realtime(runtime::kHandLoopPriority);
   if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
@@ -122,8 +128,7 @@ void HapticLoop::run() {
     loop_.finish_tick();
   }
   watch_ = {};
-  const std::lock_guard lock(refusal_mutex_);
-  if (!refusal_.empty()) throw std::runtime_error(refusal_);
+  refusal_.throw_if_any();
 }
 
 void HapticLoop::tick(std::int64_t now_ns) noexcept {
@@ -141,10 +146,10 @@ void HapticLoop::tick(std::int64_t now_ns) noexcept {
 }
 
 void HapticLoop::obey() noexcept {
-  if (clear_fault_.exchange(false, std::memory_order_acquire)) {
+  if (orders_.take_clear_fault()) {
     for (const auto& line : lines_) line->clear_fault();
   }
-  if (!reset_.exchange(false, std::memory_order_acquire)) return;
+  if (!orders_.take_reset()) return;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->restart();
     lines_[i]->expect_new_connection();
@@ -153,7 +158,7 @@ void HapticLoop::obey() noexcept {
 }
 
 void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
-  const bool paused = paused_.load(std::memory_order_relaxed);
+  const bool paused = orders_.paused();
   const auto again_ns = static_cast<std::int64_t>(kAnswerAgainPeriods * 1e9 / options_.rate_hz);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const msg::ToolForce& force = lines_[i]->answer(outputs_[i], now_ns, dt_s, paused);
@@ -208,7 +213,6 @@ void HapticLoop::watch(const std::stop_token& stop) {
   std::condition_variable_any wake;
   std::unique_lock lock(mutex);
   const std::int64_t listen_until_ns = runtime::steady_now_ns() + kListen_ns;
-  warm_up(setup_.model.compliance);
   while (!stop.stop_requested()) {
     if (runtime::steady_now_ns() >= listen_until_ns) publish_status();
     wake.wait_for(lock, stop, std::chrono::nanoseconds(kStatusPeriod_ns), [] { return false; });
@@ -218,10 +222,11 @@ void HapticLoop::watch(const std::stop_token& stop) {
 void HapticLoop::publish_status() {
   snapshots_.fetch();
   const Snapshot& snapshot = snapshots_.value();
-  status_.paused = paused_.load(std::memory_order_relaxed);
+  status_.paused = orders_.paused();
   status_.echoes.assign(snapshot.echoes.begin(),
                         snapshot.echoes.begin() + static_cast<std::ptrdiff_t>(lines_.size()));
   node::fill_status(snapshot.record, faults_, status_);
+  standing_.store(standing_of(status_.ticks, status_.rate_hz), std::memory_order_relaxed);
   status_writer_->write(status_);
 }
 

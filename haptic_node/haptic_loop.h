@@ -5,6 +5,8 @@
 #include "haptic_node/haptic_setup.h"
 #include "haptic_node/serving_claim.h"
 #include "haptic_node/tool_line.h"
+#include "node/refusal.h"
+#include "node/session_orders.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
@@ -13,11 +15,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <mutex>
 #include <thread>
 
 namespace omentum::haptic {
 
+/// What haptic_node's command line asks for.
 struct HapticOptions {
   runtime::NodeOptions node;
   double rate_hz = 1000;  // held without a device; the period against which a miss is counted
@@ -27,7 +29,9 @@ struct HapticOptions {
 ///
 /// Three kinds of threads. The vendor's put poses through the guard into mailboxes and wake the loop. The
 /// loop (run(), real-time where permitted) steps and writes forces at once; it waits for nobody. An ordinary
-/// one tells the node's status, and ends the loop when another node or scene has the better claim.
+/// one tells the node's status. Another node or scene with the better claim ends the loop; a scene that
+/// appears beside a settled node is a fault and changes nothing: nobody loses a tool in the middle of a
+/// press.
 class HapticLoop {
  public:
   /// Loads scene and organ and joins the domain. Throws what and where. `loop` sets the pace and must outlive
@@ -57,8 +61,9 @@ class HapticLoop {
 
   void hear(const msg::ToolPose& pose) noexcept;
   void hear(const msg::DeviceInfo& info) noexcept;
-  void hear(const msg::SessionCommand& command) noexcept;
-  void refuse(std::string why);
+  void hear(const msg::SceneInfo& scene);
+  void hear(const msg::NodeStatus& other);
+  ServingClaim claim() const;
   void watch(const std::stop_token& stop);
   void publish_status();
 
@@ -68,7 +73,6 @@ class HapticLoop {
   runtime::RateLoop& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
   runtime::RealtimeGrant grant_;
-  ServingClaim claim_;
 
   // the loop's thread
   HapticState state_;
@@ -87,11 +91,11 @@ class HapticLoop {
   int nodes_max_ = 0, neighbourhood_max_ = 0;
 
   // from the vendor's threads to the loop's
-  std::atomic<bool> paused_{false}, reset_{false}, clear_fault_{false};
+  node::SessionOrders orders_;
   runtime::Mailbox<Snapshot> snapshots_;
 
-  mutable std::mutex refusal_mutex_;
-  std::string refusal_;
+  node::Refusal refusal_;
+  std::atomic<Standing> standing_{Standing::kListening};  // as the last status told
 
   // declared last: callbacks and threads end before what they touch
   std::unique_ptr<transport::Bus> bus_;

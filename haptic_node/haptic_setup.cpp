@@ -10,10 +10,6 @@
 namespace omentum::haptic {
 namespace {
 
-// A pose that is this many periods old is late for its successor too: one period and a half is what jitter
-// makes of a device that runs slowly (300 Hz: 5 ms), not silence.
-constexpr double kStalePeriods = 2.5;
-
 Vec3 to_vector(const runtime::Triple& t) {
   return {t[0], t[1], t[2]};
 }
@@ -67,23 +63,24 @@ HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
   organ::Organ organ = organ::load_organ(file, organ::Load::kWithTensors);
   const std::string hash = organ.hash;
   const runtime::HapticsSpec& h = scene.haptics;
-  HapticSetup setup{make_model(scene, std::move(organ)),
-                    {},
-                    {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s,
-                     std::max(h.stale_s, kStalePeriods / rate_hz), h.decay_s},
-                    hash};
+  HapticSetup setup{
+      make_model(scene, std::move(organ)),
+      {},
+      {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s, h.stale_s, h.decay_s, 1 / rate_hz},
+      hash};
   for (const runtime::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
   return setup;
 }
 
-void warm_up(const physics::SurfaceCompliance& compliance) {
+void warm_up(const physics::SurfaceCompliance& compliance, const std::stop_token& stop) {
   const std::size_t floats = static_cast<std::size_t>(compliance.mobile_count()) *
                              compliance.cluster_count() * physics::SurfaceCompliance::kTileFloats;
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * page;
   if (floats == 0 || floats * sizeof(float) > memory / 2) return;
   const volatile float* begin = compliance.tile(physics::SurfaceId(0), 0);
-  for (std::size_t i = 0; i < floats; i += page / sizeof(float)) static_cast<void>(begin[i]);
+  for (std::size_t i = 0; i < floats && !stop.stop_requested(); i += page / sizeof(float))
+    static_cast<void>(begin[i]);
 }
 
 }  // namespace omentum::haptic

@@ -6,6 +6,8 @@
 #include "organ/organ.h"
 #include "runtime/scene.h"
 
+#include <stop_token>
+
 namespace omentum::haptic {
 
 struct HapticSetup {
@@ -17,12 +19,12 @@ struct HapticSetup {
 
 /// The first organ of the scene, which is the one that tools touch, with all its tools. Throws
 /// std::runtime_error (scene without organ, organ file or tools, more points than can be solved) or
-/// geometry::InputError (organ file). `rate_hz`: how often poses are expected; a pose is never called stale
-/// before the next but one was due, whatever the scene says.
+/// geometry::InputError (organ file). `rate_hz`: the loop's nominal rate.
 HapticSetup make_setup(const runtime::Scene& scene, double rate_hz);
 
 /// Reads every page of the tensors once, where they fit into half of the memory, so that the loop meets none
-/// for the first time on the disk. An ordinary thread's work: it takes as long as the disk does.
-void warm_up(const physics::SurfaceCompliance& compliance);
+/// for the first time on the disk. An ordinary thread's work: it takes as long as the disk does, or until
+/// `stop`.
+void warm_up(const physics::SurfaceCompliance& compliance, const std::stop_token& stop = {});
 
 }  // namespace omentum::haptic

@@ -7,19 +7,22 @@ namespace {
 
 using Gaps = std::array<Vec3, physics::kMaxContacts>;
 
-void pose_problem(const HapticModel& model, HapticState& state, HapticWorkspace& work) {
+void pose_problem(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
+                  HapticWorkspace& work) {
   const std::span<const ToolContact> contacts = state.active();
   work.problem.count = static_cast<int>(contacts.size());
   work.problem.friction = model.friction;
   for (int i = 0; i < work.problem.count; ++i) {
     const ToolContact& contact = contacts[i];
     work.shares[i] = share_of(model.surface, contact.held, work.nodes);
-    work.problem.contacts[i] = {contact.normal, free_gap(state, contact, work.surface), contact.grasped};
+    work.problem.contacts[i] = {contact.normal, free_gap(state, contact, work.surface), contact.grasped,
+                                contact.tool, inputs[contact.tool].max_stiffness_n_m};
     for (int j = 0; j <= i; ++j) {
       work.problem.W(i, j) = contact_compliance(work.nodes, work.shares[i], work.shares[j]);
       work.problem.W(j, i) = work.problem.W(i, j).transpose();
     }
   }
+  physics::limit_stiffness(work.problem);
 }
 
 Vec3 gap_of(const HapticWorkspace& work, std::span<const Vec3> forces, int i) {
@@ -163,7 +166,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   for (int i = 0; i < state.contact_count; ++i)
     free_gaps[i] = free_gap(state, state.contacts[i], work.surface);
   if (model.mode == ContactMode::kPoint) {
-    pose_problem(model, state, work);
+    pose_problem(model, inputs, state, work);
     solve_points(model, state, work, result, gaps);
   } else {
     solve_spread_contacts(model, state, work, gaps);

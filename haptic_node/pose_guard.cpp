@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace omentum::haptic {
 namespace {
@@ -47,11 +48,18 @@ const char* describe(PoseVerdict verdict) {
     case PoseVerdict::kNotARotation:
       return "orientation is no unit quaternion";
     case PoseVerdict::kOldSequence:
-      return "repeated or older sequence number";
+      return "repeated or older sequence number or stamp";
     case PoseVerdict::kJump:
       return "jumps farther than an instrument moves";
   }
   return "unknown";
+}
+
+std::int64_t stamp_difference_ns(std::int64_t earlier_ns, std::int64_t later_ns) noexcept {
+  std::int64_t difference = 0;
+  if (!__builtin_sub_overflow(later_ns, earlier_ns, &difference)) return difference;
+  return later_ns > earlier_ns ? std::numeric_limits<std::int64_t>::max()
+                               : std::numeric_limits<std::int64_t>::min();
 }
 
 PoseVerdict PoseGuard::form(const msg::ToolPose& pose) noexcept {
@@ -65,9 +73,9 @@ PoseVerdict PoseGuard::form(const msg::ToolPose& pose) noexcept {
 
 PoseVerdict PoseGuard::follows(const Sample& before, const msg::ToolPose& pose,
                                std::int64_t arrival_ns) noexcept {
-  if (pose.seq <= before.pose.seq || pose.stamp_ns < before.pose.stamp_ns) return PoseVerdict::kOldSequence;
+  if (pose.seq <= before.pose.seq || pose.stamp_ns <= before.pose.stamp_ns) return PoseVerdict::kOldSequence;
   // a burst arrives faster than it was measured, a late one was measured faster than it arrives
-  const std::int64_t measured_ns = pose.stamp_ns - before.pose.stamp_ns,
+  const std::int64_t measured_ns = stamp_difference_ns(before.pose.stamp_ns, pose.stamp_ns),
                      arrived_ns = arrival_ns - before.arrival_ns;
   const double gap_s = 1e-9 * std::clamp<std::int64_t>(std::max(measured_ns, arrived_ns), 0, kLongestGap_ns);
   if (distance(pose.position, before.pose.position) > kPlaceNoise_m + kMaxToolSpeed_m_s * gap_s ||

@@ -16,10 +16,10 @@ inline constexpr double kMaxTurnSpeed_rad_s = 60;
 enum class PoseVerdict : std::uint8_t {
   kAccepted,
   kReconnected,   // accepted: the first one, or a new place or count that lasted
-  kInvalid,       // the device says that it has no measurement
+  kInvalid,       // the device says that it has no measurement: no fault
   kNotFinite,     // NaN or infinity in any number
   kNotARotation,  // the quaternion's length is off
-  kOldSequence,   // repeated, or older than what is known
+  kOldSequence,   // repeated, or older than what is known, by number or stamp
   kJump,          // farther than an instrument can have moved
 };
 inline constexpr int kPoseVerdicts = 7;
@@ -30,6 +30,9 @@ const char* describe(PoseVerdict verdict);
 inline bool is_accepted(PoseVerdict verdict) {
   return verdict <= PoseVerdict::kReconnected;
 }
+
+/// later - earlier of two stamps from the wire; what does not fit is the largest there is.
+std::int64_t stamp_difference_ns(std::int64_t earlier_ns, std::int64_t later_ns) noexcept;
 
 /// Judges one tool's samples in order of arrival. A refused sample counts, and the pose before it ages on as
 /// if none had come.

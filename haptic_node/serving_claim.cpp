@@ -4,10 +4,17 @@
 
 namespace omentum::haptic {
 
+Standing standing_of(std::uint64_t ticks, double rate_hz) {
+  return static_cast<double>(ticks) >= kSettled_s * rate_hz ? Standing::kSettled : Standing::kYoung;
+}
+
 std::optional<std::string> yields_to(const ServingClaim& own, const msg::NodeStatus& other) {
-  if (other.kind != msg::NODE_HAPTIC || other.instance >= own.instance) return std::nullopt;
+  if (other.kind != msg::NODE_HAPTIC || other.instance == own.instance) return std::nullopt;
   const std::uint32_t common = own.tools_served & other.tools_served;
   if (common == 0) return std::nullopt;
+  const Standing theirs = standing_of(other.ticks, other.rate_hz);
+  const bool keeps = own.standing == theirs ? own.instance < other.instance : own.standing > theirs;
+  if (keeps) return std::nullopt;
   return "tool " + std::to_string(std::countr_zero(common)) +
          " is already served by the haptic_node on host " + other.host + " (instance " +
          std::to_string(other.instance) + ")";

@@ -3,6 +3,8 @@
 
 #include "haptic_node/haptic_model.h"
 
+#include <limits>
+
 namespace omentum::haptic {
 
 /// A tool in this tick.
@@ -11,6 +13,8 @@ struct ToolInput {
   bool relocated = false;  // it did not come here by moving: contacts are let go, nothing is swept
   ToolFrame frame;         // as measured
   double grip = 0;         // jaw opening, rad
+  // the stiffest wall that its device renders, N/m
+  double max_stiffness_n_m = std::numeric_limits<double>::infinity();
 };
 
 /// Moves the tools' points to this tick's poses, lets go of what disengaged or relocated tools held, and

@@ -1,27 +1,28 @@
 #include "haptic_node/tool_line.h"
 
+#include "node/vectors.h"
+
+#include <algorithm>
+
 namespace omentum::haptic {
-namespace {
 
-msg::Vec3 to_message(const Vec3& v) {
-  return {.x = v.x(), .y = v.y(), .z = v.z()};
-}
-
-}  // namespace
+using node::to_message;
+using node::to_vector;
 
 ToolFrame frame_of(const msg::ToolPose& pose) noexcept {
   const msg::Quat& q = pose.orientation;
-  return {{pose.position.x, pose.position.y, pose.position.z},
-          Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
+  return {to_vector(pose.position), Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
 }
 
 ToolLine::ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults)
-    : id_(id), valid_for_s_(limits.stale_s), faults_(faults), safety_(limits) {
+    : id_(id), limits_(limits), faults_(faults), safety_(limits) {
   const std::string tool = "tool " + std::to_string(id) + ": ";
   for (int v = 0; v < kPoseVerdicts; ++v) {
     refusals_[v] = tool + "pose refused: " + describe(static_cast<PoseVerdict>(v));
   }
   force_fault_ = tool + "force is not finite, held at zero until the fault is cleared";
+  source_fault_ = tool + "contact feeds the hand, its force is cut";
+  device_fault_ = tool + "DeviceInfo has a limit that is none, ignored";
 }
 
 bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
@@ -30,17 +31,24 @@ bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
   lost_.store(guard_.lost(), std::memory_order_relaxed);
   if (!is_accepted(verdict)) {
     refused_.fetch_add(1, std::memory_order_relaxed);
-    faults_.raise(refusals_[static_cast<std::size_t>(verdict)]);
+    if (verdict != PoseVerdict::kInvalid) faults_.raise(refusals_[static_cast<std::size_t>(verdict)]);
     return false;
   }
   accepted_.fetch_add(1, std::memory_order_relaxed);
-  if (verdict == PoseVerdict::kReconnected) ++connections_;
-  poses_.post({pose, now_ns, connections_});
+  if (verdict == PoseVerdict::kReconnected) {
+    ++connections_;
+    interval_.restart(now_ns);
+  } else {
+    interval_.add(now_ns);
+  }
+  poses_.post({pose, now_ns, connections_, interval_.seconds()});
   return true;
 }
 
 void ToolLine::hear(const msg::DeviceInfo& info) noexcept {
-  limits_.post({info.max_force_n, info.max_torque_nm});
+  const ReadLimits read = read_limits(info);
+  if (!read.sound) faults_.raise(device_fault_);
+  device_.post(read.limits);
 }
 
 PoseCounts ToolLine::counts() const noexcept {
@@ -49,14 +57,30 @@ PoseCounts ToolLine::counts() const noexcept {
 }
 
 bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
-  if (limits_.fetch()) safety_.set_device_limits(limits_.value().force_n, limits_.value().torque_nm);
+  if (device_.fetch()) {
+    safety_.set_device(device_.value());
+    max_stiffness_n_m_ = device_.value().max_stiffness_n_m;
+  }
   const bool fresh = poses_.fetch();
   const HeardPose& heard = poses_.value();
   reconnected_ = heard.connection != connection_;
-  connection_ = heard.connection;
+  way_s_ = 0;
+  if (fresh) take(heard);
   engaged_ = heard.connection > 0 && now_ns - heard.arrival_ns < kLetGo_ns;
-  input = {engaged_, reconnected_, frame_of(heard.pose), heard.pose.grip};
+  input = {engaged_, reconnected_, frame_of(heard.pose), heard.pose.grip, max_stiffness_n_m_};
   return fresh;
+}
+
+// How long the way from the pose before took: a burst arrives faster than it was measured, and stamps may be
+// in any unit; the longer one makes the hand slow rather than fast.
+void ToolLine::take(const HeardPose& heard) noexcept {
+  if (!reconnected_) {
+    way_s_ = 1e-9 * static_cast<double>(std::max(stamp_difference_ns(stamp_ns_, heard.pose.stamp_ns),
+                                                 heard.arrival_ns - taken_arrival_ns_));
+  }
+  connection_ = heard.connection;
+  stamp_ns_ = heard.pose.stamp_ns;
+  taken_arrival_ns_ = heard.arrival_ns;
 }
 
 const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t now_ns, double dt_s,
@@ -68,13 +92,14 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   input.tip = frame_of(heard.pose).p_WT;
   input.orientation = frame_of(heard.pose).q_WT;
   input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
+  input.pose_interval_s = heard.interval_s;
+  input.way_s = way_s_;
   input.dt_s = dt_s;
   input.engaged = engaged_;
   input.reconnected = reconnected_;
   input.paused = paused;
-  const bool fault_before = safety_.faulted();
-  const SafeForce safe = safety_.pass(input);
-  if (safety_.faulted() && !fault_before) faults_.raise(force_fault_);
+  input.written = written_;
+  const SafeForce safe = pass(input);
 
   force_.tool = id_;
   force_.echo_seq = heard.pose.seq;
@@ -82,14 +107,25 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   force_.force = to_message(safe.wrench.force);
   force_.torque = to_message(safe.wrench.torque);
   force_.grip_torque = 0;  // rigid jaws: the tissue between them does not push them open
-  force_.valid_for_s = valid_for_s_;
+  force_.valid_for_s = stale_after(heard.interval_s, limits_);
   force_.state = safe.state;
   return force_;
+}
+
+// Through the exit; what changed for the worse is a fault, once for each time.
+SafeForce ToolLine::pass(const SafetyInput& input) noexcept {
+  const bool faulted_before = safety_.faulted(), cut_before = safety_.passivity().model_share() < 1;
+  const SafeForce safe = safety_.pass(input);
+  written_ = false;
+  if (safety_.faulted() && !faulted_before) faults_.raise(force_fault_);
+  if (safety_.passivity().model_share() < 1 && !cut_before) faults_.raise(source_fault_);
+  return safe;
 }
 
 const msg::ToolForce& ToolLine::to_send(std::uint64_t tick) noexcept {
   ++force_.seq;
   force_.tick = tick;
+  written_ = true;
   return force_;
 }
 

@@ -4,6 +4,7 @@
 #include "haptic_node/force_safety.h"
 #include "haptic_node/haptic_step.h"
 #include "haptic_node/pose_guard.h"
+#include "haptic_node/pose_interval.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
 
@@ -24,13 +25,15 @@ class ToolLine {
   /// gone, so that a hiccup of the network does not leave the tip inside the organ without contact.
   static constexpr std::int64_t kLetGo_ns = 1'000'000'000;
 
+  /// `id`: which tool of the scene. `faults` must outlive the line.
   ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults);
 
   std::uint32_t id() const noexcept { return id_; }
 
   // ---- the vendor's threads, one at a time for each message
 
-  /// Whether the pose was accepted: then the loop has something to do.
+  /// Whether the pose was accepted: then the loop has something to do. A sample that says itself that it is
+  /// none (`valid` down) is counted with the refused ones; any other refused one is a fault as well.
   bool hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept;
   void hear(const msg::DeviceInfo& info) noexcept;
 
@@ -51,7 +54,9 @@ class ToolLine {
   /// The newest answer as the next sample of the topic: only what is sent is counted.
   const msg::ToolForce& to_send(std::uint64_t tick) noexcept;
 
+  /// After a reset: the next force fades in from zero, on a new energy account.
   void restart() noexcept;
+  /// A person says that the latched fault is mended: the next force fades in from zero.
   void clear_fault() noexcept { safety_.clear_fault(); }
   bool engaged() const noexcept { return engaged_; }
   /// The newest pose that counts; seq 0 and stamp 0 before the first.
@@ -63,32 +68,40 @@ class ToolLine {
     msg::ToolPose pose{};
     std::int64_t arrival_ns = 0;
     std::uint64_t connection = 0;  // counts new connections; 0: none yet
-  };
-  struct DeviceLimits {
-    double force_n = 0, torque_nm = 0;
+    double interval_s = 0;         // how often they come; 0: not known
   };
 
+  void take(const HeardPose& heard) noexcept;
+  SafeForce pass(const SafetyInput& input) noexcept;
+
   std::uint32_t id_;
-  double valid_for_s_;
+  ForceLimits limits_;
   runtime::FaultList& faults_;
   std::array<std::string, kPoseVerdicts> refusals_;  // texts, made beforehand
-  std::string force_fault_;
+  std::string force_fault_, source_fault_, device_fault_;
 
   // the vendor's threads
   PoseGuard guard_;
+  PoseInterval interval_;
   std::uint64_t connections_ = 0;
   std::atomic<bool> forget_{false};
   std::atomic<std::uint64_t> accepted_{0}, refused_{0}, lost_{0};
   runtime::Mailbox<HeardPose> poses_;
-  runtime::Mailbox<DeviceLimits> limits_;
+  runtime::Mailbox<DeviceLimits> device_;
 
   // the loop's thread
   ForceSafety safety_;
+  double max_stiffness_n_m_ = kUsualStiffness_n_m;
   bool engaged_ = false, reconnected_ = false;
-  std::uint64_t connection_ = 0;
+  std::uint64_t connection_ = 0;                      // of the newest pose taken ...
+  std::int64_t stamp_ns_ = 0, taken_arrival_ns_ = 0;  // ... and when it was measured and came
+  double way_s_ = 0;      // what the way to it took; 0: no pose was taken in this tick
+  bool written_ = false;  // the last answer was sent
   msg::ToolForce force_{};
 };
 
+/// The pose's frame. The quaternion is normalized; it must not be zero (PoseGuard lets none pass). Any
+/// thread.
 ToolFrame frame_of(const msg::ToolPose& pose) noexcept;
 
 }  // namespace omentum::haptic

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <iostream>
 
 namespace omentum::node {
 
@@ -29,6 +30,13 @@ transport::BusOptions bus_options(const runtime::NodeOptions& options, std::stri
           .profile = transport::parse_profile(options.profile),
           .name = std::move(name),
           .keystore = options.keystore};
+}
+
+std::unique_ptr<transport::Bus> open_bus(const runtime::NodeOptions& options, const std::string& name) {
+  auto bus = transport::Bus::open(bus_options(options, name));
+  const std::string warning = bus->warning();
+  if (!warning.empty()) std::cerr << name << ": warning: " << warning << std::endl;
+  return bus;
 }
 
 msg::NodeStatus introduce(std::uint32_t kind, double rate_hz) {

@@ -289,6 +289,21 @@ class Solver {
 
 }  // namespace
 
+void limit_stiffness(ContactProblem& problem) noexcept {
+  std::array<double, kMaxContacts> root_c;
+  for (int i = 0; i < problem.count; ++i) {
+    const PointContact& contact = problem.contacts[i];
+    const double compliance = contact.normal.dot(problem.W(i, i) * contact.normal);
+    root_c[i] = std::sqrt(std::max(0.0, 1 / contact.max_stiffness_n_m - compliance));
+    for (int j = 0; j <= i; ++j) {
+      const double shared = root_c[i] * root_c[j];
+      if (shared == 0 || problem.contacts[j].body != contact.body) continue;
+      problem.W(i, j).diagonal().array() += shared;
+      if (j < i) problem.W(j, i).diagonal().array() += shared;
+    }
+  }
+}
+
 ContactSolution solve_contacts(const ContactProblem& problem, std::span<Vec3> forces,
                                ContactWorkspace& workspace) noexcept {
   assert(problem.count >= 0 && problem.count <= kMaxContacts);

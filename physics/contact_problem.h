@@ -5,6 +5,8 @@
 #include "geometry/types.h"
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 namespace omentum::physics {
@@ -28,6 +30,9 @@ struct PointContact {
   Vec3 normal = Vec3::UnitZ();   // outward, unit: tissue pushes along it and never pulls
   Vec3 free_gap = Vec3::Zero();  // p - X: tool point minus rest position of the material point, m
   bool bilateral = false;        // grasped: sticks and may pull
+  std::int32_t body = 0;         // the rigid tool that the point belongs to
+  // the stiffest wall that the tool's device renders, N/m
+  double max_stiffness_n_m = std::numeric_limits<double>::infinity();
 };
 
 /// For every contact i, with lambda_i the force on the tissue and the gap
@@ -48,6 +53,15 @@ struct ContactProblem {
     return compliance[static_cast<std::size_t>(i) * kMaxContacts + j];
   }
 };
+
+/// Puts the spring of a tool's device between the tool and what is stiffer than it (a pinned surface, where W
+/// is zero): within a body
+///     W_ij += sqrt(c_i c_j) I,  c_i = max(0, 1 / k_max - n_i . W_ii n_i).
+/// Points where the surface is softer than k_max keep their compliance, bit for bit. Those where it is not
+/// move the one spring together, so that a body pressed into a rigid wall feels k_max however many points
+/// touch; and c_i follows the point alone, so that no force jumps when another point begins to touch. Stays
+/// symmetric and positive semidefinite. No allocation.
+void limit_stiffness(ContactProblem& problem) noexcept;
 
 enum class ContactStatus : std::uint8_t {
   kConverged,       // every law holds within kGapTolerance_m

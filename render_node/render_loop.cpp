@@ -78,7 +78,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const runtime::Scene& scene
       schedule_(picture_period_s(options, renderer.has_window())),
       account_(std::llround(1e9 / options.fps)),
       status_(node::introduce(msg::NODE_RENDER, options.fps)),
-      bus_(transport::Bus::open(node::bus_options(options.node, "render_node"))) {
+      bus_(node::open_bus(options.node, "render_node")) {
   choices_.orbit = view_.first_camera();
   choices_.endoscope = scene_.camera.mode == "endoscope";
   for (std::size_t t = 0; t < rows_.size(); ++t) {

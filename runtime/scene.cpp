@@ -16,6 +16,20 @@ constexpr std::size_t kMaxOrgans = 16;  // idl/common.idl, MAX_ORGANS
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
+// A scene may make force safety stricter or suit it to a device; it must not disarm it.
+// The strongest table-top devices give 40 N and some N m at the handle: more is a wrong unit.
+constexpr Range kMaxForce_n{.minimum = 0, .maximum = 50, .above = true};
+constexpr Range kMaxTorque_nm{.minimum = 0, .maximum = 5, .above = true};
+// Above 5 N in a tick of 1 ms nothing is left of a limit of 10 N that is approached gently.
+constexpr Range kSlew_n_s{.minimum = 0, .maximum = 5000, .above = true};
+// Fading in faster is a blow to a hand that engages inside an organ; slower than 10 s looks like a dead
+// device.
+constexpr Range kRamp_s{.minimum = 0.02, .maximum = 10};
+// Longer than haptic_node grants the slowest device (kLongestStale_s) a hand is driven by no measurement.
+constexpr Range kStale_s{.minimum = 0, .maximum = 0.025, .above = true};
+// Faster is a blow, slower pushes a hand that has let go, or whose device is dead.
+constexpr Range kDecay_s{.minimum = 0.002, .maximum = 0.05};
+
 // A path in a scene is meant from the scene's folder.
 std::filesystem::path beside(const std::filesystem::path& scene, const std::filesystem::path& file) {
   return (scene.parent_path() / file).lexically_normal();
@@ -81,13 +95,17 @@ HapticsSpec read_haptics(TomlSection s) {
   HapticsSpec haptics;
   s.read("friction", haptics.friction, kOptional, kNotNegative);
   s.read_word("contact", haptics.contact, kOptional, {"point", "spread"});
-  s.read("max_force_n", haptics.max_force_n, kOptional, kPositive);
-  s.read("max_torque_nm", haptics.max_torque_nm, kOptional, kPositive);
-  s.read("max_slew_n_s", haptics.max_slew_n_s, kOptional, kPositive);
-  s.read("ramp_s", haptics.ramp_s, kOptional, kNotNegative);
-  s.read("stale_s", haptics.stale_s, kOptional, kPositive);
-  s.read("decay_s", haptics.decay_s, kOptional, kPositive);
+  s.read("max_force_n", haptics.max_force_n, kOptional, kMaxForce_n);
+  s.read("max_torque_nm", haptics.max_torque_nm, kOptional, kMaxTorque_nm);
+  s.read("max_slew_n_s", haptics.max_slew_n_s, kOptional, kSlew_n_s);
+  s.read("ramp_s", haptics.ramp_s, kOptional, kRamp_s);
+  s.read("stale_s", haptics.stale_s, kOptional, kStale_s);
+  s.read("decay_s", haptics.decay_s, kOptional, kDecay_s);
   s.refuse_unknown_keys();
+  // the paper's spread imposes three whole displacements: what sticks there sticks without a limit, as glue
+  // does
+  if (haptics.contact == "spread" && haptics.friction > 0)
+    s.refuse("friction", "friction with contact = \"spread\"", "0, or contact = \"point\"");
   return haptics;
 }
 

@@ -46,14 +46,16 @@ struct HandSpec {
   double start_s = 1, approach_s = 2, press_s = 1.5, hold_s = 2, slide_s = 3, release_s = 1.5;  // then again
 };
 
+/// How contacts answer, and the scene's part of force safety. The limits have bounds of their own
+/// (scene.cpp): no scene disarms them.
 struct HapticsSpec {
-  double friction = 0;            // Coulomb coefficient; 0 is frictionless
+  double friction = 0;            // Coulomb coefficient; 0 is frictionless; needs contact = "point"
   std::string contact = "point";  // "point" (continuous point constraint) or "spread" (Cotin 1999's alpha_v)
   double max_force_n = 10;        // the scene's own limits, below any device's
   double max_torque_nm = 0.5;
   double max_slew_n_s = 2000;
   double ramp_s = 0.2;     // fading in after engage and reconnect
-  double stale_s = 0.005;  // a pose older than this ...
+  double stale_s = 0.005;  // a pose older than this (or 2.5 intervals of a slower device) ...
   double decay_s = 0.02;   // ... decays the force to zero within this
 };
 

@@ -19,8 +19,8 @@ constexpr double kDiscoveryS = 5.0;
 /// Other vendors' nodes are found up to this much after the first one.
 constexpr double kSettleS = 1.2;
 /// "Matched" is not "ready": a first sample may be lost across vendors (WIRE.md), so a command is sent twice,
-/// this far apart; it says what shall be, so that the second one changes nothing. The same time is left for
-/// delivery.
+/// this far apart, under one sequence number, by which nodes know the second one (node/session_orders.h). The
+/// same time is left for delivery.
 constexpr double kDeliveryS = 0.2;
 
 void sleep_s(double seconds) {
@@ -69,12 +69,11 @@ int main(int argc, char** argv) {
   const std::map<std::string, std::uint32_t> commands{{"start", msg::COMMAND_START},
                                                       {"pause", msg::COMMAND_PAUSE},
                                                       {"reset", msg::COMMAND_RESET},
-                                                      {"record", msg::COMMAND_RECORD},
                                                       {"clear-fault", msg::COMMAND_CLEAR_FAULT}};
   CLI::App app("Sends one command to every node of a running session.", "omentum_session");
   std::string command, dds = "fast", profile = "loopback", keystore;
   int domain = 0, nodes = 0;
-  app.add_option("command", command, "start, pause, reset, record or clear-fault")
+  app.add_option("command", command, "start, pause, reset or clear-fault")
       ->required()
       ->check(CLI::IsMember(commands));
   app.add_option("--dds", dds, "DDS vendor: fast or cyclone")

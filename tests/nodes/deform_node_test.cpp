@@ -56,10 +56,14 @@ class Bench {
         bus_(transport::Bus::open({.vendor = own, .domain = domain_, .name = "test"})),
         contacts_(bus_->writer<msg::Contact>()),
         commands_(bus_->writer<msg::SessionCommand>()),
+        other_scenes_(bus_->writer<msg::SceneInfo>()),
+        others_(bus_->writer<msg::NodeStatus>()),
         states_(bus_->reader<msg::OrganState>([this](const msg::OrganState& s) { keep(state_, s); })),
         scenes_(bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& s) { keep(scene_, s); })),
         topologies_(bus_->reader<msg::Topology>([this](const msg::Topology& t) { keep(topology_, t); })),
-        statuses_(bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& s) { keep(status_, s); })) {}
+        statuses_(bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& s) {
+          if (s.kind == msg::NODE_DEFORM) keep(status_, s);
+        })) {}
 
   std::optional<msg::OrganState> state() { return get(state_); }
   std::optional<msg::SceneInfo> scene() { return get(scene_); }
@@ -68,7 +72,11 @@ class Bench {
   test::Process& node() { return node_; }
 
   void send(const msg::Contact& contact) { contacts_->write(contact); }
-  void command(std::uint32_t command) { commands_->write({.seq = 1, .command = command, .argument = {}}); }
+  void send(const msg::SceneInfo& scene) { other_scenes_->write(scene); }
+  void send(const msg::NodeStatus& status) { others_->write(status); }
+  void command(std::uint32_t command) {
+    commands_->write({.seq = ++commands_sent_, .command = command, .argument = {}});
+  }
 
   /// Sends the contact, as often as haptic_node might, until a state with its echo comes back.
   std::optional<msg::OrganState> answer_to(const msg::Contact& contact) {
@@ -94,6 +102,7 @@ class Bench {
 
   int domain_;
   test::Process node_;
+  std::uint64_t commands_sent_ = 0;
   std::mutex mutex_;
   std::optional<msg::OrganState> state_;
   std::optional<msg::SceneInfo> scene_;
@@ -102,6 +111,8 @@ class Bench {
   std::unique_ptr<transport::Bus> bus_;
   std::unique_ptr<transport::Writer<msg::Contact>> contacts_;
   std::unique_ptr<transport::Writer<msg::SessionCommand>> commands_;
+  std::unique_ptr<transport::Writer<msg::SceneInfo>> other_scenes_;
+  std::unique_ptr<transport::Writer<msg::NodeStatus>> others_;
   std::unique_ptr<transport::Reader<msg::OrganState>> states_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scenes_;
   std::unique_ptr<transport::Reader<msg::Topology>> topologies_;
@@ -193,6 +204,25 @@ TEST_P(DeformNodeTest, PausedItKeepsItsShapeAndGoesOnPublishing) {
   EXPECT_EQ(bench_.state()->values, held->values);
   bench_.command(msg::COMMAND_START);
   EXPECT_TRUE(test::comes_true([&] { return largest(*bench_.state()) == 0; }));
+}
+
+TEST_P(DeformNodeTest, WhoJoinsAPausedSessionIsPaused) {
+  msg::NodeStatus device{};
+  device.kind = msg::NODE_DEVICE;
+  device.instance = 1;
+  device.paused = true;
+  bench_.send(device);
+  ASSERT_TRUE(test::comes_true([&] { return bench_.status() && bench_.status()->paused; }));
+  bench_.command(msg::COMMAND_START);
+  EXPECT_TRUE(test::comes_true([&] { return !bench_.status()->paused; }));
+}
+
+TEST_P(DeformNodeTest, ASceneWithAnotherOrganIsNotJoined) {
+  bench_.send(msg::SceneInfo{
+      .protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{.name = "o", .hash = "abc"}}});
+  EXPECT_EQ(bench_.node().wait(), 2);
+  EXPECT_NE(bench_.node().messages().find("abc"), std::string::npos) << bench_.node().messages();
+  EXPECT_NE(bench_.node().messages().find(organ_.hash), std::string::npos) << bench_.node().messages();
 }
 
 TEST_P(DeformNodeTest, BadContactsAreFaultsInItsReportAndTheEndIsClean) {

@@ -94,6 +94,7 @@ void expect_no_allocation(double friction, haptic::ContactMode mode) {
       bench.place(0, a).place(1, b, 0.3 * (1 + std::sin(20 * t))).step();
       msg::ToolPose pose{};
       pose.seq = static_cast<std::uint64_t>(i) + 1;
+      pose.stamp_ns = i * 1'000'000LL;
       pose.valid = true;
       pose.orientation.w = i % 50 == 0 ? 0.3 : 1.0;
       line.hear(pose, i * 1'000'000LL);

@@ -66,6 +66,7 @@ SafetyInput fresh(const Wrench& model) {
   SafetyInput input;
   input.model = model;
   input.dt_s = kTick_s;
+  input.way_s = kTick_s;
   input.engaged = true;
   return input;
 }
@@ -105,13 +106,55 @@ TEST(ForceSafety, NotANumberLatchesUntilSomebodyClearsIt) {
 TEST(ForceSafety, TheSmallerOfSceneAndDeviceLimitsCounts) {
   ForceSafety safety = ramped_up({.max_force_n = 10, .max_slew_n_s = 1e9});
   EXPECT_NEAR(safety.pass(fresh(force_z(50))).wrench.force.z(), 10, kRounding_n);
-  safety.set_device_limits(3.3, 0.1);
+  safety.set_device({.max_force_n = 3.3, .max_torque_nm = 0.1});
   const SafeForce out = safety.pass(fresh({Vec3(0, 0, 50), Vec3(1, 0, 0)}));
   EXPECT_TRUE(out.state & msg::FORCE_CLAMPED);
   EXPECT_NEAR(out.wrench.force.z(), 3.3, kRounding_n);
   EXPECT_NEAR(out.wrench.torque.x(), 0.1, kRounding_n);
-  safety.set_device_limits(kNan, -1);
-  EXPECT_NEAR(safety.pass(fresh(force_z(50))).wrench.force.z(), 10, kRounding_n) << "nonsense is no limit";
+  safety.set_device({.max_force_n = 0, .max_torque_nm = 0});
+  EXPECT_EQ(safety.pass(fresh(force_z(50))).wrench.force, Vec3::Zero()) << "none may be asked for";
+}
+
+TEST(ForceSafety, AxesWithoutAMotorGetNothing) {
+  ForceSafety safety = ramped_up();
+  safety.set_device({.actuated_axes = msg::AXIS_X | msg::AXIS_Z | msg::AXIS_ROLL});
+  SafetyInput input = fresh({Vec3(1, 1, 1), Vec3(0.1, 0.1, 0.1)});
+  input.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY()));  // the shaft is along x
+  const SafeForce out = safety.pass(input);
+  EXPECT_LE((out.wrench.force - Vec3(1, 0, 1)).norm(), kRounding_n);
+  EXPECT_LE((out.wrench.torque - Vec3(0.1, 0, 0)).norm(), kRounding_n);
+  safety.set_device({.actuated_axes = msg::AXIS_GRIP});
+  EXPECT_EQ(safety.pass(input).wrench.torque, Vec3::Zero());
+}
+
+TEST(ForceSafety, AStallIsNoReasonToStep) {
+  ForceSafety safety = ramped_up();
+  SafetyInput late = fresh(force_z(10));
+  late.dt_s = 0.02;
+  EXPECT_LE(safety.pass(late).wrench.force.z(), 4 + kRounding_n) << "two nominal periods of 2 N";
+}
+
+TEST(DeviceLimits, WhatIsNoLimitIsIgnoredAndSaid) {
+  msg::DeviceInfo info{};
+  info.max_stiffness_n_m = 1000;
+  EXPECT_TRUE(haptic::read_limits(info).sound);
+  EXPECT_EQ(haptic::read_limits(info).limits.max_force_n, 0) << "0 is meant";
+  for (const double nonsense : {kNan, -1.0, std::numeric_limits<double>::infinity()}) {
+    for (int field = 0; field < 3; ++field) {
+      msg::DeviceInfo bad = info;
+      double* const fields[] = {&bad.max_force_n, &bad.max_torque_nm, &bad.max_stiffness_n_m};
+      *fields[field] = nonsense;
+      const haptic::ReadLimits read = haptic::read_limits(bad);
+      EXPECT_FALSE(read.sound);
+      const double limits[] = {read.limits.max_force_n, read.limits.max_torque_nm,
+                               read.limits.max_stiffness_n_m};
+      const haptic::DeviceLimits unknown;
+      const double defaults[] = {unknown.max_force_n, unknown.max_torque_nm, unknown.max_stiffness_n_m};
+      EXPECT_EQ(limits[field], defaults[field]);
+    }
+  }
+  info.max_stiffness_n_m = 0;
+  EXPECT_FALSE(haptic::read_limits(info).sound) << "nothing can be felt with it";
 }
 
 TEST(ForceSafety, StepsAreSlewed) {
@@ -167,17 +210,31 @@ TEST(ForceSafety, OneLateTickDoesNotStretchTheDecay) {
   EXPECT_EQ(safety.pass(late).wrench.force, Vec3::Zero());
 }
 
-TEST(ForceSafety, PauseIsZeroAndStartFadesIn) {
-  ForceSafety safety = ramped_up();
-  SafetyInput input = fresh(force_z(2));
-  input.paused = true;
-  SafeForce out = safety.pass(input);
-  EXPECT_EQ(out.wrench.force, Vec3::Zero());
-  EXPECT_TRUE(out.state & msg::FORCE_PAUSED);
-  input.paused = false;
-  out = safety.pass(input);
-  EXPECT_TRUE(out.state & msg::FORCE_RAMP);
-  EXPECT_LE(out.wrench.force.z(), 2 * kTick_s / 0.2 + kRounding_n);
+TEST(ForceSafety, PauseDecaysAndStartFadesIn) {
+  for (const double slew : {2000.0, 50.0}) {  // a slow slew limit must not hold the force up
+    ForceSafety safety = ramped_up({.max_slew_n_s = slew});
+    for (int i = 0; i < 300; ++i) static_cast<void>(safety.pass(fresh(force_z(8))));
+    SafetyInput input = fresh(force_z(8));
+    input.paused = true;
+    const double step = kTick_s / ForceLimits{}.decay_s;
+    double before = 8;
+    for (double t = kTick_s; t < 0.03; t += kTick_s) {
+      const SafeForce out = safety.pass(input);
+      EXPECT_TRUE(out.state & msg::FORCE_PAUSED);
+      EXPECT_LE(out.wrench.force.z(), before);
+      if (slew > 1000) {
+        EXPECT_GE(out.wrench.force.z(), before - 8 * step - kRounding_n) << "no step";
+      }
+      if (t > ForceLimits{}.decay_s + kTick_s / 2) {
+        EXPECT_EQ(out.wrench.force, Vec3::Zero());
+      }
+      before = out.wrench.force.z();
+    }
+    input.paused = false;
+    const SafeForce out = safety.pass(input);
+    EXPECT_TRUE(out.state & msg::FORCE_RAMP);
+    EXPECT_LE(out.wrench.force.z(), 8 * kTick_s / 0.2 + kRounding_n);
+  }
 }
 
 TEST(ForceSafety, ReconnectingFadesIn) {
@@ -204,6 +261,79 @@ TEST(ForceSafety, AnActiveModelCannotFeedTheHand) {
   // without the controller the hand would have got 12 N s/m * (0.05 m/s)^2 / 2 * 5 s = 75 mJ
   using Observer = haptic::PassivityObserver;
   EXPECT_LE(safety.passivity().given_j(), Observer::kReserve_j + 5 * Observer::kRefill_w + 2e-3);
+}
+
+// Sources that no damper balances: the energy given stays bounded all the same, and the force comes back by
+// itself when the source ends.
+TEST(ForceSafety, ASourceBeyondTheDamperIsCutOff) {
+  using Observer = haptic::PassivityObserver;
+  for (const double source_n_s_m : {50.0, 500.0, 1e5}) {
+    for (const double speed_m_s : {0.05, 0.5}) {
+      ForceSafety safety = ramped_up();
+      Vec3 tip = Vec3::Zero();
+      double most_j = 0;
+      for (int i = 0; i < 20'000; ++i) {
+        const Vec3 velocity(speed_m_s * std::cos(2 * M_PI * 8 * i * kTick_s), 0, 0);
+        tip += kTick_s * velocity;
+        SafetyInput input = fresh({source_n_s_m * velocity, Vec3::Zero()});
+        input.tip = tip;
+        static_cast<void>(safety.pass(input));
+        most_j = std::max(most_j, safety.passivity().given_j());
+        ASSERT_GE(safety.passivity().energy_j(), Observer::kFloor_j);
+      }
+      const double bound_j = Observer::kReserve_j - Observer::kFloor_j + 20 * Observer::kRefill_w;
+      EXPECT_LE(most_j, bound_j) << source_n_s_m << " N s/m at " << speed_m_s << " m/s";
+    }
+  }
+}
+
+TEST(ForceSafety, AfterASourceTheHandIsNotInMudForMinutes) {
+  ForceSafety safety = ramped_up();
+  SafetyInput input = fresh(force_z(10));
+  for (int i = 0; i < 1000; ++i) {  // 0.1 m/s along 10 N: 1 J, if nobody cut it
+    input.tip.z() += 1e-4;
+    static_cast<void>(safety.pass(input));
+  }
+  EXPECT_LT(safety.passivity().model_share(), 1);
+  SafeForce out;
+  for (int i = 0; i < 3000; ++i) {  // a hand that moves at 5 cm/s
+    input = fresh(force_z(0));
+    input.tip.x() = 0.01 * std::sin(5 * i * kTick_s);
+    input.reconnected = i == 0;
+    out = safety.pass(input);
+  }
+  EXPECT_EQ(out.state, 0u);
+  EXPECT_EQ(safety.passivity().model_share(), 1);
+}
+
+// A device of 100 Hz in a loop of 1 kHz: the hand's speed is that of its poses, not of the ticks.
+TEST(ForceSafety, ASlowDevicesHandIsDampedByItsOwnSpeed) {
+  ForceSafety safety = ramped_up();
+  constexpr double kSpeed_m_s = 0.1, kInterval_s = 0.01;
+  SafetyInput input = fresh(force_z(0));
+  double largest_n = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const bool pose = i % 10 == 0;
+    input.pose_interval_s = kInterval_s;
+    input.way_s = pose ? kInterval_s : 0;
+    if (pose) input.tip.z() += kSpeed_m_s * kInterval_s;
+    input.model = force_z(i < 1000 ? 3 : 0);  // along the way: 3 N x 10 cm
+    const SafeForce out = safety.pass(input);
+    if (i >= 1000) largest_n = std::max(largest_n, out.wrench.force.norm());
+  }
+  EXPECT_GT(largest_n, 0);
+  EXPECT_LE(largest_n, haptic::PassivityObserver::kMaxDamping_n_s_m * kSpeed_m_s + kRounding_n);
+}
+
+TEST(ForceSafety, AnAnswerThatWasNotWrittenDoesNoWork) {
+  ForceSafety safety = ramped_up();
+  SafetyInput input = fresh(force_z(1));
+  input.written = false;
+  for (int i = 0; i < 100; ++i) {
+    input.tip.z() += 1e-4;
+    static_cast<void>(safety.pass(input));
+  }
+  EXPECT_EQ(safety.passivity().given_j(), 0);
 }
 
 TEST(ForceSafety, ASpringIsPassiveAndStaysUntouched) {
@@ -242,7 +372,16 @@ class LineBench {
     now_ns_ += kMs;
     line_.listen(now_ns_, bench_.input());
     bench_.step();
-    return line_.answer(bench_.output(), now_ns_, kTick_s, paused);
+    line_.answer(bench_.output(), now_ns_, kTick_s, paused);
+    return line_.to_send(++ticks_);
+  }
+  /// A device that sends every `ticks` ms, through one of its intervals: the last answer.
+  const msg::ToolForce& press_slowly(const Vec3& tip, int ticks) {
+    msg::ToolPose pose = pose_at(tip, ++seq_);
+    pose.stamp_ns = now_ns_ + kMs;
+    hear(pose);
+    for (int i = 1; i < ticks; ++i) tick();
+    return tick();
   }
   /// A good sample, then a tick.
   const msg::ToolForce& press(const Vec3& tip) {
@@ -266,7 +405,7 @@ class LineBench {
   runtime::FaultList faults_;
   ToolLine line_;
   std::int64_t now_ns_ = kMs;
-  std::uint64_t seq_ = 0;
+  std::uint64_t seq_ = 0, ticks_ = 0;
 };
 
 double newton(const msg::ToolForce& f) {
@@ -290,6 +429,83 @@ TEST(SafetyThroughTheStep, ASilentDeviceLosesItsForceAndGetsItBackGently) {
   EXPECT_LT(newton(line.press(tip)), 0.02 * pressed);
   for (int i = 0; i < 250; ++i) line.press(tip);
   EXPECT_NEAR(newton(line.press(tip)), pressed, 0.02 * pressed);
+}
+
+// 100 poses a second against a loop of 1 kHz: the same force, steadily; and silence is noticed in time.
+TEST(SafetyThroughTheStep, ASlowDeviceFeelsTheSameSteadyForce) {
+  LineBench fast;
+  const double pressed = newton(fast.press_deep());
+  for (const int interval : {2, 5, 10}) {
+    LineBench line;
+    const Vec3 above(0.05, 0.05, 0.045), below(0.05, 0.05, 0.032);
+    for (int t = 0; t < 500; t += interval) line.press_slowly(above, interval);
+    for (int t = 0; t < 500; t += interval) line.press_slowly(above + t / 500.0 * (below - above), interval);
+    for (int t = 0; t < 500; t += interval) line.press_slowly(below, interval);
+    for (int i = 0; i < 20; ++i) {
+      const msg::ToolForce& force = line.press_slowly(below, interval);
+      EXPECT_EQ(force.state, 0u) << "every " << interval << " ms";
+      EXPECT_NEAR(newton(force), pressed, 0.02 * pressed);
+      EXPECT_GE(force.valid_for_s, 2e-3 * interval);
+      EXPECT_LE(force.valid_for_s, haptic::kLongestStale_s);
+    }
+    int silent = interval;
+    while (newton(line.tick()) > 0 && silent < 1000) ++silent;
+    EXPECT_LE(silent * kTick_s, haptic::kLongestStale_s + ForceLimits{}.decay_s + 2 * kTick_s);
+  }
+}
+
+TEST(PoseInterval, IsTheMedianAndBurstsAndGapsDoNotCount) {
+  haptic::PoseInterval interval;
+  interval.restart(0);
+  EXPECT_EQ(interval.seconds(), 0) << "nothing is known yet";
+  std::int64_t now_ns = 0;
+  for (int i = 0; i < 100; ++i) {
+    now_ns += i % 5 == 0 ? 300 * kMs : i % 5 == 1 ? 1 : 10 * kMs;
+    interval.add(now_ns);
+    if (i <= 9) continue;
+    EXPECT_EQ(interval.seconds(), 0.010);
+  }
+  for (int i = 0; i < 5; ++i) interval.add(now_ns += 2 * kMs);
+  EXPECT_EQ(interval.seconds(), 0.002) << "five poses tell a new rate";
+}
+
+TEST(SafetyThroughTheStep, ASampleThatSaysItIsNoneIsCountedAndNoFault) {
+  LineBench line;
+  line.press({0.05, 0.05, 0.05});
+  msg::ToolPose none = LineBench::pose_at({0.05, 0.05, 0.05}, 2);
+  none.valid = false;
+  EXPECT_FALSE(line.hear(none));
+  EXPECT_EQ(line.line().counts().refused, 1u);
+  EXPECT_FALSE(line.faults().any());
+}
+
+// The held underside of the block has no compliance of its own: the device's stiffness is felt, tick by tick.
+TEST(SafetyThroughTheStep, TheHeldBackOfAnOrganIsAsStiffAsTheDevice) {
+  constexpr double kStiffness = 1000, kStep_m = 1e-4;
+  LineBench line;
+  msg::DeviceInfo info{};
+  info.max_force_n = 20;
+  info.max_torque_nm = 1;
+  info.max_stiffness_n_m = kStiffness;
+  line.line().hear(info);
+  double before = 0, largest = 0;
+  for (int i = 0; i < 400; ++i) line.press({0.05, 0.05, -0.01});
+  for (int i = 0; i < 100; ++i) {
+    line.press({0.05, 0.05, -0.01 + i * kStep_m});
+    const double now = line.bench().output().force.norm();
+    EXPECT_LE(std::abs(now - before), 1.01 * kStiffness * kStep_m + kRounding_n) << "tick " << i;
+    before = now;
+    largest = std::max(largest, now);
+  }
+  EXPECT_GT(largest, 1) << "it was touched";
+}
+
+TEST(SafetyThroughTheStep, ADevicesNonsenseIsAFault) {
+  LineBench line;
+  msg::DeviceInfo info{};
+  info.max_force_n = kNan;
+  line.line().hear(info);
+  EXPECT_TRUE(line.faults().any());
 }
 
 TEST(SafetyThroughTheStep, ADeadDeviceLetsTheTissueGo) {
@@ -364,11 +580,12 @@ TEST(SafetyThroughTheStep, EchoesThePoseThatItAnswers) {
 }
 
 TEST(SafetyThroughTheStep, SequenceNumbersCountWhatIsSent) {
-  LineBench line;
-  line.press({0.05, 0.05, 0.05});
-  EXPECT_EQ(line.line().to_send(7).seq, 1u);
-  for (int i = 0; i < 5; ++i) line.press({0.05, 0.05, 0.05});
-  const msg::ToolForce& next = line.line().to_send(12);
+  runtime::FaultList faults;
+  ToolLine line(0, {}, faults);
+  for (int i = 0; i < 3; ++i) line.answer({}, i * kMs, kTick_s, false);
+  EXPECT_EQ(line.to_send(7).seq, 1u);
+  line.answer({}, 4 * kMs, kTick_s, false);
+  const msg::ToolForce& next = line.to_send(12);
   EXPECT_EQ(next.seq, 2u);
   EXPECT_EQ(next.tick, 12u);
 }
@@ -400,6 +617,7 @@ HandRun run_hand(double rate_hz, double friction) {
     input.stored_j = bench.output().stored_j;
     input.tip = x;
     input.dt_s = dt;
+    input.way_s = dt;
     input.engaged = true;
     const SafeForce out = safety.pass(input);
     if (t > 0.5) run.acted |= out.state;

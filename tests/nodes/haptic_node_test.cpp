@@ -22,6 +22,8 @@ using geometry::Vec3;
 
 // Forces leave as doubles; contacts' forces are summed again here.
 constexpr double kRelative = 1e-9;
+// From when on a node is not moved by newcomers (haptic_node/serving_claim.h), and a second more.
+constexpr double kSettled_s = 6;
 
 /// A block of 10 cm, held at z = 0, one probe and one grasper.
 class BlockScene {
@@ -66,6 +68,7 @@ class Bench {
         devices_(bus_->writer<msg::DeviceInfo>()),
         commands_(bus_->writer<msg::SessionCommand>()),
         scenes_(bus_->writer<msg::SceneInfo>()),
+        others_(bus_->writer<msg::NodeStatus>()),
         forces_(bus_->reader<msg::ToolForce>([this](const msg::ToolForce& f) { take(f); })),
         contacts_(bus_->reader<msg::Contact>([this](const msg::Contact& c) { take(c); })),
         statuses_(bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& s) { take(s); })) {}
@@ -103,6 +106,7 @@ class Bench {
   void send(const msg::ToolPose& pose) { poses_->write(pose); }
   void send(const msg::DeviceInfo& info) { devices_->write(info); }
   void send(const msg::SceneInfo& info) { scenes_->write(info); }
+  void send(const msg::NodeStatus& status) { others_->write(status); }
   void command(std::uint32_t command) {
     commands_->write({.seq = ++commands_sent_, .command = command, .argument = {}});
   }
@@ -157,6 +161,7 @@ class Bench {
   std::unique_ptr<transport::Writer<msg::DeviceInfo>> devices_;
   std::unique_ptr<transport::Writer<msg::SessionCommand>> commands_;
   std::unique_ptr<transport::Writer<msg::SceneInfo>> scenes_;
+  std::unique_ptr<transport::Writer<msg::NodeStatus>> others_;
   std::unique_ptr<transport::Reader<msg::ToolForce>> forces_;
   std::unique_ptr<transport::Reader<msg::Contact>> contacts_;
   std::unique_ptr<transport::Reader<msg::NodeStatus>> statuses_;
@@ -236,6 +241,7 @@ TEST_P(HapticNodeTest, TheDevicesLimitHolds) {
   info.name = "a weak device";
   info.max_force_n = 0.05;
   info.max_torque_nm = 1;
+  info.max_stiffness_n_m = 1000;
   bench_.send(info);
   ASSERT_TRUE(bench_.hold(Bench::kAbove, [&] { return bench_.force() && bench_.force()->state == 0; }));
   bench_.move(Bench::kAbove, Bench::kPressed);
@@ -252,13 +258,42 @@ TEST_P(HapticNodeTest, AnotherNodeForItsToolsYields) {
   EXPECT_TRUE(bench_.node().running());
 }
 
+// A device tells that the session is paused; the node that starts, or starts again, finds it so.
+TEST_P(HapticNodeTest, WhoJoinsAPausedSessionIsPaused) {
+  msg::NodeStatus device{};
+  device.kind = msg::NODE_DEVICE;
+  device.instance = 1;
+  device.paused = true;
+  bench_.send(device);
+  ASSERT_TRUE(bench_.hold(Bench::kAbove, [&] { return bench_.status() && bench_.status()->paused; }));
+  EXPECT_TRUE(bench_.hold(Bench::kAbove, [&] {
+    return bench_.force() && (bench_.force()->state & msg::FORCE_PAUSED) && bench_.newton() == 0;
+  }));
+  bench_.command(msg::COMMAND_START);
+  EXPECT_TRUE(bench_.hold(Bench::kAbove, [&] { return !bench_.status()->paused; }));
+}
+
+const msg::SceneInfo kStrangersScene{
+    .protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{.name = "o", .hash = "abc"}}};
+
 TEST_P(HapticNodeTest, AnotherOrganFileIsRefusedWithBothHashes) {
-  ASSERT_TRUE(test::comes_true([&] { return bench_.status().has_value(); }));
-  bench_.send(msg::SceneInfo{
-      .protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{.name = "o", .hash = "abc"}}});
+  bench_.send(kStrangersScene);
   EXPECT_EQ(bench_.node().wait(), 2);
   EXPECT_NE(bench_.node().messages().find("abc"), std::string::npos) << bench_.node().messages();
   EXPECT_NE(bench_.node().messages().find(block_.organ_hash()), std::string::npos);
+}
+
+TEST_P(HapticNodeTest, AStrangersSceneDoesNotEndAPress) {
+  ASSERT_TRUE(bench_.press());
+  ASSERT_TRUE(bench_.hold(Bench::kPressed, [&] {
+    return bench_.status() &&
+           static_cast<double>(bench_.status()->ticks) > kSettled_s * bench_.status()->rate_hz;
+  }));
+  bench_.send(kStrangersScene);
+  EXPECT_TRUE(bench_.hold(Bench::kPressed, [&] { return !bench_.status()->faults.empty(); }));
+  EXPECT_NE(bench_.status()->faults[0].find("another organ"), std::string::npos);
+  EXPECT_TRUE(bench_.node().running());
+  EXPECT_TRUE(bench_.hold(Bench::kPressed, [&] { return bench_.newton() > 0.1; }));
 }
 
 TEST_P(HapticNodeTest, EndsCleanlyWithItsReport) {
@@ -287,6 +322,14 @@ INSTANTIATE_TEST_SUITE_P(Vendors, HapticNodeTest,
                            return test.param.first +
                                   (test.param.second == transport::Vendor::kFast ? "ToFast" : "ToCyclone");
                          });
+
+// What no node obeys must not look as if it had been done.
+TEST(SessionProgram, RecordIsRefusedUntilItExists) {
+  test::Process command("omentum_session", {"record"});
+  EXPECT_EQ(command.wait(), 2);
+  EXPECT_TRUE(command.messages().starts_with("omentum_session: ")) << command.messages();
+  EXPECT_NE(command.messages().find("record"), std::string::npos) << command.messages();
+}
 
 TEST(HapticNodeStart, BadInputIsOneLineAndExitCodeTwo) {
   const test::ScratchFolder folder;

@@ -47,6 +47,28 @@ TEST(PoseGuard, RefusesRepeatedAndOlderSamples) {
   EXPECT_EQ(guard.judge(late, kMs), PoseVerdict::kOldSequence);
 }
 
+TEST(PoseGuard, AnOldMeasurementUnderANewNumberIsRefused) {
+  PoseGuard guard;
+  guard.judge(pose(10), 0);
+  msg::ToolPose again = pose(11);
+  again.stamp_ns = pose(10).stamp_ns;
+  EXPECT_EQ(guard.judge(again, kMs), PoseVerdict::kOldSequence);
+}
+
+TEST(PoseGuard, StampsFromTheEndsOfTheirRangeAreNoSmallGap) {
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
+                         kHighest = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(stamp_difference_ns(kLowest, kHighest), kHighest);
+  EXPECT_EQ(stamp_difference_ns(kHighest, kLowest), kLowest);
+  EXPECT_EQ(stamp_difference_ns(3, 5), 2);
+  PoseGuard guard;
+  msg::ToolPose first = pose(1), second = pose(2, 0.05);
+  first.stamp_ns = kLowest;
+  second.stamp_ns = kHighest;
+  guard.judge(first, 0);
+  EXPECT_EQ(guard.judge(second, kMs), PoseVerdict::kAccepted) << "a long gap by its stamps";
+}
+
 TEST(PoseGuard, RefusesWhatIsNotANumberInEveryField) {
   for (const double bad : {kNan, kInf, -kInf}) {
     for (int field = 0; field < 14; ++field) {

@@ -81,8 +81,9 @@ TEST(Scene, WhatIsWrittenIsRead) {
 start_s = 0
 [haptics]
 friction = 0.3
-contact = "spread"
+contact = "point"
 max_force_n = 4
+stale_s = 0.01
 [camera]
 mode = "endoscope"
 eye = [1, 2, 3]
@@ -91,10 +92,30 @@ target = [4, 5, 6]
   EXPECT_EQ(scene.hands[0].depth_m, 0.02);
   EXPECT_EQ(scene.hands[0].start_s, 0);
   EXPECT_EQ(scene.haptics.friction, 0.3);
-  EXPECT_EQ(scene.haptics.contact, "spread");
+  EXPECT_EQ(scene.haptics.contact, "point");
   EXPECT_EQ(scene.haptics.max_force_n, 4);
+  EXPECT_EQ(scene.haptics.stale_s, 0.01);
   EXPECT_EQ(scene.camera.mode, "endoscope");
   EXPECT_EQ(scene.camera.target, (Triple{4, 5, 6}));
+}
+
+TEST(Scene, ThePapersSpreadIsFrictionless) {
+  const std::string spread = kGood + "[haptics]\ncontact = \"spread\"\n";
+  EXPECT_EQ(load_scene(write_scene(spread)).haptics.contact, "spread");
+  const auto file = write_scene(spread + "friction = 0.3\n");
+  EXPECT_THAT(message_of(file),
+              AllOf(HasSubstr(file.string() + ":20: haptics.friction: "), HasSubstr("contact = \"spread\"")));
+}
+
+// Each limit of force safety at a value that would switch it off, or make a blow of it.
+TEST(Scene, NoSceneDisarmsForceSafety) {
+  for (const std::string limit :
+       {"max_force_n = 1000", "max_force_n = 0", "max_torque_nm = 100", "max_slew_n_s = 1e9", "ramp_s = 0",
+        "ramp_s = 100", "stale_s = 1", "stale_s = inf", "decay_s = 10", "decay_s = 1e-9"}) {
+    const auto file = write_scene(kGood + "[haptics]\n" + limit + "\n");
+    const std::string key = limit.substr(0, limit.find(' '));
+    EXPECT_THAT(message_of(file), HasSubstr(file.string() + ":19: haptics." + key + ": found ")) << limit;
+  }
 }
 
 TEST(Scene, DirectionsAreNormalized) {
