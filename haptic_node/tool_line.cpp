@@ -85,22 +85,11 @@ void ToolLine::take(const HeardPose& heard) noexcept {
 
 const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t now_ns, double dt_s,
                                        bool paused) noexcept {
-  const HeardPose& heard = poses_.value();
-  SafetyInput input;
-  input.model = {output.force, output.torque};
-  input.stored_j = output.stored_j;
-  input.tip = frame_of(heard.pose).p_WT;
-  input.orientation = frame_of(heard.pose).q_WT;
-  input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
-  input.pose_interval_s = heard.interval_s;
-  input.way_s = way_s_;
-  input.dt_s = dt_s;
-  input.engaged = engaged_;
-  input.reconnected = reconnected_;
+  SafetyInput input = known(output, now_ns, dt_s);
   input.paused = paused;
-  input.written = written_;
   const SafeForce safe = pass(input);
 
+  const HeardPose& heard = poses_.value();
   force_.tool = id_;
   force_.echo_seq = heard.pose.seq;
   force_.echo_stamp_ns = heard.pose.stamp_ns;
@@ -110,6 +99,24 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   force_.valid_for_s = stale_after(heard.interval_s, limits_);
   force_.state = safe.state;
   return force_;
+}
+
+SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, double dt_s) const noexcept {
+  const HeardPose& heard = poses_.value();
+  const ToolFrame frame = frame_of(heard.pose);
+  SafetyInput input;
+  input.model = {output.force, output.torque};
+  input.stored_j = output.stored_j;
+  input.tip = frame.p_WT;
+  input.orientation = frame.q_WT;
+  input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
+  input.pose_interval_s = heard.interval_s;
+  input.way_s = way_s_;
+  input.dt_s = dt_s;
+  input.engaged = engaged_;
+  input.reconnected = reconnected_;
+  input.written = written_;
+  return input;
 }
 
 // Through the exit; what changed for the worse is a fault, once for each time.
