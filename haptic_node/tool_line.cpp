@@ -122,7 +122,7 @@ SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, doubl
 // Through the exit; what changed for the worse is a fault, once for each time.
 SafeForce ToolLine::pass(const SafetyInput& input) noexcept {
   const bool faulted_before = safety_.faulted(), cut_before = safety_.passivity().model_share() < 1;
-  const SafeForce safe = safety_.pass(input);
+  SafeForce safe = safety_.pass(input);
   written_ = false;
   if (safety_.faulted() && !faulted_before) faults_.raise(force_fault_);
   if (safety_.passivity().model_share() < 1 && !cut_before) faults_.raise(source_fault_);
