@@ -81,14 +81,15 @@ std::optional<std::string> contradicts(const msg::SceneInfo& own, const msg::Sce
     return "the scene's deform_node speaks protocol " + std::to_string(other.protocol) +
            ", this node speaks " + std::to_string(own.protocol);
   }
-  for (std::size_t i = 0; i < std::max(own.organs.size(), other.organs.size()); ++i) {
-    const std::string mine = i < own.organs.size() ? own.organs[i].hash : "none",
-                      theirs = i < other.organs.size() ? other.organs[i].hash : "none";
-    if (mine == theirs) continue;
-    return "the scene's deform_node loaded another organ file: its hash is " + theirs + ", this node's is " +
-           mine;
-  }
-  return std::nullopt;
+  const auto hash = [](const msg::SceneInfo& scene, std::size_t i) {
+    return i < scene.organs.size() ? scene.organs[i].hash : std::string("none");
+  };
+  const std::size_t count = std::max(own.organs.size(), other.organs.size());
+  std::size_t i = 0;
+  while (i < count && hash(own, i) == hash(other, i)) ++i;
+  if (i == count) return std::nullopt;
+  return "the scene's deform_node loaded another organ file: its hash is " + hash(other, i) +
+         ", this node's is " + hash(own, i);
 }
 
 void fill_blocks(ServedOrgan& organ, std::uint64_t seq, std::int64_t stamp_ns,

@@ -85,22 +85,11 @@ void ToolLine::take(const HeardPose& heard) noexcept {
 
 const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t now_ns, double dt_s,
                                        bool paused) noexcept {
-  const HeardPose& heard = poses_.value();
-  SafetyInput input;
-  input.model = {output.force, output.torque};
-  input.stored_j = output.stored_j;
-  input.tip = frame_of(heard.pose).p_WT;
-  input.orientation = frame_of(heard.pose).q_WT;
-  input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
-  input.pose_interval_s = heard.interval_s;
-  input.way_s = way_s_;
-  input.dt_s = dt_s;
-  input.engaged = engaged_;
-  input.reconnected = reconnected_;
+  SafetyInput input = known(output, now_ns, dt_s);
   input.paused = paused;
-  input.written = written_;
   const SafeForce safe = pass(input);
 
+  const HeardPose& heard = poses_.value();
   force_.tool = id_;
   force_.echo_seq = heard.pose.seq;
   force_.echo_stamp_ns = heard.pose.stamp_ns;
@@ -112,10 +101,28 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   return force_;
 }
 
+SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, double dt_s) const noexcept {
+  const HeardPose& heard = poses_.value();
+  const ToolFrame frame = frame_of(heard.pose);
+  SafetyInput input;
+  input.model = {output.force, output.torque};
+  input.stored_j = output.stored_j;
+  input.tip = frame.p_WT;
+  input.orientation = frame.q_WT;
+  input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
+  input.pose_interval_s = heard.interval_s;
+  input.way_s = way_s_;
+  input.dt_s = dt_s;
+  input.engaged = engaged_;
+  input.reconnected = reconnected_;
+  input.written = written_;
+  return input;
+}
+
 // Through the exit; what changed for the worse is a fault, once for each time.
 SafeForce ToolLine::pass(const SafetyInput& input) noexcept {
   const bool faulted_before = safety_.faulted(), cut_before = safety_.passivity().model_share() < 1;
-  const SafeForce safe = safety_.pass(input);
+  SafeForce safe = safety_.pass(input);
   written_ = false;
   if (safety_.faulted() && !faulted_before) faults_.raise(force_fault_);
   if (safety_.passivity().model_share() < 1 && !cut_before) faults_.raise(source_fault_);

@@ -72,6 +72,7 @@ class ToolLine {
   };
 
   void take(const HeardPose& heard) noexcept;
+  SafetyInput known(const ToolOutput& output, std::int64_t now_ns, double dt_s) const noexcept;
   SafeForce pass(const SafetyInput& input) noexcept;
 
   std::uint32_t id_;
