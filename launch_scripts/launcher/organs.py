@@ -13,7 +13,9 @@ from .errors import Refusal
 from .options import REPOSITORY
 
 LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to be in millimetres
-SUPPORTED_PART = 0.05  # of a foreign mesh's length, where --fixed is not given
+# Of a foreign mesh's length, where --fixed is not given: an organ is held at an edge (ligaments), but lies on its whole
+# underside; held at its lowest tip only, it would rock under the hand.
+SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
 PATIENCE_S = 2.0  # anything longer gets a line of progress
 
 
@@ -100,11 +102,12 @@ def phantom_arguments(kind, file):
 
 
 def support_spec(measured, scale, scene_fixed):
-    """A plane at the outermost 5 % of the mesh, on the axis and side on which the scene supports its own organ."""
+    """A plane through the mesh on the axis and side on which the scene supports its own organ."""
     match = re.match(r"plane:([xyz])([<>])", scene_fixed)
     axis, side = match.groups() if match else ("z", "<")
     low, high = (scale * measured[end]["xyz".index(axis)] for end in ("min", "max"))
-    at = low + SUPPORTED_PART * (high - low) if side == "<" else high - SUPPORTED_PART * (high - low)
+    held = SUPPORTED_PART[axis] * (high - low)
+    at = low + held if side == "<" else high - held
     return f"plane:{axis}{side}{at:.6g}"
 
 
