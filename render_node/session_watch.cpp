@@ -45,7 +45,7 @@ void SessionWatch::listen(Inbox& inbox, SceneView& view, runtime::FaultList& fau
   }
   listen_to_organs(inbox, view, now_ns);
   for (std::size_t t = 0; t < tools_.size(); ++t) listen_to_tool(inbox, t, now_ns);
-  find_deepest_dent(view);
+  find_deepest_dent(view, now_ns);
   statuses_ = inbox.statuses();
   incomplete_states_ = inbox.incomplete_states();
   const std::uint64_t resets = session_.resets;
@@ -107,9 +107,13 @@ void SessionWatch::listen_to_force(Inbox& inbox, std::size_t tool,
   }
 }
 
-void SessionWatch::find_deepest_dent(const SceneView& view) {
+void SessionWatch::find_deepest_dent(const SceneView& view, std::int64_t now_ns) {
   dent_.reset();
   for (const ToolNow& tool : tools_) {
+    // a tool of now and an organ of then make no dent
+    if (tool.contact_organ >= organs_.size() ||
+        now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleStateNs)
+      continue;
     const auto dent = view.dent_of(tool);
     if (dent && (!dent_ || dent->depth_m > dent_->dent.depth_m)) dent_ = {*dent, tool.contact_organ};
   }

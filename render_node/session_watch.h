@@ -43,7 +43,7 @@ class SessionWatch {
   void listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
   void listen_to_force(Inbox& inbox, std::size_t tool, const transport::Arrived<msg::ToolForce>& force,
                        std::int64_t now_ns);
-  void find_deepest_dent(const SceneView& view);
+  void find_deepest_dent(const SceneView& view, std::int64_t now_ns);
   double seconds_since_begin(std::int64_t now_ns) const {
     return 1e-9 * static_cast<double>(now_ns - begin_ns_);
   }

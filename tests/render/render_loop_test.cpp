@@ -201,6 +201,19 @@ TEST_F(RenderLoopTest, DeepestDentIsTakenFromNearbyWithoutThePanel) {
   EXPECT_NEAR(report["deepest_dent_m"], 0.01, 1e-6);
 }
 
+TEST_F(RenderLoopTest, OrganOfALostDeformNodeHasNoDent) {
+  const test::ScratchFolder folder;
+  options_.out = folder.path();
+  test::PressingTool tool(*bus_, block_.organ());
+  int spoken = 0;
+  then([&](Input&) {  // a tool that presses an organ of which nothing is known
+    tool.speak();
+    return ++spoken > 300;
+  });
+  EXPECT_EQ(run()["deepest_dent_m"], 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "indent.png"));
+}
+
 TEST_F(RenderLoopTest, LogHoldsThePeriodsOfTheFramesThatWereDrawn) {
   const test::ScratchFolder folder;
   options_.node.log = folder / "frames.csv";

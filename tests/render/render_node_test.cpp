@@ -88,6 +88,7 @@ TEST(RenderNode, ShowsStatesAndEchoesThePoseThatItDrew) {
   }
   PressingTool tool(*bus, scene.organ());
   EXPECT_TRUE(test::comes_true([&] {
+    states->write(state_of(scene.organ(), ++seq, {0, 0, -0.01}));
     tool.speak();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return std::filesystem::exists(scene.file("pictures") / "indent.png");
