@@ -21,7 +21,7 @@ from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
-from launcher import cache, domain, organs, report  # noqa: E402 (the launcher is no installed package)
+from launcher import cache, domain, organs, report, session  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
@@ -410,6 +410,28 @@ class Parts(unittest.TestCase):
         self.addCleanup(other.socket.close)
         self.assertNotEqual(other.number, number)
         self.assertEqual(domain.Domain(number).number, number, "a person may join it")
+
+    def ended(self, name, code, own_report="{}", starts=2):
+        """What a session that restarts nodes makes of one's end."""
+        file = self.folder / f"{name}.json"
+        file.write_text(own_report)
+        watching = session.Session.__new__(session.Session)
+        watching.options, watching.restarts, watching.stopping = mock.Mock(restart=True), {}, False
+        node = mock.Mock(exit=code, starts=starts, report=file)
+        node.name = name
+        with mock.patch("builtins.print"):
+            watching.ended(node, elapsed=1.0)
+        return watching
+
+    def test_closed_window_ends_the_session_and_an_ended_render_node_does_not(self):
+        self.assertTrue(self.ended("render_node", 0, '{"closed": true}').stopping)
+        self.assertFalse(self.ended("render_node", 0, '{"closed": false}').stopping)
+        self.assertFalse(self.ended("render_node", -9, "").stopping)
+
+    def test_crashed_nodes_start_again_but_neither_ended_nor_refusing_ones(self):
+        self.assertIn("deform_node", self.ended("deform_node", -11).restarts)
+        self.assertNotIn("deform_node", self.ended("deform_node", 0).restarts)
+        self.assertNotIn("deform_node", self.ended("deform_node", 2).restarts)
 
     def test_table_shows_the_devices_round_trip_and_losses(self):
         times = {**report.NONE_US, "p50": 180.0, "p99": 2500.0, "max": 9000.0, "count": 7}
