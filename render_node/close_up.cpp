@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace omentum::render {
@@ -10,7 +11,7 @@ namespace {
 constexpr double kDistanceM = 0.085;
 constexpr double kElevationRad = 0.40;  // 23 degrees above the tangent plane: into the dent, and over its rim
 constexpr double kFieldDeg = 38;        // bottom to top: 6 cm of the surface, two dents
-constexpr double kSides = 24;           // places around the dent that are tried
+constexpr int kSides = 24;              // places around the dent that are tried
 constexpr double kAboveBottomM =
     0.006;  // what is looked at: between the dent's bottom and the shaft above it
 
@@ -57,7 +58,7 @@ Camera close_up_of(const Dent& dent, const OrganSkin& skin, std::span<const Shaf
   const Vec3 side = (familiar.eye - target).normalized();
   Camera best{target, target, normal, kFieldDeg};
   double least_cost = std::numeric_limits<double>::infinity();
-  for (double k = 0; k < kSides; ++k) {
+  for (int k = 0; k < kSides; ++k) {
     const Vec3 level = Eigen::AngleAxisd(2 * std::numbers::pi * k / kSides, normal) * first;
     const Vec3 eye =
         target + kDistanceM * (std::cos(kElevationRad) * level + std::sin(kElevationRad) * normal);
