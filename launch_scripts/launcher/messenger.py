@@ -11,27 +11,28 @@ class Messenger:
 
     def __init__(self, program, arguments):
         self.program, self.arguments = str(program), arguments
-        self.waiting = []  # (word, nodes to wait for, what to do afterwards)
+        self.waiting = []  # (word, nodes to wait for, what to do afterwards, whether success is not told)
         self.process = None
 
-    def send(self, word, nodes, then=None):
-        self.waiting.append((word, nodes, then))
+    def send(self, word, nodes, then=None, quiet=False):
+        self.waiting.append((word, nodes, then, quiet))
 
     def poll(self):
         """Call it often. Prints, and starts the next one."""
         if self.process and self.process.poll() is not None:
             self.finish()
         if self.waiting and not self.process:
-            word, nodes, _ = self.waiting[0]
+            word, nodes = self.waiting[0][:2]
             self.process = subprocess.Popen(
                 [self.program, word, *self.arguments, "--nodes", str(nodes)], stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def finish(self):
         out, err = self.process.communicate()
-        word, _, then = self.waiting.pop(0)
+        word, _, then, quiet = self.waiting.pop(0)
         if self.process.returncode == 0:
-            print(SAID.get(word) or PAUSE.get(out.strip(), out.strip()), flush=True)
+            if not quiet:
+                print(SAID.get(word) or PAUSE.get(out.strip(), out.strip()), flush=True)
         else:
             print(f"run: {word} failed: {(err.strip().splitlines() or ['no reason given'])[-1]}", flush=True)
         self.process = None

@@ -123,7 +123,7 @@ class Session:
 
         def start_hands():
             processes.start_all(hands)
-            self.send("pause")
+            self.messenger.send("pause", len(self.nodes), quiet=True)
 
         self.messenger.send("pause", len(others), start_hands if hands else None)
 

@@ -198,7 +198,7 @@ class Devices(LauncherTest):
 
     def test_paused_from_the_start_nobody_moves(self):
         said, nodes = self.check_run("--paused")
-        self.assertIn("run: paused", said)
+        self.assertEqual(said.count("run: paused"), 1, said)
         self.assertEqual(nodes["haptic_node"]["contacts"]["ticks_in_contact"], 0)
         self.assertEqual(nodes["haptic_node"]["force_n"]["max"], 0)
 
