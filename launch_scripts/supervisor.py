@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Prepares and runs one session; launch_scripts/run calls it when everything is built."""
+import os
 import signal
 import sys
 
@@ -12,18 +13,33 @@ def interrupt(*_):
     raise KeyboardInterrupt
 
 
+def on_end(handler):
+    """A closed terminal (SIGHUP) ends a session as SIGTERM does, unless somebody wants it to go on (nohup)."""
+    numbers = [signal.SIGTERM]
+    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:
+        numbers.append(signal.SIGHUP)
+    for number in numbers:
+        signal.signal(number, handler)
+
+
 def run(arguments):
     chosen = options.parse(arguments)
     if chosen.check_only:
         return 0
-    signal.signal(signal.SIGTERM, interrupt)
+    on_end(interrupt)
     scene, name = organs.prepare(chosen)
     if chosen.prepare_only:
         print(f"run: {scene}")
         return 0
     session = Session(chosen, scene, name)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: session.stop())
+
+    def end(number, _):
+        if number == signal.SIGHUP:
+            sys.stdout = sys.stderr = open(os.devnull, "w", encoding="utf-8")  # nobody reads what is said from here on
+        session.stop()
+
+    on_end(end)
+    signal.signal(signal.SIGINT, end)
     return session.run()
 
 

@@ -14,16 +14,19 @@ class ForceHistory {
   struct Sample {
     double time_s = 0;
     float force_n = 0;
+    bool after_gap = false;  // nothing was felt before it: no line leads to it
   };
   /// Times must not decrease; what is older than the span is forgotten.
   void add(double time_s, double force_n);
+  /// Nothing is felt now: the next sample begins a new line.
+  void interrupt() { interrupted_ = true; }
   void clear() { samples_.clear(); }
   const std::vector<Sample>& samples() const { return samples_; }
-  float newest_n() const { return samples_.empty() ? 0 : samples_.back().force_n; }
   float largest_n() const;
 
  private:
   std::vector<Sample> samples_;
+  bool interrupted_ = true;
 };
 
 /// The upper end of a force axis that holds `largest_n`: 1, 2 or 5 times a power of ten, at least 1 N.

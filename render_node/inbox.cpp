@@ -30,18 +30,35 @@ void check_scene_info(const msg::SceneInfo& info, const std::vector<LoadedOrgan>
   }
 }
 
+namespace {
+
+bool forgotten(const HeardStatus& heard, std::int64_t now_ns) {
+  const bool needed = heard.status.kind == msg::NODE_HAPTIC || heard.status.kind == msg::NODE_DEFORM;
+  return !needed && now_ns - heard.arrived_ns > kForgottenNs;
+}
+
+// Whether `status` speaks for a later run of the same node. One deform_node and one picture are the rule;
+// hands and their haptic_nodes may be many, so there only a silent one is succeeded.
+bool succeeds(const msg::NodeStatus& status, const HeardStatus& heard, std::int64_t now_ns) {
+  if (heard.status.kind != status.kind || status.kind == msg::NODE_DEVICE) return false;
+  return status.kind != msg::NODE_HAPTIC || now_ns - heard.arrived_ns > kSilentNs;
+}
+
+}  // namespace
+
 void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::vector<HeardStatus>& heard) {
-  std::erase_if(heard, [&](const HeardStatus& h) { return now_ns - h.arrived_ns > kForgottenNs; });
-  for (HeardStatus& h : heard) {
-    const bool same_run = h.status.instance == status.instance;
-    // one deform_node and one picture are the rule, so a newer run takes the older one's place; hands may be
-    // many
-    const bool successor = h.status.kind != msg::NODE_HAPTIC && h.status.kind != msg::NODE_DEVICE;
-    if (h.status.kind != status.kind || !(same_run || successor)) continue;
-    if (status.instance >= h.status.instance) h = {status, now_ns};
-    return;
+  std::erase_if(heard, [&](const HeardStatus& h) { return forgotten(h, now_ns); });
+  auto place = std::find_if(heard.begin(), heard.end(), [&](const HeardStatus& h) {
+    return h.status.kind == status.kind && h.status.instance == status.instance;
+  });
+  if (place == heard.end())
+    place = std::find_if(heard.begin(), heard.end(),
+                         [&](const HeardStatus& h) { return succeeds(status, h, now_ns); });
+  if (place == heard.end()) {
+    heard.push_back({status, now_ns});
+  } else if (status.instance >= place->status.instance) {  // else a late sample of the old run
+    *place = {status, now_ns};
   }
-  heard.push_back({status, now_ns});
   std::sort(heard.begin(), heard.end(), [](const HeardStatus& a, const HeardStatus& b) {
     return std::pair(a.status.kind, a.status.instance) < std::pair(b.status.kind, b.status.instance);
   });

@@ -26,8 +26,11 @@ struct HeardStatus {
   msg::NodeStatus status;
   std::int64_t arrived_ns = 0;
 };
-/// Keeps the newest run of each kind of node and, of haptic and device nodes, one per instance while it still
-/// speaks. `now_ns`: when `status` came.
+inline constexpr std::int64_t kSilentNs =
+    2'500'000'000;  // a node that says nothing for so long; they speak at 1 Hz
+/// Keeps the newest run of deform_node and the picture, and of haptic and device nodes one per instance. Who
+/// falls silent is forgotten after a while, but never haptic_node and deform_node: without them the session
+/// is not whole, so they stay until they return. `now_ns`: when `status` came.
 void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::vector<HeardStatus>& heard);
 
 /// What commands amount to.

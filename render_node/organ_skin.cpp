@@ -29,6 +29,7 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
   mesh_.triangles = refinement_.triangles();
   mesh_.vertices.resize(refinement_.vertex_count());
   smooth_normals(triangles_, rest_, normals_);
+  rest_normals_ = normals_;
   std::vector<Vec3f> refined_rest(mesh_.vertices.size());
   refinement_.curve(rest_, normals_, refined_rest);
   for (std::size_t i = 0; i < refined_rest.size(); ++i) mesh_.vertices[i].rest = refined_rest[i];
@@ -37,13 +38,13 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
 
 void OrganSkin::deform(std::span<const float> displacements) {
   assert(displacements.size() == 3 * rest_.size());
-  float deepest_squared = 0;
+  float largest_squared = 0;
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     const Vec3f u(displacements[3 * s], displacements[3 * s + 1], displacements[3 * s + 2]);
     positions_[s] = rest_[s] + u;
-    deepest_squared = std::max(deepest_squared, u.squaredNorm());
+    largest_squared = std::max(largest_squared, u.squaredNorm());
   }
-  deepest_m_ = std::sqrt(deepest_squared);
+  largest_displacement_m_ = std::sqrt(largest_squared);
   smooth_normals(triangles_, positions_, normals_);
   openness_of(triangles_, positions_, normals_, kHorizonM, openness_);
   refinement_.apply(positions_, normals_, openness_, mesh_.vertices);

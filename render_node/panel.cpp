@@ -1,5 +1,7 @@
 #include "render_node/panel.h"
 
+#include "render_node/scene_view.h"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -8,7 +10,7 @@
 namespace omentum::render {
 namespace {
 
-constexpr float kCurveHeight = 74;  // pixels
+constexpr float kCurveHeight = 74, kCurveThickness = 1.8f;  // pixels
 const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
 const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
 
@@ -91,31 +93,41 @@ void latency(const char* name, double p50_us, double p99_us) {
   right_aligned((duration(p50_us) + "  (p99 " + duration(p99_us) + ")").c_str());
 }
 
+// One line for each stretch without a gap.
+void draw_curve(const ToolRow& tool, double now_s, double top_n, const ImVec2& corner, const ImVec2& size) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 colour = ImGui::GetColorU32(display(tool.colour));
+  std::vector<ImVec2> line;
+  const auto finish_line = [&] {
+    draw.AddPolyline(line.data(), static_cast<int>(line.size()), colour, 0, kCurveThickness);
+    line.clear();
+  };
+  for (const auto& sample : tool.curve) {
+    if (sample.after_gap) finish_line();
+    const double age = now_s - sample.time_s;
+    line.push_back({corner.x + size.x * static_cast<float>(1 - age / ForceHistory::kSpanS),
+                    corner.y + (size.y - 2) * static_cast<float>(1 - sample.force_n / top_n) + 1});
+  }
+  finish_line();
+}
+
 void draw_curves(const PanelView& view) {
   float largest = 0;
   for (const ToolRow& tool : view.tools) largest = std::max(largest, tool.largest_n);
   const double top = force_axis_n(largest);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size{ImGui::GetContentRegionAvail().x, kCurveHeight};
+  const ImVec2 end{corner.x + size.x, corner.y + size.y};
   ImGui::Dummy(size);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
+  draw.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
   for (const float share : {0.25f, 0.5f, 0.75f}) {
     const float y = corner.y + share * size.y;
-    draw.AddLine({corner.x, y}, {corner.x + size.x, y}, IM_COL32(255, 255, 255, 16));
+    draw.AddLine({corner.x, y}, {end.x, y}, IM_COL32(255, 255, 255, 16));
   }
-  for (const ToolRow& tool : view.tools) {
-    std::vector<ImVec2> line;
-    for (const auto& sample : tool.curve) {
-      const double age = view.time_s - sample.time_s;
-      line.push_back({corner.x + size.x * static_cast<float>(1 - age / ForceHistory::kSpanS),
-                      corner.y + (size.y - 2) * static_cast<float>(1 - sample.force_n / top) + 1});
-    }
-    draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-    draw.AddPolyline(line.data(), static_cast<int>(line.size()), ImGui::GetColorU32(display(tool.colour)), 0,
-                     1.8f);
-    draw.PopClipRect();
-  }
+  draw.PushClipRect(corner, end, true);
+  for (const ToolRow& tool : view.tools) draw_curve(tool, view.time_s, top, corner, size);
+  draw.PopClipRect();
   const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   draw.AddText({corner.x + 5, corner.y + 2}, dim, format("%g N", top).c_str());
   draw.AddText({corner.x + 5, corner.y + size.y - 18}, dim, "10 s");
@@ -152,17 +164,27 @@ void forces(const PanelView& view) {
   draw_curves(view);
 }
 
-void organ(const PanelView& view) {
-  ImGui::TextUnformatted("deepest press");
+void organ_line(const OrganRow& row) {
+  if (row.stale()) {
+    const std::string age = format("%.0f s", 1e-9 * static_cast<double>(row.age_ns));
+    ImGui::TextColored(kAmber, "%s for %s", row.known ? "organ stale: no state" : "no organ state",
+                       age.c_str());
+  }
+  if (row.beyond_linear())
+    ImGui::TextColored(kAmber, "moved %.0f mm: beyond linear range (%.0f mm)", row.moved_mm, row.limit_mm);
+}
+
+void organs(const PanelView& view) {
+  ImGui::TextUnformatted("deepest dent");
   ImGui::SameLine();
-  const std::string depth = format("%.1f mm", view.deepest_mm);
-  right_aligned(depth.c_str(), view.beyond_linear() ? &kAmber : nullptr);
-  if (view.beyond_linear()) ImGui::TextColored(kAmber, "beyond linear range (%.0f mm)", view.linear_limit_mm);
+  right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  for (const OrganRow& row : view.organs) organ_line(row);
   if (view.incomplete_states > 0) {
     ImGui::TextColored(kAmber, "%llu states came incomplete",
                        static_cast<unsigned long long>(view.incomplete_states));
   }
-  if (view.arrows) ImGui::TextDisabled("arrow: force on the hand, 20 mm = 1 N");
+  if (view.arrows)
+    ImGui::TextDisabled("arrow: force on the hand, %.0f mm = 1 N", 1e3 * kArrowMetresPerNewton);
 }
 
 void fault_list(const std::vector<std::string>& faults) {
@@ -199,6 +221,11 @@ PanelActions buttons(const PanelView& view) {
 
 }  // namespace
 
+double panel_share(Size picture) {
+  constexpr double kMost = 0.4;  // in a narrower picture the organ lies under the panel rather than outside
+  return std::min(kMost, static_cast<double>(kPanelWidth + kPanelMargin) / picture.width);
+}
+
 PanelActions lay_out_panel(const PanelView& view) {
   ImGui::SetNextWindowPos({kPanelMargin, kPanelMargin});
   ImGui::SetNextWindowSize({kPanelWidth, 0});
@@ -210,7 +237,7 @@ PanelActions lay_out_panel(const PanelView& view) {
   latency("hand to force", view.hand_to_force_us, view.hand_to_force_p99_us);
   latency("hand to picture", view.hand_to_picture_us, view.hand_to_picture_p99_us);
   forces(view);
-  organ(view);
+  organs(view);
   fault_list(view.faults);
   const PanelActions actions = view.interactive ? buttons(view) : PanelActions{};
   ImGui::End();

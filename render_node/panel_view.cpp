@@ -22,12 +22,20 @@ std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64
     row.silent = now_ns - arrived_ns > kSilentNs;
     row.rate_hz = status.period_us.p50 > 0 ? 1e6 / status.period_us.p50 : status.rate_hz;
     row.compute_us = status.compute_us.p50;
-    row.compute_p99_us = status.compute_us.p99;
     row.missed = status.missed;
     // a picture that comes later takes nothing from the hand
     row.misses_matter = status.kind != msg::NODE_RENDER && kSeriousMisses * status.missed > status.ticks;
   }
   return rows;
+}
+
+std::optional<bool> haptic_paused(const std::vector<HeardStatus>& heard, std::int64_t now_ns) {
+  std::optional<bool> paused;
+  for (const auto& [status, arrived_ns] : heard) {
+    if (status.kind != msg::NODE_HAPTIC || now_ns - arrived_ns > kSilentNs) continue;
+    paused = paused.value_or(false) || status.paused;
+  }
+  return paused;
 }
 
 std::vector<std::string> all_faults(const std::vector<HeardStatus>& heard) {

@@ -5,6 +5,7 @@
 #include "render_node/inbox.h"
 #include "render_node/renderer.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,12 @@ namespace omentum::render {
 /// A node's line.
 struct NodeRow {
   std::string name;
-  bool silent = false;    // no status for kSilentNs
+  bool silent = false;    // no status for kSilentNs (inbox.h)
   double rate_hz = 0;     // measured: one over the median period; the configured one before the first tick
   double compute_us = 0;  // median
-  double compute_p99_us = 0;
   std::uint64_t missed = 0;
   bool misses_matter = false;  // of a real-time loop, more than one in a thousand
 };
-inline constexpr std::int64_t kSilentNs = 2'500'000'000;  // statuses come at 1 Hz at least
 
 /// A tool's line.
 struct ToolRow {
@@ -32,6 +31,19 @@ struct ToolRow {
   std::vector<std::string> state;  // what force safety did: "clamped", "stale" ...
   bool fault = false;              // latched, cleared by a person
   std::vector<ForceHistory::Sample> curve;
+};
+
+/// An organ's line.
+struct OrganRow {
+  double moved_mm = 0;  // largest displacement of any of its nodes, the bending of the whole organ included
+  double limit_mm = 0;  // up to where linear elasticity is trusted: kLinearShare of its size
+  bool known = false;   // a state came
+  std::int64_t age_ns = 0;  // of the newest state; where none came, since the start
+
+  bool beyond_linear() const { return moved_mm > limit_mm; }
+  bool stale() const { return age_ns > kStaleStateNs; }
+  static constexpr std::int64_t kStaleStateNs =
+      500'000'000;  // states come at 60 Hz or more; what is drawn is old
 };
 
 struct PanelView {
@@ -46,12 +58,10 @@ struct PanelView {
   // unknown
   double hand_to_force_us = 0, hand_to_force_p99_us = 0;
   double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
-  double deepest_mm = 0;       // largest displacement of any organ
-  double linear_limit_mm = 0;  // of that organ: 10 % of its size (DESIGN 3)
+  double dent_mm = 0;  // the deepest of this moment (dent.h)
+  std::vector<OrganRow> organs;
   std::uint64_t incomplete_states = 0;
   std::vector<std::string> faults;  // of all nodes, their name in front
-
-  bool beyond_linear() const { return deepest_mm > linear_limit_mm; }
 };
 
 /// What the person pressed.
@@ -65,6 +75,8 @@ inline constexpr double kLinearShare = 0.1;
 
 /// Names, rates and silence of the nodes.
 std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64_t now_ns);
+/// Whether a haptic_node that still speaks says that it is paused; nothing where none speaks.
+std::optional<bool> haptic_paused(const std::vector<HeardStatus>& heard, std::int64_t now_ns);
 /// "deform_node: TEXT" for each fault of each node.
 std::vector<std::string> all_faults(const std::vector<HeardStatus>& heard);
 /// The words for ToolForce.state.

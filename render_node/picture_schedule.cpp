@@ -16,25 +16,25 @@ bool PictureSchedule::frame_due(double time_s) const {
   return period_s_ > 0 && time_s >= next_s_;
 }
 
-bool PictureSchedule::indent_due(double time_s, double deepest_m) const {
-  if (deepest_m < kShallowestM || deepest_m <= kDeeper * deepest_m_) return false;
-  return deepest_m_ == 0 || time_s - indent_written_s_ >= kIndentPeriodS;
+bool PictureSchedule::indent_due(double time_s, double dent_m) const {
+  if (dent_m < kShallowestM || dent_m <= kDeeper * indent_m_) return false;
+  return indent_m_ == 0 || time_s - indent_written_s_ >= kIndentPeriodS;
 }
 
-std::vector<std::string> PictureSchedule::due(double time_s, double deepest_m) {
-  std::vector<std::string> files;
+PicturesDue PictureSchedule::due(double time_s, double dent_m) {
+  PicturesDue due;
   if (frame_due(time_s)) {
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "frame_%04d.png", ++frames_);
-    files.emplace_back(name.data());
+    due.numbered = name.data();
     next_s_ = time_s + period_s_;
   }
-  if (indent_due(time_s, deepest_m)) {
-    files.emplace_back("indent.png");
-    deepest_m_ = deepest_m;
+  if (indent_due(time_s, dent_m)) {
+    due.indent = true;
+    indent_m_ = dent_m;
     indent_written_s_ = time_s;
   }
-  return files;
+  return due;
 }
 
 }  // namespace omentum::render

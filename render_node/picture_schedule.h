@@ -6,24 +6,30 @@
 
 namespace omentum::render {
 
-/// Names the files that a frame should be written to: frame_0001.png, ... every period, and indent.png when
-/// the organ is pressed deeper than in any picture before. No clock: times are given. One thread.
+/// What should be written of a frame.
+struct PicturesDue {
+  std::string numbered;  // frame_0001.png, ... of the ordinary view; empty: none
+  bool indent = false;   // indent.png, the close-up of the deepest dent
+};
+
+/// A numbered picture every period, and the close-up whenever a dent is deeper than in any picture before. No
+/// clock: times are given. One thread.
 class PictureSchedule {
  public:
   /// period_s <= 0: no numbered frames.
   explicit PictureSchedule(double period_s) : period_s_(period_s) {}
 
-  /// `deepest_m`: largest displacement in this frame. Times must not decrease.
-  std::vector<std::string> due(double time_s, double deepest_m);
+  /// `dent_m`: depth of the deepest dent in this frame (dent.h). Times must not decrease.
+  PicturesDue due(double time_s, double dent_m);
 
  private:
   bool frame_due(double time_s) const;
-  bool indent_due(double time_s, double deepest_m) const;
+  bool indent_due(double time_s, double dent_m) const;
 
   double period_s_;
   int frames_ = 0;
   double next_s_ = 0;
-  double deepest_m_ = 0;  // in indent.png
+  double indent_m_ = 0;  // in indent.png
   double indent_written_s_ = 0;
 };
 

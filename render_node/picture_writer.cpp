@@ -27,14 +27,14 @@ PictureWriter::~PictureWriter() {
   thread_.join();
 }
 
-void PictureWriter::write(Picture picture, const std::vector<std::string>& names) {
+void PictureWriter::write(Picture picture, const std::string& name) {
   {
     const std::lock_guard lock(mutex_);
     if (jobs_.size() == kWaiting) {
       jobs_.pop_front();
       faults_.raise("pictures: the disk is too slow, some were dropped");
     }
-    jobs_.push_back({std::move(picture), names});
+    jobs_.push_back({std::move(picture), name});
   }
   changed_.notify_one();
 }
@@ -53,12 +53,10 @@ void PictureWriter::work() {
 }
 
 void PictureWriter::write_now(const Job& job) {
-  for (const std::string& name : job.names) {
-    try {
-      write_png(job.picture, folder_ / name);
-    } catch (const std::exception& error) {
-      faults_.raise(error.what());
-    }
+  try {
+    write_png(job.picture, folder_ / job.name);
+  } catch (const std::exception& error) {
+    faults_.raise(error.what());
   }
 }
 

@@ -22,14 +22,13 @@ class PictureWriter {
   PictureWriter(const PictureWriter&) = delete;
   PictureWriter& operator=(const PictureWriter&) = delete;
 
-  /// `names`: files in the folder. Does not wait. Any thread.
-  void write(Picture picture, const std::vector<std::string>& names);
-  const std::filesystem::path& folder() const { return folder_; }
+  /// `name`: of a file in the folder. Does not wait. Any thread.
+  void write(Picture picture, const std::string& name);
 
  private:
   struct Job {
     Picture picture;
-    std::vector<std::string> names;
+    std::string name;
   };
   void work();
   void write_now(const Job& job);

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "render_node/frame_rate_control.h"
-#include "render_node/inbox.h"
 #include "render_node/panel.h"
 #include "render_node/picture_schedule.h"
 #include "render_node/picture_writer.h"
-#include "render_node/scene_view.h"
+#include "render_node/session_watch.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
@@ -39,46 +38,45 @@ class RenderLoop {
   /// Until pace.stop(), the window is closed or the time is over; then writes final.png. Throws
   /// std::runtime_error when deform_node turns out to serve another organ.
   void run();
-  /// After run(): the node's object of report.json (DESIGN 5).
+  /// After run(): the node's object of report.json (DESIGN 5), and `closed`: whether a person closed the
+  /// window, and `deepest_dent_m` (dent.h).
   nlohmann::json report() const;
 
  private:
-  RenderLoop(const RenderOptions& options, const runtime::Scene& scene, Renderer& renderer,
-             runtime::RateLoop& pace);
-  bool frame(const std::vector<std::string>& pictures);  // false: the window was closed
-  void listen();
-  void listen_to_tool(std::size_t tool, std::int64_t now_ns);
-  void listen_to_organs();
+  struct Loaded {
+    runtime::Scene scene;
+    std::vector<LoadedOrgan> organs;
+    std::vector<OrganShape> shapes;
+  };
+  static Loaded load(const RenderOptions& options);
+  RenderLoop(const RenderOptions& options, const Loaded& loaded, Renderer& renderer, runtime::RateLoop& pace);
+  void frame(bool last);
+  void take_close_up(const DeepestDent& deepest);
+  void draw(const std::string& picture);  // file name; empty: for the window only
+  void finish_frame(std::int64_t begin_ns, bool for_disk);
   void steer(const Input& input);
   void obey(const PanelActions& actions);
   void command(std::uint32_t command);
   PanelView panel_view(std::int64_t now_ns) const;
-  void shown(std::int64_t now_ns);
-  double deepest_m() const;
-  bool paused() const;
+  void tell_status(std::int64_t now_ns);
+  double seconds_since_begin(std::int64_t now_ns) const {
+    return 1e-9 * static_cast<double>(now_ns - begin_ns_);
+  }
 
   RenderOptions options_;
-  runtime::Scene scene_;
-  std::pair<std::vector<LoadedOrgan>, std::vector<OrganShape>> loaded_;
   Renderer& renderer_;
   runtime::RateLoop& pace_;
+  std::int64_t begin_ns_;
   runtime::FaultList faults_;
   SceneView view_;
+  SessionWatch watch_;
   ViewChoices choices_;
-  std::vector<ToolNow> tools_;
-  std::vector<ToolRow> rows_;
-  std::vector<ForceHistory> histories_;
-  std::vector<std::vector<msg::Echo>> echoes_;  // per organ, of the state that is drawn
-  bool fresh_echoes_ = false;                   // since the last frame
-  std::vector<HeardStatus> statuses_;
-  SessionState session_;
   FrameRateControl control_;
   PictureSchedule schedule_;
   std::unique_ptr<PictureWriter> writer_;
   std::unique_ptr<runtime::LoopLog> log_;
   runtime::TickAccount account_;  // frames, not the pace's ticks: a slow machine skips some of those
-  runtime::Histogram hand_to_force_, hand_to_picture_;
-  std::int64_t begin_ns_ = 0;
+  bool closed_ = false;           // the window, by a person
   std::int64_t next_status_ns_ = 0;
   msg::NodeStatus status_;
 

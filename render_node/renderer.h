@@ -91,6 +91,7 @@ struct Frame {
   std::vector<DrawItem> items;
   bool through_endoscope = false;  // round field of view
   float middle = 0.5f;             // of the view, share of the width: a panel may cover the left
+  bool with_panel = true;          // the one that was laid out since begin_frame()
 };
 
 /// Eight-bit sRGB with opaque alpha, rows from top to bottom.
@@ -110,7 +111,8 @@ struct Input {
 /// Draws frames into a window or an off-screen target. One thread, the one that made it.
 ///
 /// A frame is: begin_frame(), lay out the panel with Dear ImGui, draw(), read_back() if a picture is
-/// wanted, end_frame().
+/// wanted, end_frame(). It may be drawn and read back without the panel before that, for a picture of another
+/// view.
 class Renderer {
  public:
   virtual ~Renderer() = default;
@@ -125,7 +127,6 @@ class Renderer {
 
   virtual Size size() const = 0;
   virtual bool has_window() const = 0;
-  virtual std::string description() const = 0;  // e.g. "off-screen 960x600, llvmpipe"
 };
 
 }  // namespace omentum::render

@@ -115,11 +115,46 @@ Camera SceneView::camera(const ViewChoices& choices, std::span<const ToolNow> to
 }
 
 Frame SceneView::frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const {
-  const Camera from = camera(choices, tools);
+  Frame frame = frame_from(camera(choices, tools), choices, tools, panel_share);
+  frame.through_endoscope = choices.endoscope;
+  return frame;
+}
+
+Frame SceneView::close_up(const Dent& dent, std::size_t organ, const ViewChoices& choices,
+                          std::span<const ToolNow> tools) const {
+  std::vector<Shaft> shafts;
+  for (const ToolNow& tool : tools) {
+    if (tool.seen) shafts.push_back({tool.p_WT, tool.q_WT * Vec3::UnitZ()});
+  }
+  ViewChoices near = choices;
+  near.markers = near.arrows = false;  // they would cover the dent
+  const Camera camera = close_up_of(dent, organs_[organ].skin, shafts, choices.orbit);
+  Frame frame = frame_from(camera, near, tools, 0);
+  frame.lighting = rake_light(camera, shadow_ball());
+  frame.with_panel = false;
+  return frame;
+}
+
+std::optional<Dent> SceneView::dent_of(const ToolNow& tool) const {
+  if (!tool.seen || tool.contact_organ >= organs_.size()) return std::nullopt;
+  const DrawnOrgan& organ = organs_[tool.contact_organ];
+  std::vector<PressedNode> pressed;
+  for (std::size_t i = 0; i < std::min(tool.contact_nodes.size(), tool.contact_forces_n.size()); ++i) {
+    const auto node = organ.surface_node(tool.contact_nodes[i]);
+    if (node.valid()) pressed.push_back({node, tool.contact_forces_n[i]});
+  }
+  return measure_dent(organ.skin, pressed);
+}
+
+Ball SceneView::shadow_ball() const {
+  return {ball_.centre, kShadowReach * ball_.radius};
+}
+
+Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std::span<const ToolNow> tools,
+                            double panel_share) const {
   Frame frame;
   frame.view = view_of(from, ball_, renderer_.size().aspect(), panel_share / 2);
-  frame.lighting = light_scene(from, {ball_.centre, kShadowReach * ball_.radius});
-  frame.through_endoscope = choices.endoscope;
+  frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const DrawnOrgan& organ : organs_)
@@ -158,8 +193,9 @@ void SceneView::add_markers(std::size_t tool, const ToolNow& now, std::vector<Dr
   if (now.contact_organ >= organs_.size()) return;
   const DrawnOrgan& organ = organs_[now.contact_organ];
   for (const std::uint32_t node : now.contact_nodes) {
-    if (node >= organ.surface_of_file_node.size() || !organ.surface_of_file_node[node].valid()) continue;
-    const Vec3 at = organ.skin.position(organ.surface_of_file_node[node]).cast<double>();
+    const geometry::SurfaceId surface_node = organ.surface_node(node);
+    if (!surface_node.valid()) continue;
+    const Vec3 at = organ.skin.position(surface_node).cast<double>();
     items.push_back({marker_, Look::kSignal, placed(at, Vec3::UnitZ(), kMarkerRadiusM, kMarkerRadiusM),
                      signal_material(scene_.tools[tool].id)});
   }

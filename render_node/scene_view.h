@@ -1,9 +1,8 @@
 // The scene as something to draw: organs, instruments, arrows and markers, from state to a Frame.
 #pragma once
 
-#include "render_node/camera.h"
+#include "render_node/close_up.h"
 #include "render_node/instrument_shape.h"
-#include "render_node/organ_skin.h"
 
 #include <memory>
 #include <optional>
@@ -26,6 +25,7 @@ struct ToolNow {
   Vec3 force_n = Vec3::Zero();
   std::size_t contact_organ = 0;
   std::vector<std::uint32_t> contact_nodes;  // mesh file numbers
+  std::vector<float> contact_forces_n;       // on each of them
 };
 
 /// What the person at the window chose.
@@ -33,7 +33,7 @@ struct ViewChoices {
   Camera orbit;
   bool endoscope = false;
   bool arrows = true;
-  bool markers = true;
+  bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
 };
 
 /// Arrows: this long per newton, up to a longest one; weaker forces than the least have none.
@@ -52,6 +52,13 @@ class SceneView {
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
 
+  /// What a picture of a dent shows: the same scene from nearby, without the panel.
+  Frame close_up(const Dent& dent, std::size_t organ, const ViewChoices& choices,
+                 std::span<const ToolNow> tools) const;
+
+  /// The dent that a tool presses; none where it touches nothing.
+  std::optional<Dent> dent_of(const ToolNow& tool) const;
+
   /// Where the orbit camera starts.
   Camera first_camera() const;
   const Ball& ball() const { return ball_; }
@@ -63,12 +70,20 @@ class SceneView {
     OrganSkin skin;
     std::vector<geometry::SurfaceId> surface_of_file_node;
     MeshId mesh{};
+    /// Invalid where the file's node is not on the surface.
+    geometry::SurfaceId surface_node(std::uint32_t file_node) const {
+      return file_node < surface_of_file_node.size() ? surface_of_file_node[file_node]
+                                                     : geometry::SurfaceId();
+    }
   };
   struct DrawnPart {
     InstrumentPart part;
     MeshId mesh{};
   };
+  Ball shadow_ball() const;  // what the shadow map covers
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;
+  Frame frame_from(const Camera& camera, const ViewChoices& choices, std::span<const ToolNow> tools,
+                   double panel_share) const;
   void add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;

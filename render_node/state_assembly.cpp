@@ -42,7 +42,6 @@ bool StateAssembly::newer(const msg::OrganState& block) {
 void StateAssembly::begin(const msg::OrganState& block) {
   state_.seq = block.seq;
   state_.stamp_ns = block.stamp_ns;
-  state_.topology_version = block.topology_version;
   state_.echoes = block.echoes;
   state_.missing_blocks = block.block_count;
   arrived_.assign(block.block_count, false);

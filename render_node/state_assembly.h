@@ -11,8 +11,7 @@ namespace omentum::render {
 /// A whole state of one organ's surface, as far as it arrived.
 struct AssembledState {
   std::uint64_t seq = 0;
-  std::int64_t stamp_ns = 0;  // deform_node's steady clock
-  std::uint64_t topology_version = 0;
+  std::int64_t stamp_ns = 0;         // deform_node's steady clock
   std::uint32_t missing_blocks = 0;  // these kept the values of an earlier state
   std::vector<msg::Echo> echoes;     // newest pose per tool in this state
   std::vector<float> displacements;  // [3S], m

@@ -1,11 +1,14 @@
-// omentum_session: sends one command (start, pause, reset, ...) to every node of a session.
+// omentum_session: sends one command (start, pause, reset, ...) to every node of a session. Of a pause it
+// says what haptic_node made of it.
 #include "runtime/clock.h"
 #include "runtime/node_options.h"
 #include "transport/bus.h"
 
 #include <CLI/CLI.hpp>
 
+#include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <thread>
@@ -22,6 +25,9 @@ constexpr double kSettleS = 1.2;
 /// this far apart, under one sequence number, by which nodes know the second one (node/session_orders.h). The
 /// same time is left for delivery.
 constexpr double kDeliveryS = 0.2;
+/// haptic_node tells its state several times a second; a second participant's first status takes discovery
+/// besides.
+constexpr double kAnswerS = 5.0;
 
 void sleep_s(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -47,9 +53,41 @@ int wait_for_readers(const transport::Writer<msg::SessionCommand>& writer, int n
   return matched;
 }
 
-void send(const transport::BusOptions& options, std::uint32_t command, int nodes) {
-  const auto bus = transport::Bus::open(options);
-  const auto writer = bus->writer<msg::SessionCommand>();
+template <class Condition>
+bool comes_true(double patience_s, Condition&& condition) {
+  for (const double begin = now_s(); !condition(); sleep_s(0.01))
+    if (now_s() - begin > patience_s) return false;
+  return true;
+}
+
+/// Whether haptic_node is paused, in its own words.
+class HapticState {
+ public:
+  explicit HapticState(transport::Bus& bus)
+      : reader_(bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) {
+          if (status.kind == msg::NODE_HAPTIC) said_ = status.paused ? Said::kPaused : Said::kRunning;
+        })) {}
+
+  /// Throws when no haptic_node speaks.
+  bool paused() const {
+    if (!comes_true(kAnswerS, [&] { return said_ != Said::kNothing; }))
+      throw std::runtime_error("no haptic_node answers (expected one that says whether it is paused)");
+    return said_ == Said::kPaused;
+  }
+  /// Throws when it does not become so.
+  void expect(bool paused) const {
+    if (!comes_true(kAnswerS, [&] { return this->paused() == paused; }))
+      throw std::runtime_error(std::string("haptic_node ") + (paused ? "does not pause" : "stays paused"));
+  }
+
+ private:
+  enum class Said { kNothing, kRunning, kPaused };
+  std::atomic<Said> said_{Said::kNothing};
+  std::unique_ptr<transport::Reader<msg::NodeStatus>> reader_;  // last: its callback uses what is above
+};
+
+void send(transport::Bus& bus, const transport::BusOptions& options, std::uint32_t command, int nodes) {
+  const auto writer = bus.writer<msg::SessionCommand>();
   const int matched = wait_for_readers(*writer, nodes);
   if (matched == 0)
     throw std::runtime_error("no node found in domain " + std::to_string(options.domain) +
@@ -63,17 +101,39 @@ void send(const transport::BusOptions& options, std::uint32_t command, int nodes
   }
 }
 
+/// Returns when haptic_node says that it obeyed, and says so.
+void send_pause(transport::Bus& bus, const transport::BusOptions& options, const HapticState& haptic,
+                bool paused, int nodes) {
+  send(bus, options, paused ? msg::COMMAND_PAUSE : msg::COMMAND_START, nodes);
+  haptic.expect(paused);
+  std::puts(paused ? "paused" : "goes on");
+}
+
+constexpr std::uint32_t kTogglePause =
+    ~std::uint32_t{0};  // not on the wire: pause or start, whichever it is not
+
+void run(const transport::BusOptions& options, std::uint32_t command, int nodes) {
+  const auto bus = transport::Bus::open(options);
+  if (command == kTogglePause || command == msg::COMMAND_PAUSE || command == msg::COMMAND_START) {
+    const HapticState haptic(*bus);
+    const bool pause = command == kTogglePause ? !haptic.paused() : command == msg::COMMAND_PAUSE;
+    return send_pause(*bus, options, haptic, pause, nodes);
+  }
+  send(*bus, options, command, nodes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::uint32_t> commands{{"start", msg::COMMAND_START},
                                                       {"pause", msg::COMMAND_PAUSE},
+                                                      {"toggle-pause", kTogglePause},
                                                       {"reset", msg::COMMAND_RESET},
                                                       {"clear-fault", msg::COMMAND_CLEAR_FAULT}};
   CLI::App app("Sends one command to every node of a running session.", "omentum_session");
   std::string command, dds = "fast", profile = "loopback", keystore;
   int domain = 0, nodes = 0;
-  app.add_option("command", command, "start, pause, reset or clear-fault")
+  app.add_option("command", command, "start, pause, toggle-pause, reset or clear-fault")
       ->required()
       ->check(CLI::IsMember(commands));
   app.add_option("--dds", dds, "DDS vendor: fast or cyclone")
@@ -89,11 +149,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
 
   return runtime::node_main(app, argc, argv, [&] {
-    send({.vendor = transport::parse_vendor(dds),
-          .domain = domain,
-          .profile = transport::parse_profile(profile),
-          .name = "omentum_session",
-          .keystore = keystore},
-         commands.at(command), nodes);
+    run({.vendor = transport::parse_vendor(dds),
+         .domain = domain,
+         .profile = transport::parse_profile(profile),
+         .name = "omentum_session",
+         .keystore = keystore},
+        commands.at(command), nodes);
   });
 }

@@ -1,20 +1,17 @@
 """From a scene to files that the nodes can load: phantom, organ, fitted scene; cached by what they are made of."""
-import fcntl
-import hashlib
 import json
-import os
 import pathlib
 import re
-import shutil
 import subprocess
 import time
 
+from .cache import PATIENCE_S, Cache
 from .errors import Refusal
-from .options import REPOSITORY
 
 LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to be in millimetres
-SUPPORTED_PART = 0.05  # of a foreign mesh's length, where --fixed is not given
-PATIENCE_S = 2.0  # anything longer gets a line of progress
+# Of a foreign mesh's length, where --fixed is not given: an organ is held at an edge (ligaments), but lies on its whole
+# underside; held at its lowest tip only, it would rock under the hand.
+SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
 
 
 def run_tool(options, arguments, doing):
@@ -49,48 +46,13 @@ def run_tool(options, arguments, doing):
     return out
 
 
-def digest(*parts):
-    """Of texts and of files' contents; a file that is not there counts as empty (organ_build says what is wrong)."""
-    total = hashlib.sha256()
-    for part in parts:
-        if isinstance(part, pathlib.Path):
-            content = part.read_bytes() if part.is_file() else b""
-        else:
-            content = str(part).encode()
-        total.update(hashlib.sha256(content).digest())
-    return total.hexdigest()[:20]
-
-
-class Cache:
-    """Files under build/cache (or $OMENTUM_CACHE), one folder for each digest of all that a file depends on."""
-
-    def __init__(self):
-        self.root = pathlib.Path(os.environ.get("OMENTUM_CACHE") or REPOSITORY / "build" / "cache").resolve()
-        self.root.mkdir(parents=True, exist_ok=True)
-
-    def get(self, key, name, make):
-        """The file `name`; make(path) writes it when it is not there. One launcher at a time makes files."""
-        folder = self.root / key
-        file, part = folder / name, folder / "part"
-        with open(self.root / "lock", "w", encoding="ascii") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            if not file.exists():
-                shutil.rmtree(folder, ignore_errors=True)
-                part.mkdir(parents=True)
-                # made under its own name (an organ is called after its file), then moved: never half a file
-                make(part / name)
-                (part / name).rename(file)
-                part.rmdir()
-        return file
-
-
 def describe(options):
     return json.loads(run_tool(options, ["scene_prepare", options.scene, "--describe"], "reading the scene"))
 
 
 def phantom_mesh(options, cache, kind):
     program = options.programs / "organ_phantom"
-    return cache.get(digest("phantom", kind, program), f"liver_{kind}.msh",
+    return cache.get(f"liver_{kind}.msh", ["phantom", kind, program],
                      lambda file: run_tool(options, ["organ_phantom", *phantom_arguments(kind, file)],
                                            f"making the liver ({kind} size)"))
 
@@ -100,11 +62,12 @@ def phantom_arguments(kind, file):
 
 
 def support_spec(measured, scale, scene_fixed):
-    """A plane at the outermost 5 % of the mesh, on the axis and side on which the scene supports its own organ."""
+    """A plane through the mesh on the axis and side on which the scene supports its own organ."""
     match = re.match(r"plane:([xyz])([<>])", scene_fixed)
     axis, side = match.groups() if match else ("z", "<")
     low, high = (scale * measured[end]["xyz".index(axis)] for end in ("min", "max"))
-    at = low + SUPPORTED_PART * (high - low) if side == "<" else high - SUPPORTED_PART * (high - low)
+    held = SUPPORTED_PART[axis] * (high - low)
+    at = low + held if side == "<" else high - held
     return f"plane:{axis}{side}{at:.6g}"
 
 
@@ -124,16 +87,26 @@ def foreign_terms(options, spec):
     return scale, fixed
 
 
+def support_files(fixed):
+    """The CSV that a --fixed SPEC names, without the components that may follow it (nodes.csv:xz)."""
+    if fixed.startswith(("plane:", "box:")):
+        return []
+    return [pathlib.Path(re.sub(r":[xyz]+$", "", fixed))]
+
+
+def relative_to(scene, fixed):
+    """A scene's SPEC: like its mesh, a CSV in it lies relative to the scene's file."""
+    return fixed if fixed.startswith(("plane:", "box:")) else str(scene.parent / fixed)
+
+
 def build_organ(options, cache, mesh, name, spec, scale, fixed):
     program = options.programs / "organ_build"
     terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
              "--scale", scale, "--fixed", fixed]
-    inputs = [mesh]
-    if pathlib.Path(fixed).is_file():
-        inputs.append(pathlib.Path(fixed))
+    inputs = [mesh, *support_files(fixed)]
     if mesh.suffix in (".node", ".ele"):
         inputs += [mesh.with_suffix(".node"), mesh.with_suffix(".ele")]
-    return cache.get(digest("organ", program, *terms, *inputs), f"{name}.h5",
+    return cache.get(f"{name}.h5", ["organ", program, *terms, *inputs],
                      lambda file: run_tool(options, ["organ_build", mesh, "-o", file, *terms],
                                            f"precomputing the force tensors of {mesh.name}"))
 
@@ -149,7 +122,8 @@ def organ_file(options, cache, spec):
         return pathlib.Path(spec["file"] or spec["mesh"])
     kind, _, size = spec["mesh"].partition(":")
     mesh = phantom_mesh(options, cache, size) if kind == "phantom" else pathlib.Path(spec["mesh"])
-    return build_organ(options, cache, mesh, spec["name"], spec, spec["metres_per_unit"], spec["fixed"])
+    return build_organ(options, cache, mesh, spec["name"], spec, spec["metres_per_unit"],
+                       relative_to(options.scene, spec["fixed"]))
 
 
 def prepare(options):

@@ -17,13 +17,14 @@ PR_SET_PDEATHSIG = 1
 class Node:
     """One process of the session. Started again, it keeps its place."""
 
-    def __init__(self, name, command, processors=None):
-        self.name, self.command, self.processors = name, command, processors
+    def __init__(self, name, command, report, processors=None):
+        self.name, self.command, self.report, self.processors = name, command, report, processors
         self.process, self.exit, self.starts = None, None, 0
 
     def start(self):
         self.exit = None
         self.starts += 1
+        self.report.unlink(missing_ok=True)  # of the run before: this one may end without one
         try:
             self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, process_group=0,
                                             preexec_fn=self.prepare_child)
@@ -49,6 +50,9 @@ class Node:
     def terminate(self):
         if self.running() and self.process.poll() is None:
             self.process.terminate()
+
+    def restarts(self):
+        return max(0, self.starts - 1)
 
     def how_it_ended(self):
         if self.exit < 0:

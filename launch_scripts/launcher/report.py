@@ -12,7 +12,7 @@ FIELDS = {
     "haptic_node": {"loop": NO_LOOP, "force_n": {"mean": 0.0, "max": 0.0},
                     "contacts": {"ticks_in_contact": 0, "nodes_max": 0}, "faults": []},
     "deform_node": {"loop": NO_LOOP, "states": 0, "steps": 0, "removed_tetrahedra": 0, "faults": []},
-    "render_node": {"frames": 0, "frame_us": NONE_US, "faults": []},
+    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "closed": False, "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
 LINKS = ("tool_to_force_us", "tool_to_organ_us", "tool_to_picture_us")
@@ -35,8 +35,8 @@ def read_node(file, name):
         return {"faults": [f"{name} left no report"]}
 
 
-def merge(scene_name, seconds, realtime, nodes, vendors, folder):
-    """`folder` holds NAME.json for each node."""
+def merge(scene_name, seconds, realtime, nodes, vendors):
+    """From what each node wrote itself, and what the launcher saw of it."""
     report = {
         "scene": scene_name,
         "seconds": round(seconds, 3),
@@ -46,9 +46,10 @@ def merge(scene_name, seconds, realtime, nodes, vendors, folder):
         "link": {link: dict(NONE_US) for link in LINKS},
     }
     for node in nodes:
-        own = read_node(folder / f"{node.name}.json", node.name)
+        own = read_node(node.report, node.name)
         report["link"].update(own.pop("link", {}))
-        report["nodes"][node.name] = {**completed(FIELDS[node.name], own), "dds": vendors[node.name], "exit": node.exit}
+        report["nodes"][node.name] = {**completed(FIELDS[node.name], own), "dds": vendors[node.name], "exit": node.exit,
+                                      "restarts": node.restarts()}
     return report
 
 
@@ -58,11 +59,15 @@ def write(report, file):
     part.replace(file)
 
 
+def duration(us):
+    return f"{us:.0f} us" if us < 1000 else f"{us / 1000:.1f} ms"
+
+
 def span(times):
-    """A distribution in words: median, 99 %, largest."""
+    """A distribution in words: median, 99 %, longest."""
     if not times["count"]:
         return ["-", "-", "-"]
-    return [f"{times[key]:.0f}" for key in ("p50", "p99", "max")]
+    return [duration(times[key]) for key in ("p50", "p99", "max")]
 
 
 def table(rows):
@@ -74,29 +79,46 @@ def table(rows):
     return "\n".join(lines)
 
 
+def loop_figures(node):
+    loop = node["loop"]
+    return [f"{loop['rate_hz']:g} Hz", f"{loop['ticks']} ticks", f"{loop['missed']} missed", "step", *span(loop["compute_us"])]
+
+
+def picture_figures(node):
+    return ["", f"{node['frames']} frames", "", "frame", *span(node["frame_us"])]
+
+
+def device_figures(node):
+    rate = f"{node['loop']['rate_hz']:g} Hz" if "loop" in node else ""
+    return [rate, f"{node['sent']} poses", f"{node['lost']} lost", "round trip", *span(node["round_trip_us"])]
+
+
+FIGURES = {"haptic_node": loop_figures, "deform_node": loop_figures, "render_node": picture_figures,
+           "virtual_device": device_figures}
+
+
 def node_row(name, node):
-    loop = node.get("loop")
-    if loop:
-        return [name, node["dds"], str(node["exit"]), f"{loop['rate_hz']:g}", str(loop["ticks"]), str(loop["missed"]),
-                *span(loop["compute_us"])]
-    count, times = ("frames", "frame_us") if "frames" in node else ("sent", "round_trip_us")
-    missed = str(node["lost"]) if "lost" in node else "-"
-    return [name, node["dds"], str(node["exit"]), "-", str(node[count]), missed, *span(node[times])]
+    exit_code = str(node["exit"]) + (f" ({node['restarts']} restarts)" if node["restarts"] else "")
+    return [name, node["dds"], exit_code, *FIGURES[name](node)]
+
+
+def link_row(link, times):
+    return [link.removesuffix("_us").replace("_", " "), "", "", "", f"{times['count']} seen", "", "latency", *span(times)]
 
 
 def summary(report):
     """A short table, and what a person should know besides."""
-    rows = [["", "dds", "exit", "rate Hz", "ticks", "missed", "p50 us", "p99 us", "max us"]]
+    rows = [["", "dds", "exit", "rate", "done", "not done", "time of", "median", "99 %", "longest"]]
     rows += [node_row(name, node) for name, node in report["nodes"].items()]
-    for link in LINKS:
-        rows.append([link.removesuffix("_us").replace("_", " "), "", "", "", str(report["link"][link]["count"]), "",
-                     *span(report["link"][link])])
+    rows += [link_row(link, report["link"][link]) for link in LINKS]
     lines = [table(rows)]
-    haptic = report["nodes"].get("haptic_node")
+    haptic, picture = report["nodes"].get("haptic_node"), report["nodes"].get("render_node")
     if haptic:
         force = haptic["force_n"]
         lines.append(f"force: mean {force['mean']:.2f} N, largest {force['max']:.2f} N; "
                      f"{haptic['contacts']['ticks_in_contact']} ticks in contact")
+    if picture:
+        lines.append(f"deepest dent: {1e3 * picture['deepest_dent_m']:.1f} mm")
     for name, node in report["nodes"].items():
         lines += [f"{name}: {fault}" for fault in node["faults"]]
     if not report["machine"]["realtime"]:

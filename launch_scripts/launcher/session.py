@@ -1,18 +1,19 @@
 """One run: four processes from start to report."""
 import os
 import pathlib
-import subprocess
 import tempfile
 import time
 
 from . import processes, report
 from .domain import Domain
 from .keys import Keys
+from .messenger import Messenger
 
 POLL_S = 0.1
 REFUSAL_WINDOW_S = 10.0  # a node that ends with code 2 within this refused to start
 RESTART_PAUSE_S = 1.0
-COMMANDS = {"r": "reset", "c": "clear-fault"}
+COMMANDS = {"p": "toggle-pause", "r": "reset", "c": "clear-fault"}
+PICTURES = ("frame_[0-9][0-9][0-9][0-9].png", "indent.png", "final.png")
 
 
 def has_display():
@@ -36,14 +37,14 @@ class Session:
         self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
         self.headless = options.headless
         self.stopping = False
-        self.paused = False
         self.realtime = False
-        self.messengers = []
         self.restarts = {}
         if not self.headless and not has_display():
             self.headless = True
             print("run: no display: writing pictures instead (--headless)", flush=True)
         self.nodes = self.make_nodes()
+        self.messenger = Messenger(options.programs / "omentum_session", [
+            "--dds", options.dds["haptic_node"], "--domain", str(self.domain.number), "--profile", options.profile])
 
     def stop(self):
         self.stopping = True
@@ -60,18 +61,25 @@ class Session:
         if self.headless:
             own["render_node"].append("--headless")
         processors = processors_of(self.options.split)
-        return [processes.Node(name, self.command(name) + extra, processors.get(name)) for name, extra in own.items()]
+        return [processes.Node(name, self.command(name) + extra, self.report_file(name), processors.get(name))
+                for name, extra in own.items()]
 
     def command(self, name):
         command = [str(self.options.programs / name), "--scene", str(self.scene), "--dds", self.options.dds[name],
                    "--domain", str(self.domain.number), "--profile", self.options.profile,
-                   "--report", str(self.report_folder() / f"{name}.json")]
+                   "--report", str(self.report_file(name))]
         if self.options.log:
             command += ["--log", str(self.options.out.resolve() / f"{name}.csv")]
         return command
 
-    def report_folder(self):
-        return pathlib.Path(self.folder.name)
+    def report_file(self, name):
+        return pathlib.Path(self.folder.name) / f"{name}.json"
+
+    def clear_out(self):
+        """What an earlier session wrote is not this one's."""
+        for pattern in (*PICTURES, "report.json"):
+            for file in self.options.out.glob(pattern):
+                file.unlink()
 
     def announce(self):
         vendors = sorted(set(self.options.dds[node.name] for node in self.nodes))
@@ -85,29 +93,44 @@ class Session:
 
     # running
     def run(self):
-        """The exit code: 0; 1 when a node crashed; 2 when one refused to start."""
+        """The exit code: 0; 1 when a node crashed; 2 when one refused to start, which then said why."""
         self.announce()
+        self.clear_out()
         begin = time.monotonic()
-        code = 0
         with Keys() as keys:
             try:
-                processes.start_all(self.nodes)
-                if self.options.paused:
-                    self.toggle_pause()
+                self.start()
                 code = self.watch(keys, begin)
             finally:
                 seconds = time.monotonic() - begin
                 processes.stop_all(self.nodes)
-                for messenger in self.messengers:
-                    messenger.kill()
-                    messenger.wait()
-        self.finish(seconds)
+                self.messenger.stop()
+        if code == processes.REFUSED:
+            self.clear_out()  # a picture of a session that never was
+        else:
+            self.finish(seconds)
+        self.folder.cleanup()
         return code or (1 if any(node.exit != 0 for node in self.nodes) else 0)
+
+    def start(self):
+        """Paused, the hand comes last, when the force is known to be off; it is then told to stand still itself."""
+        if not self.options.paused:
+            processes.start_all(self.nodes)
+            return
+        others = [node for node in self.nodes if node.name != "virtual_device"]
+        processes.start_all(others)
+        hands = [node for node in self.nodes if node not in others]
+
+        def start_hands():
+            processes.start_all(hands)
+            self.messenger.send("pause", len(self.nodes), quiet=True)
+
+        self.messenger.send("pause", len(others), start_hands if hands else None)
 
     def watch(self, keys, begin):
         while not self.stopping and any(node.running() for node in self.nodes):
             self.obey(keys.wait(POLL_S))
-            self.messengers = [m for m in self.messengers if m.poll() is None]
+            self.messenger.poll()
             elapsed = time.monotonic() - begin
             for node in self.nodes:
                 if node.ended_now() and self.ended(node, elapsed) == processes.REFUSED:
@@ -121,14 +144,13 @@ class Session:
     def ended(self, node, elapsed):
         """Somebody may have ended a node on purpose; the others go on in any case. Returns 2 for a refusal."""
         if node.exit == processes.REFUSED and node.starts == 1 and elapsed < REFUSAL_WINDOW_S:
-            print(f"run: {node.name} refused to start; ending", flush=True)
             return processes.REFUSED
-        if node.name == "render_node" and node.exit == 0 and not self.headless:
+        if node.name == "render_node" and report.read_node(node.report, node.name).get("closed"):
             print("run: the window was closed", flush=True)
             self.stop()
             return 0
         print(f"run: {node.name} {node.how_it_ended()}; the others go on", flush=True)
-        if self.options.restart and node.exit != 0:
+        if self.options.restart and node.exit not in (0, processes.REFUSED):
             self.restarts[node.name] = time.monotonic() + RESTART_PAUSE_S
         else:
             print(f"run: to start it again: {node.command_line()}", flush=True)
@@ -150,29 +172,15 @@ class Session:
     def obey(self, key):
         if key == "q":
             self.stop()
-        elif key == "p":
-            self.toggle_pause()
         elif key in COMMANDS:
-            print(f"run: {COMMANDS[key]}", flush=True)
             self.send(COMMANDS[key])
 
-    def toggle_pause(self):
-        self.paused = not self.paused
-        print("run: paused (p goes on)" if self.paused else "run: goes on", flush=True)
-        self.send("pause" if self.paused else "start")
-
     def send(self, command):
-        """In the background: finding the nodes takes up to some seconds."""
-        running = sum(node.running() for node in self.nodes)
-        self.messengers.append(subprocess.Popen(
-            [str(self.options.programs / "omentum_session"), command, "--dds", self.options.dds["haptic_node"],
-             "--domain", str(self.domain.number), "--profile", self.options.profile, "--nodes", str(running)],
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL))
+        self.messenger.send(command, sum(node.running() for node in self.nodes))
 
     # the end
     def finish(self, seconds):
-        merged = report.merge(self.name, seconds, self.realtime, self.nodes, self.options.dds, self.report_folder())
+        merged = report.merge(self.name, seconds, self.realtime, self.nodes, self.options.dds)
         report.write(merged, self.options.out / "report.json")
-        self.folder.cleanup()
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)

@@ -99,7 +99,7 @@ class GlRenderer final : public Renderer {
     cast_shadows(frame);
     draw_scene(frame, scene);
     resolve(scene);
-    panel_->draw();
+    if (frame.with_panel) panel_->draw();
   }
 
   Picture read_back() override {
@@ -123,12 +123,6 @@ class GlRenderer final : public Renderer {
 
   Size size() const override { return context_->size(); }
   bool has_window() const override { return context_->has_window(); }
-  std::string description() const override {
-    const auto [width, height] = context_->size();
-    const auto* driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return std::string(has_window() ? "window " : "off-screen ") + std::to_string(width) + "x" +
-           std::to_string(height) + ", " + (driver ? driver : "unknown driver");
-  }
 
  private:
   unsigned output() const { return output_ ? output_->framebuffer() : 0; }

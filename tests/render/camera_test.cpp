@@ -79,7 +79,7 @@ TEST(Camera, OrbitThereAndBackIsIdentity) {
   EXPECT_LT((back.eye - camera.eye).norm(), 1e-9);
 }
 
-TEST(Camera, DraggingUpwardsSeesTheSceneFromBelow) {
+TEST(Camera, DraggingDownwardsSeesTheSceneFromAbove) {
   // window coordinates grow downwards, and the loop passes them on as they are
   const Camera camera = fitted(1);
   EXPECT_GT(orbited(camera, 0, 0.1).eye.z(), camera.eye.z());
@@ -112,6 +112,15 @@ TEST(Camera, ScopeLooksAlongItsShaftAwayFromTheHandle) {
 
 TEST(Camera, NothingToSeeStillGivesABall) {
   EXPECT_GT(ball_around({}).radius, 0);
+}
+
+TEST(Lighting, RakingLightIsFlatOverASurfaceThatIsLookedAtFlatly) {
+  Camera flat = fitted(1);
+  flat.eye = flat.target + 0.1 * Vec3(0, -0.9, 0.4);
+  const double lamp = light_scene(flat, kBall).towards_key.cast<double>().dot(flat.up);
+  const double raking = rake_light(flat, kBall).towards_key.cast<double>().dot(flat.up);
+  EXPECT_GT(raking, 0.3) << "not from below";
+  EXPECT_LT(raking, lamp);
 }
 
 TEST(Lighting, ShadowBoxHoldsTheBallAndLooksAlongTheLight) {

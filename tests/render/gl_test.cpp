@@ -109,6 +109,36 @@ TEST_F(Drawing, LiverIsInTheMiddleAndTheCornersAreDark) {
     EXPECT_LT(pixel(picture, x, y).maxCoeff(), 60);
 }
 
+TEST_F(Drawing, DentIsSeenAroundTheToolInItsCloseUp) {
+  constexpr double kDepthM = 0.006;  // what the default scene's hand presses
+  constexpr int kSeen = 20;          // of 255: a step that nobody overlooks
+  ToolNow tool = tool_at(kFront * (1 - kDepthM / kRadius), Vec3::Zero());
+  std::size_t pressed = 0;  // the node next to the front
+  for (std::size_t s = 0; s < shape_.rest.size(); ++s)
+    if ((shape_.rest[s] - kFront).norm() < (shape_.rest[pressed] - kFront).norm()) pressed = s;
+  tool.contact_nodes = {static_cast<std::uint32_t>(pressed) + test::kFirstFileNode};
+  tool.contact_forces_n = {1};
+  view_->deform(0, dent(shape_, kFront, kDepthM, 0.009));
+  const Frame frame = view_->close_up(*view_->dent_of(tool), 0, choices_, std::vector<ToolNow>{tool, {}});
+  const auto shot = [&] {
+    renderer_->begin_frame();
+    renderer_->draw(frame);
+    Picture picture = renderer_->read_back();
+    renderer_->draw(
+        view_->frame(choices_, std::vector<ToolNow>{tool, {}}, 0));  // the ordinary one, with the panel
+    renderer_->end_frame();
+    return picture;
+  };
+  const Picture pressed_picture = shot();
+  view_->deform(0, std::vector<float>(3 * shape_.rest.size(), 0.0f));
+  const Picture rest_picture = shot();
+  const Area changed = area_where(
+      rest_picture, [&](int x, int y) { return difference(pressed_picture, rest_picture, x, y) > kSeen; });
+  // at least the dent itself: 18 mm across, seen 23 degrees above its rim, in a picture of 78 mm by 59 mm
+  EXPECT_GT(changed.count, 0.02 * kSize.width * kSize.height);
+  EXPECT_LT((changed.middle - 0.5 * Eigen::Vector2d(kSize.width, kSize.height)).norm(), 0.25 * kSize.width);
+}
+
 TEST_F(Drawing, NoPixelIsBroken) {
   // a division by zero or a root of a negative number shows as black or white speckles inside the organ
   const Picture picture = draw();

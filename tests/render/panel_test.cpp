@@ -29,7 +29,19 @@ TEST(ForceHistory, KeepsTenSeconds) {
   EXPECT_GE(history.samples().front().time_s, 20 - ForceHistory::kSpanS - 1e-9);
   EXPECT_NEAR(history.samples().size(), 101, 1);
   EXPECT_EQ(history.largest_n(), 2) << "what is forgotten does not count";
-  EXPECT_EQ(history.newest_n(), 2);
+}
+
+TEST(ForceHistory, LineBreaksWhereNothingWasFelt) {
+  ForceHistory history;
+  history.add(0, 1);
+  history.add(1, 1);
+  history.interrupt();
+  history.interrupt();
+  history.add(5, 2);
+  history.add(6, 2);
+  std::vector<bool> begins;
+  for (const auto& sample : history.samples()) begins.push_back(sample.after_gap);
+  EXPECT_THAT(begins, ElementsAre(true, false, true, false));
 }
 
 TEST(ForceHistory, AxisHoldsTheLargestForce) {
@@ -96,6 +108,54 @@ TEST(RememberStatus, SeveralHandsHaveALineEachUntilTheyFallSilent) {
   EXPECT_EQ(heard.size(), 2u);
   remember_status(status_of(msg::NODE_DEVICE, 2), 60 * kSecond, heard);
   EXPECT_EQ(heard.size(), 1u);
+}
+
+TEST(RememberStatus, SessionsNodesStayUntilTheyReturn) {
+  std::vector<HeardStatus> heard;
+  remember_status(status_of(msg::NODE_HAPTIC, 1), 0, heard);
+  remember_status(status_of(msg::NODE_DEFORM, 1), 0, heard);
+  remember_status(status_of(msg::NODE_DEVICE, 1), 60 * kSecond, heard);
+  const auto rows = node_rows(heard, 60 * kSecond);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_TRUE(rows[0].silent && rows[1].silent);
+  remember_status(status_of(msg::NODE_HAPTIC, 2), 61 * kSecond, heard);
+  remember_status(status_of(msg::NODE_DEFORM, 2), 61 * kSecond, heard);
+  ASSERT_EQ(heard.size(), 3u) << "the new runs took the silent ones' places";
+  EXPECT_FALSE(node_rows(heard, 61 * kSecond)[0].silent);
+}
+
+TEST(RememberStatus, LivingHapticNodesHaveALineEach) {
+  std::vector<HeardStatus> heard;
+  remember_status(status_of(msg::NODE_HAPTIC, 1), 0, heard);
+  remember_status(status_of(msg::NODE_HAPTIC, 2), kSecond, heard);
+  EXPECT_EQ(heard.size(), 2u);
+  remember_status(status_of(msg::NODE_HAPTIC, 2), 60 * kSecond, heard);
+  EXPECT_EQ(heard.size(), 2u) << "the living one does not take the silent one's place: it has its own";
+}
+
+TEST(HapticPaused, IsWhatASpeakingHapticNodeSays) {
+  msg::NodeStatus status = status_of(msg::NODE_HAPTIC, 1);
+  status.paused = true;
+  EXPECT_EQ(haptic_paused({}, 0), std::nullopt);
+  EXPECT_EQ(haptic_paused({{status, 0}}, 0), true);
+  EXPECT_EQ(haptic_paused({{status, 0}}, 60 * kSecond), std::nullopt) << "it fell silent";
+  status.paused = false;
+  EXPECT_EQ(haptic_paused({{status, 0}}, 0), false);
+}
+
+TEST(OrganRow, IsStaleWhenNoStateCame) {
+  EXPECT_FALSE((OrganRow{.known = true, .age_ns = kSecond / 10}.stale()));
+  EXPECT_TRUE((OrganRow{.known = true, .age_ns = kSecond}.stale()));
+}
+
+TEST(OrganRow, LinearRangeIsThatOfTheLargestDisplacement) {
+  EXPECT_FALSE((OrganRow{.moved_mm = 17, .limit_mm = 18}.beyond_linear()));
+  EXPECT_TRUE((OrganRow{.moved_mm = 19, .limit_mm = 18}.beyond_linear()));
+}
+
+TEST(PanelShare, LeavesTheOrganInANarrowPicture) {
+  EXPECT_NEAR(panel_share({960, 600}), (kPanelWidth + kPanelMargin) / 960, 1e-6);
+  for (const int width : {64, 200, 480}) EXPECT_LE(panel_share({width, 300}), 0.4);
 }
 
 TEST(Obey, CommandsAreLevelsAndARepeatedOneChangesNothing) {
@@ -189,8 +249,8 @@ class PanelLayout : public testing::Test {
       tool.state = {"clamped"};
       for (int k = 0; k < 300; ++k) tool.curve.push_back({k / 30.0, 2.0f});
     }
-    view.deepest_mm = 25;
-    view.linear_limit_mm = 18;
+    view.dent_mm = 7;
+    view.organs = {{.moved_mm = 25, .limit_mm = 18, .known = true, .age_ns = 4 * kSecond}};
     view.faults.assign(9, "haptic: tool 1: position is not finite (first at 3.2 s, 12 times)");
     return view;
   }
@@ -208,6 +268,13 @@ TEST_F(PanelLayout, FaultsAndButtonsTakeRoom) {
   EXPECT_LT(without, with_faults);
   view.interactive = true;
   EXPECT_GT(height_of(view), without);
+}
+
+TEST_F(PanelLayout, StaleOrganIsTold) {
+  PanelView view = busy();
+  const float told = height_of(view);
+  view.organs[0].age_ns = 0;
+  EXPECT_LT(height_of(view), told);
 }
 
 TEST_F(PanelLayout, EmptyPanelIsLaidOutToo) {

@@ -3,6 +3,7 @@
 
 #include "render_node/renderer.h"
 
+#include <functional>
 #include <stdexcept>
 
 namespace omentum::render {
@@ -21,13 +22,18 @@ class RecordingRenderer final : public Renderer {
     mesh.vertices.assign(vertices.begin(), vertices.end());
     ++updates;
   }
-  Input begin_frame() override { return {}; }
-  void draw(const Frame& frame) override { frames.push_back(frame); }
-  Picture read_back() override { return {size_, std::vector<std::uint8_t>(4u * size_.width * size_.height)}; }
+  Input begin_frame() override { return on_begin_frame ? on_begin_frame() : Input{}; }
+  void draw(const Frame& frame) override {
+    frames.push_back(frame);
+    if (frame.with_panel && on_panel) on_panel();
+  }
+  Picture read_back() override {
+    read_back_from.push_back(frames.size() - 1);
+    return {size_, std::vector<std::uint8_t>(4u * size_.width * size_.height)};
+  }
   void end_frame() override {}
   Size size() const override { return size_; }
-  bool has_window() const override { return false; }
-  std::string description() const override { return "recording"; }
+  bool has_window() const override { return windowed; }
 
   const MeshData& mesh_of(const DrawItem& item) const {
     return meshes.at(static_cast<std::size_t>(item.mesh));
@@ -36,6 +42,12 @@ class RecordingRenderer final : public Renderer {
   std::vector<MeshData> meshes;
   std::vector<Frame> frames;
   int updates = 0;
+  std::vector<std::size_t> read_back_from;  // numbers of the frames that became pictures
+
+  // a scripted person at a window
+  bool windowed = false;
+  std::function<Input()> on_begin_frame;
+  std::function<void()> on_panel;
 
  private:
   Size size_;

@@ -1,10 +1,7 @@
 // The real render_node, as its neighbours see it: states in, pictures and status out.
-#include "organ/build_organ.h"
 #include "render_node/png_file.h"
-#include "transport/bus.h"
 
-#include "tests/support/meshes.h"
-#include "tests/support/process.h"
+#include "block_session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,35 +14,11 @@ namespace omentum {
 namespace {
 
 using geometry::Vec3;
+using render::test::BlockScene;
+using render::test::PressingTool;
+using render::test::state_of;
 using testing::AllOf;
 using testing::HasSubstr;
-
-/// A block of 10 cm, held at z = 0, and a scene around it.
-class BlockScene {
- public:
-  BlockScene() {
-    const geometry::TetraMesh mesh = test::make_box_mesh(3, 3, 3, Vec3::Constant(0.1));
-    organ::FixedComponents fixed(mesh.positions.size(), 0);
-    for (std::size_t n = 0; n < fixed.size(); ++n) {
-      if (mesh.positions[n].z() < 0.001) fixed[n] = 7;
-    }
-    organ_ = organ::make_organ("block", mesh, {.young_pa = 1e4, .poisson = 0.45, .density_kg_m3 = 1000},
-                               fixed, organ::Storage::kFloat);
-    organ::build_organ(organ_, folder_ / "block.h5", {});
-    std::ofstream(scene())
-        << "name = \"a block\"\n"
-           "[[organs]]\nname = \"block\"\nmesh = \"block.msh\"\nfile = \"block.h5\"\n"
-           "young_pa = 10000\npoisson = 0.45\ndensity_kg_m3 = 1000\nfixed = \"plane:z<0.001\"\n"
-           "[[tools]]\nid = 0\nname = \"probe\"\nshape = \"probe\"\npoints = [[0,0,0]]\n";
-  }
-  std::string scene() const { return folder_ / "scene.toml"; }
-  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
-  const organ::Organ& organ() const { return organ_; }
-
- private:
-  test::ScratchFolder folder_;
-  organ::Organ organ_;
-};
 
 std::vector<std::string> arguments(const BlockScene& scene, int domain, std::vector<std::string> more = {}) {
   std::vector<std::string> all{"--scene",
@@ -61,21 +34,6 @@ std::vector<std::string> arguments(const BlockScene& scene, int domain, std::vec
                                scene.file("report.json")};
   all.insert(all.end(), more.begin(), more.end());
   return all;
-}
-
-/// The whole state in one block, every node moved by `u`, or only the highest ones.
-msg::OrganState state_of(const organ::Organ& organ, std::uint64_t seq, const Vec3& u) {
-  msg::OrganState state{};
-  state.block_count = 1;
-  state.seq = seq;
-  state.stamp_ns = static_cast<std::int64_t>(seq);
-  state.node_count = static_cast<std::uint32_t>(organ.surface.node_count());
-  state.echoes = {{.tool = 0, .seq = 100 + seq, .stamp_ns = 5000}};
-  for (const geometry::NodeId n : organ.surface.node) {
-    const double share = organ.mesh.positions[n].z() / 0.1;
-    for (int c = 0; c < 3; ++c) state.values.push_back(static_cast<float>(share * u[c]));
-  }
-  return state;
 }
 
 bool skipped_without_egl(test::Process& node) {
@@ -128,8 +86,13 @@ TEST(RenderNode, ShowsStatesAndEchoesThePoseThatItDrew) {
     EXPECT_LE(heard->echoes[0].seq, 100 + seq);
     EXPECT_EQ(heard->echoes[0].stamp_ns, 5000);
   }
-  EXPECT_TRUE(
-      test::comes_true([&] { return std::filesystem::exists(scene.file("pictures") / "indent.png"); }));
+  PressingTool tool(*bus, scene.organ());
+  EXPECT_TRUE(test::comes_true([&] {
+    states->write(state_of(scene.organ(), ++seq, {0, 0, -0.01}));
+    tool.speak();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return std::filesystem::exists(scene.file("pictures") / "indent.png");
+  }));
   EXPECT_EQ(node.terminate(), 0) << node.messages();
 
   EXPECT_EQ(render::read_png(scene.file("pictures") / "final.png").size, (render::Size{480, 300}));
@@ -138,6 +101,8 @@ TEST(RenderNode, ShowsStatesAndEchoesThePoseThatItDrew) {
   EXPECT_EQ(report["dds"], "fast");
   EXPECT_GT(report["frames"], 0);
   EXPECT_EQ(report["frame_us"]["count"], report["frames"]);
+  EXPECT_NEAR(report["deepest_dent_m"], 0.01, 1e-6);
+  EXPECT_EQ(report["closed"], false) << "SIGTERM is not a person who closes the window";
   EXPECT_TRUE(report["faults"].empty()) << report;
 }
 

@@ -126,6 +126,7 @@ TEST(SceneView, NoArrowForNoForceNorWhenSwitchedOff) {
 
 TEST(SceneView, MarkersSitOnTheDeformedNodes) {
   Stage stage;
+  stage.choices.markers = true;
   stage.view.deform(0, test::dent(stage.shape, stage.shape.rest[4], 0.008, 0.01));
   ToolNow tool = tool_at(kTop, Vec3::Zero());
   tool.contact_nodes = {4 + test::kFirstFileNode, 2 /* not on the surface */, 100000 /* not in the mesh */};
@@ -173,6 +174,54 @@ TEST(SceneView, EndoscopeWithoutAScopeLooksFromNearer) {
   stage.choices.endoscope = true;
   const Frame scope = stage.frame({{}, {}});
   EXPECT_LT(scope.view.eye.norm(), orbit.view.eye.norm());
+}
+
+// A tool that presses the ball's top into a dent.
+ToolNow pressing(Stage& stage, double depth_m) {
+  stage.view.deform(0, test::dent(stage.shape, stage.shape.rest[4], depth_m, 0.006));
+  ToolNow tool = tool_at(kTop - Vec3(0, 0, depth_m), Vec3(0, 0, 1));
+  tool.contact_nodes = {4 + test::kFirstFileNode, 100000 /* not in the mesh */};
+  tool.contact_forces_n = {1, 1};
+  return tool;
+}
+
+TEST(SceneView, DentIsWhatATouchingToolPresses) {
+  Stage stage;
+  const ToolNow tool = pressing(stage, 0.008);
+  const auto dent = stage.view.dent_of(tool);
+  ASSERT_TRUE(dent);
+  EXPECT_NEAR(dent->depth_m, 0.008, 1e-4);
+  EXPECT_LT((dent->bottom - Vec3f(0, 0, kRadius - 0.008f)).norm(), kFloat);
+  EXPECT_FALSE(stage.view.dent_of(tool_at(kTop, Vec3::Zero())));
+}
+
+TEST(SceneView, CloseUpLooksFlatlyAtTheDentWithoutPanelAndSignals) {
+  Stage stage;
+  const ToolNow tool = pressing(stage, 0.008);
+  const auto dent = stage.view.dent_of(tool);
+  const Frame frame = stage.view.close_up(*dent, 0, stage.choices, std::vector<ToolNow>{tool, {}});
+  EXPECT_FALSE(frame.with_panel);
+  EXPECT_EQ(frame.quality, Quality::kFine);
+  EXPECT_TRUE(with_look(frame, Look::kSignal).empty()) << "nothing covers the dent";
+  EXPECT_FALSE(with_look(frame, Look::kSolid).empty()) << "the tool is in the picture";
+  const Vec3f sight = frame.view.eye - dent->bottom;
+  const float elevation_deg = std::asin(sight.normalized().z()) * 180 / 3.14159f;
+  EXPECT_GT(elevation_deg, 15);
+  EXPECT_LT(elevation_deg, 30);
+  EXPECT_GT(sight.norm(), 0.07);
+  EXPECT_LT(sight.norm(), 0.12);
+}
+
+TEST(SceneView, CloseUpAvoidsAShaftThatLeansTowardsTheViewer) {
+  Stage stage;
+  ToolNow tool = pressing(stage, 0.008);
+  const Vec3 familiar = stage.view.first_camera().eye;
+  const Vec3 lean = (Vec3(familiar.x(), familiar.y(), 0).normalized() + Vec3::UnitZ()).normalized();
+  tool.q_WT = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), lean);
+  const auto dent = stage.view.dent_of(tool);
+  const Frame frame = stage.view.close_up(*dent, 0, stage.choices, std::vector<ToolNow>{tool, {}});
+  const Vec3 sight = (frame.view.eye - dent->bottom).cast<double>().normalized();
+  EXPECT_LT(sight.dot(lean), std::cos(0.5)) << "not along the shaft";
 }
 
 TEST(SceneView, PanelShiftsTheMiddle) {

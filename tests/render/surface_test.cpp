@@ -131,11 +131,11 @@ TEST(SurfaceRefinement, LargeMeshesAreNotRefined) {
 TEST(OrganSkin, FollowsItsDisplacements) {
   const OrganShape ball = ball_organ(kRadius, 3);
   OrganSkin skin(ball.surface, ball.rest);
-  EXPECT_EQ(skin.deepest_m(), 0);
+  EXPECT_EQ(skin.largest_displacement_m(), 0);
   EXPECT_NEAR(skin.extent_m(), 2 * kRadius, 1e-9);
   const auto displacements = dent(ball, ball.rest[4], 0.008, 0.01);
   skin.deform(displacements);
-  EXPECT_NEAR(skin.deepest_m(), 0.008, 1e-6);
+  EXPECT_NEAR(skin.largest_displacement_m(), 0.008, 1e-6);
   for (std::size_t s = 0; s < ball.rest.size(); ++s) {
     const Vec3f u = Eigen::Map<const Vec3f>(&displacements[3 * s]);
     EXPECT_LT((skin.position(geometry::SurfaceId(s)) - ball.rest[s].cast<float>() - u).norm(), kFloat);

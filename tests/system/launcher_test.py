@@ -8,14 +8,21 @@ import json
 import os
 import pathlib
 import pty
+import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import termios
+import threading
 import time
 import unittest
+from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
+from launcher import cache, domain, organs, report, session  # noqa: E402 (the launcher is no installed package)
+
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
 REAL_LIVER = REPOSITORY / ".." / "shared" / "data" / "tet" / "openhelp_liver_7k.msh"
@@ -29,11 +36,12 @@ SHAPE = {
     "scene": str, "seconds": float, "protocol": int,
     "machine": {"cores": int, "kernel": str, "realtime": bool},
     "nodes": {
-        "haptic_node": {"dds": str, "exit": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
+        "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
                         "contacts": {"ticks_in_contact": int, "nodes_max": int}, "faults": list},
         "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "steps": int, "removed_tetrahedra": int,
                         "faults": list},
-        "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "faults": list},
+        "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
+                        "closed": bool, "faults": list},
         "virtual_device": {"dds": str, "exit": int, "round_trip_us": TIMES, "sent": int, "lost": int, "energy_j": float,
                            "faults": list},
     },
@@ -91,6 +99,12 @@ class LauncherTest(unittest.TestCase):
             time.sleep(0.05)
         self.fail("the nodes did not start")
 
+    def wait_for(self, condition, what):
+        deadline = time.monotonic() + PATIENCE_S
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, what)
+            time.sleep(0.05)
+
     def report(self):
         return json.loads((self.out / "report.json").read_text())
 
@@ -125,7 +139,7 @@ class Sessions(LauncherTest):
         self.assertGreater(nodes["deform_node"]["states"], 0)
         for link in SHAPE["link"]:
             self.assertGreater(report["link"][link]["count"], 0, link)
-        self.assertTrue(list(self.out.glob("*.png")), "no picture")
+        self.assertTrue((self.out / "indent.png").is_file(), "no picture of the dent")
         return report
 
     def test_fast(self):
@@ -137,6 +151,56 @@ class Sessions(LauncherTest):
     def test_mixed(self):
         self.check_session("haptic=fast,deform=cyclone,render=fast,device=cyclone",
                            dict(haptic_node="fast", deform_node="cyclone", render_node="fast", virtual_device="cyclone"), HOLD)
+
+
+class Pictures(LauncherTest):
+    HAND_M = 0.01  # how deep the default scene's hand wants to press
+
+    def test_default_scene_is_visibly_dented_and_leaves_no_picture_of_an_earlier_run(self):
+        self.out.mkdir()
+        for stale in ("frame_0042.png", "indent.png", "final.png", "report.json"):
+            (self.out / stale).write_text("of an earlier run")
+        (self.out / "notes.png").write_text("a person's own")
+        done = self.run_it("--headless", "--seconds", "8", "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        # the hand yields by its force over its stiffness (0.9 N over 400 N/m), and its surroundings sink a little
+        dent_m = self.report()["nodes"]["render_node"]["deepest_dent_m"]
+        self.assertGreater(dent_m, 0.5 * self.HAND_M)
+        self.assertLess(dent_m, self.HAND_M)
+        for name in ("frame_0001.png", "indent.png", "final.png"):
+            self.assertEqual((self.out / name).read_bytes()[1:4], b"PNG", name)
+        self.assertFalse((self.out / "frame_0042.png").exists())
+        self.assertTrue((self.out / "notes.png").exists())
+
+
+class Devices(LauncherTest):
+    def check_run(self, *arguments):
+        done = self.run_it(HOLD, "--headless", "--seconds", "8", "--out", self.out, *arguments)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout, self.report()["nodes"]
+
+    def test_none_leaves_the_tools_to_others(self):
+        _, nodes = self.check_run("--device", "none")
+        self.assertNotIn("virtual_device", nodes)
+        self.assertGreater(nodes["haptic_node"]["loop"]["ticks"], 0)
+        self.assertEqual(nodes["haptic_node"]["contacts"]["ticks_in_contact"], 0)
+
+    def test_trace_plays_a_recorded_hand(self):
+        # down onto the right lobe within 6 s, 10 mm deep at the end
+        rows = ["t_s,px,py,pz,qw,qx,qy,qz,grip"]
+        rows += [f"{t:g},-0.048,-0.015,{0.058 - 0.04 * min(t / 6, 1):.6f},1,0,0,0,0" for t in range(60)]
+        trace = self.folder / "hand.csv"
+        trace.write_text("\n".join(rows) + "\n")
+        _, nodes = self.check_run("--device", f"trace:{trace}")
+        self.assertGreater(nodes["virtual_device"]["sent"], 0)
+        self.assertGreater(nodes["haptic_node"]["contacts"]["ticks_in_contact"], 0)
+        self.assertGreater(nodes["haptic_node"]["force_n"]["max"], 0.1)
+
+    def test_paused_from_the_start_nobody_moves(self):
+        said, nodes = self.check_run("--paused")
+        self.assertEqual(said.count("run: paused"), 1, said)
+        self.assertEqual(nodes["haptic_node"]["contacts"]["ticks_in_contact"], 0)
+        self.assertEqual(nodes["haptic_node"]["force_n"]["max"], 0)
 
 
 class RealOrgan(LauncherTest):
@@ -170,7 +234,15 @@ class Endings(LauncherTest):
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
         self.check_shape(self.report(), SHAPE)
 
-    def test_keys_in_a_terminal_pause_and_end_it(self):
+    def test_a_closed_terminal_ends_it_like_sigterm(self):
+        process = self.start(HOLD, "--headless", "--out", self.out)
+        nodes = self.nodes_of(process)
+        process.send_signal(signal.SIGHUP)
+        self.assertEqual(process.wait(PATIENCE_S), 0, process.stdout.read())
+        self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
+        self.check_shape(self.report(), SHAPE)
+
+    def test_keys_in_a_terminal_pause_reset_and_end_it(self):
         ours, theirs = pty.openpty()
         self.addCleanup(os.close, ours)
         log = open(self.folder / "log", "w+", encoding="utf-8")
@@ -181,11 +253,11 @@ class Endings(LauncherTest):
         os.close(theirs)
         self.addCleanup(lambda: process.poll() is None and process.kill())
         self.nodes_of(process)
-        os.write(ours, b"p")
-        time.sleep(1)
+        for key, said in ((b"p", "run: paused"), (b"p", "run: goes on"), (b"r", "run: reset"), (b"c", "run: fault cleared")):
+            os.write(ours, key)
+            self.wait_for(lambda said=said: said in (self.folder / "log").read_text(), said)
         os.write(ours, b"q")
         self.assertEqual(process.wait(PATIENCE_S), 0)
-        self.assertIn("run: paused", (self.folder / "log").read_text())
         self.check_shape(self.report(), SHAPE)
 
     def test_a_killed_node_leaves_the_others_running_and_is_reported(self):
@@ -212,6 +284,7 @@ class Endings(LauncherTest):
         time.sleep(0.5)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(PATIENCE_S), 0, process.stdout.read())
+        self.assertEqual(self.report()["nodes"]["haptic_node"]["restarts"], 1)
 
     def test_killed_itself_it_leaves_no_node_behind(self):
         process = self.start(HOLD, "--headless", "--out", self.out)
@@ -223,6 +296,151 @@ class Endings(LauncherTest):
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
 
 
+class Windows(LauncherTest):
+    """On a display of its own."""
+
+    def setUp(self):
+        super().setUp()
+        if not shutil.which("Xvfb"):
+            self.skipTest("Xvfb is absent")
+        reading, writing = os.pipe()
+        server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "800x600x24"],
+                                  pass_fds=[writing], stderr=subprocess.DEVNULL)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        os.close(writing)
+        with os.fdopen(reading, encoding="ascii") as answer:
+            number = answer.readline().strip()
+        if not number:
+            self.skipTest("Xvfb does not start")
+        display = mock.patch.dict(os.environ, {"DISPLAY": f":{number}"})
+        display.start()
+        self.addCleanup(display.stop)
+
+    def test_an_ended_render_node_is_no_closed_window(self):
+        process = self.start(HOLD, "--out", self.out)
+        nodes = self.nodes_of(process)
+        time.sleep(1)
+        os.kill(nodes["render_node"], signal.SIGTERM)
+        self.wait_for(lambda: not alive(nodes["render_node"]), "render_node does not end")
+        time.sleep(1)
+        self.assertTrue(all(alive(nodes[name]) for name in NODES if name != "render_node"))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(PATIENCE_S), 0)
+        said = process.stdout.read()
+        self.assertIn("render_node ended with code 0; the others go on", said)
+        self.assertNotIn("the window was closed", said)
+
+
+class Parts(unittest.TestCase):
+    """What needs no processes."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="omentum-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        environment = mock.patch.dict(os.environ, {"OMENTUM_CACHE": str(self.folder / "cache")})
+        environment.start()
+        self.addCleanup(environment.stop)
+
+    def build(self, fixed, name="liver"):
+        """What build_organ would take from the cache, made by a stand-in for organ_build."""
+        mesh = self.folder / "liver.msh"
+        mesh.touch()
+        options = mock.Mock(programs=self.folder)
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1}
+        with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
+            return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed)
+
+    def test_changed_support_file_is_another_organ(self):
+        nodes = self.folder / "nodes.csv"
+        for fixed in (str(nodes), f"{nodes}:xz"):
+            nodes.write_text("1\n2\n")
+            first = self.build(fixed)
+            self.assertEqual(self.build(fixed), first)
+            nodes.write_text("1\n3\n")
+            self.assertNotEqual(self.build(fixed), first, fixed)
+
+    def test_support_file_of_a_scene_lies_beside_it(self):
+        scene = self.folder / "scenes" / "a.toml"
+        self.assertEqual(organs.relative_to(scene, "nodes.csv:xz"), str(self.folder / "scenes" / "nodes.csv:xz"))
+        self.assertEqual(organs.relative_to(scene, "/else/nodes.csv"), "/else/nodes.csv")
+        self.assertEqual(organs.relative_to(scene, "plane:y>0.05"), "plane:y>0.05")
+
+    def test_organ_of_another_name_is_another_file_and_takes_none_away(self):
+        first = self.build("plane:y>0", "liver")
+        second = self.build("plane:y>0", "spleen")
+        self.assertNotEqual(first.parent, second.parent)
+        self.assertTrue(first.is_file())
+
+    def test_longest_unused_files_are_forgotten(self):
+        store = cache.Cache()
+        with mock.patch.object(cache, "KEPT_BYTES", 25):
+            made = [store.get(f"{name}.h5", [], lambda file: file.write_text("x" * 10)) for name in "abcd"]
+            for age, file in enumerate(made):
+                day = time.time() - (10 - age) * cache.IN_USE_S
+                os.utime(file.parent, (day, day))
+            store.get("d.h5", [], None)
+        self.assertEqual([file.exists() for file in made], [False, False, True, True])
+
+    def test_who_waits_for_the_cache_says_for_whom(self):
+        store, said, waiting = cache.Cache(), [], threading.Event()
+
+        def tell(line, **_):
+            said.append(line)
+            waiting.set()
+
+        def other():
+            cache.Cache().get("b.h5", [], lambda file: file.write_text("b"))
+
+        with mock.patch.object(cache, "PATIENCE_S", 0), mock.patch("builtins.print", tell), store.locked("a.h5"):
+            thread = threading.Thread(target=other)
+            thread.start()
+            self.assertTrue(waiting.wait(PATIENCE_S))
+        thread.join()
+        self.assertIn(f"process {os.getpid()} makes a.h5", said[0])
+
+    def test_named_domain_is_not_given_to_another_session(self):
+        free = domain.Domain()
+        number = free.number
+        free.socket.close()
+        named = domain.Domain(number)
+        self.addCleanup(named.socket.close)
+        other = domain.Domain()
+        self.addCleanup(other.socket.close)
+        self.assertNotEqual(other.number, number)
+        self.assertEqual(domain.Domain(number).number, number, "a person may join it")
+
+    def ended(self, name, code, own_report="{}", starts=2):
+        """What a session that restarts nodes makes of one's end."""
+        file = self.folder / f"{name}.json"
+        file.write_text(own_report)
+        watching = session.Session.__new__(session.Session)
+        watching.options, watching.restarts, watching.stopping = mock.Mock(restart=True), {}, False
+        node = mock.Mock(exit=code, starts=starts, report=file)
+        node.name = name
+        with mock.patch("builtins.print"):
+            watching.ended(node, elapsed=1.0)
+        return watching
+
+    def test_closed_window_ends_the_session_and_an_ended_render_node_does_not(self):
+        self.assertTrue(self.ended("render_node", 0, '{"closed": true}').stopping)
+        self.assertFalse(self.ended("render_node", 0, '{"closed": false}').stopping)
+        self.assertFalse(self.ended("render_node", -9, "").stopping)
+
+    def test_crashed_nodes_start_again_but_neither_ended_nor_refusing_ones(self):
+        self.assertIn("deform_node", self.ended("deform_node", -11).restarts)
+        self.assertNotIn("deform_node", self.ended("deform_node", 0).restarts)
+        self.assertNotIn("deform_node", self.ended("deform_node", 2).restarts)
+
+    def test_table_shows_the_devices_round_trip_and_losses(self):
+        times = {**report.NONE_US, "p50": 180.0, "p99": 2500.0, "max": 9000.0, "count": 7}
+        node = {"dds": "fast", "exit": 0, "restarts": 0, "loop": report.NO_LOOP, "round_trip_us": times, "sent": 70,
+                "lost": 3}
+        row = report.node_row("virtual_device", node)
+        self.assertEqual(row[4:], ["70 poses", "3 lost", "round trip", "180 us", "2.5 ms", "9.0 ms"])
+
+
 class Refusals(LauncherTest):
     """One line, exit code 2, no session."""
 
@@ -232,7 +450,9 @@ class Refusals(LauncherTest):
         lines = done.stderr.strip().splitlines()
         self.assertEqual(len(lines), 1, done.stderr)
         self.assertIn(about, lines[0])
+        self.assertNotIn("median", done.stdout, "no table of a session that never was")
         self.assertFalse((self.out / "report.json").exists())
+        self.assertFalse(list(self.out.glob("*.png")))
 
     def file(self, name, text):
         path = self.folder / name
@@ -249,6 +469,9 @@ class Refusals(LauncherTest):
         self.check_refused("--domain", "500", about="500")
         self.check_refused("--rate-hz", "0", about="--rate-hz")
         self.check_refused("--frobnicate", about="--frobnicate")
+
+    def test_what_a_node_refuses(self):
+        self.check_refused("--device", f"trace:{self.file('bad.csv', 'no trace')}", about="bad.csv")
 
     def test_wrong_scenes(self):
         self.check_refused("missing.toml", about="missing.toml")

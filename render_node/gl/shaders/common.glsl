@@ -15,62 +15,88 @@ const float pi = 3.14159265;
 const vec3 key_colour = vec3(3.45, 3.24, 2.97);
 const vec3 fill_colour = vec3(0.46, 0.49, 0.52);
 
+// The backdrop: how fast it falls off from behind the organ (per squared height of the picture), its height there, and
+// its colours at the rim and in the middle, on a table and inside a body.
+const float backdrop_fall = 7.0, backdrop_height = 0.52, widest_backdrop = 1.7;
+const vec3 table_rim = vec3(0.0035, 0.0050, 0.0070), table_middle = vec3(0.030, 0.046, 0.058);
+const vec3 cavity_rim = vec3(0.006, 0.0012, 0.001), cavity_middle = vec3(0.060, 0.014, 0.009);
+
+const float exposure = 0.92;  // white of the film just above lit drape and below glints
+
+// Shadows: how far a point is lifted along its normal, of unit_length (grazing light needs most: there a texel of the map
+// covers the longest stretch of surface), the reach of soft edges (5 texels of the map's 1024: 1.5 mm on a liver) and the
+// share of the map's half side from which they fade out.
+const float lift_grazing = 0.022, lift_facing = 0.006;
+const float soft_reach = 5.0 / 1024.0;
+const int soft_points = 8;           // more are not told apart under the grain
+const float golden_angle = 2.39996;  // rad: a sunflower's points never line up
+const float shadow_fade = 0.75;
+
+// The room as things mirror it: its floor and ceiling, the cosine at which the soft box around the key light and the strip
+// beside it end, how much their edges widen from a polished to a matt mirror, their radiance, and how much dimmer and
+// brighter the two sides of the room are.
+const vec3 room_floor = vec3(0.085, 0.090, 0.092), room_ceiling = vec3(0.30, 0.33, 0.37);
+const float box_edge = 0.86, strip_edge = 0.82, sharpest_edge = 0.04, softest_edge = 0.35;
+const vec3 box_light = vec3(3.2, 3.1, 2.9), strip_light = vec3(0.9, 1.05, 1.25);
+const float box_lost_to_blur = 0.6;  // the same light over a wider spot
+const float strip_height = 0.45;     // of the strip's direction: about 24 degrees up
+const float dim_side = 0.7, bright_side = 1.5;
+const vec3 room_in_body = vec3(1.0, 0.62, 0.52);  // tissue all around reflects red
+
 // A fixed pattern of 0..1 per pixel without visible structure (Jimenez 2014, interleaved gradient noise).
 float grain(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
 // The empty picture: dark, lighter behind the organ, darker in the corners.
 vec3 backdrop(vec2 pixel) {
-  vec2 p = pixel / picture_size - vec2(middle, 0.52);
-  p.x *= min(picture_size.x / picture_size.y, 1.7);
-  float fall = 1.0 / (1.0 + 7.0 * dot(p, p));
+  vec2 p = pixel / picture_size - vec2(middle, backdrop_height);
+  p.x *= min(picture_size.x / picture_size.y, widest_backdrop);
+  float fall = 1.0 / (1.0 + backdrop_fall * dot(p, p));
   fall *= fall;
-  vec3 table = mix(vec3(0.0035, 0.0050, 0.0070), vec3(0.030, 0.046, 0.058), fall);
-  vec3 cavity = mix(vec3(0.006, 0.0012, 0.001), vec3(0.060, 0.014, 0.009), fall);
-  return mix(table, cavity, scope);
+  return mix(mix(table_rim, table_middle, fall), mix(cavity_rim, cavity_middle, fall), scope);
 }
 
 // Linear light to display: a filmic curve (Narkowicz 2015, a fit of ACES), the display's gamma (2: a square root is
 // a tenth of a power's cost in software), and half a step of grain against banding.
 vec3 film(vec3 x) {
-  x *= 0.92;
+  x *= exposure;
   x = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
   return sqrt(x) + (grain(gl_FragCoord.xy) - 0.5) / 255.0;
 }
 
 // How much of the key light arrives. The point is moved along its normal against self-shadowing.
 float lit(vec3 p_W, vec3 n, float n_dot_l) {
-  vec3 q = p_W + n * unit_length * mix(0.022, 0.006, clamp(n_dot_l, 0.0, 1.0));
+  vec3 q = p_W + n * unit_length * mix(lift_grazing, lift_facing, clamp(n_dot_l, 0.0, 1.0));
   vec3 s = (light_from_W * vec4(q, 1.0)).xyz * 0.5 + 0.5;
 #ifdef SOFT_SHADOWS
-  // eight points of a sunflower disc, turned from pixel to pixel
-  const float reach = 5.0 / 1024.0;
+  // the points of a sunflower disc, turned from pixel to pixel
   float turn = 2.0 * pi * grain(gl_FragCoord.xy);
   float sum = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    float angle = turn + 2.39996 * float(i);
-    sum += texture(shadow_map, vec3(s.xy + reach * sqrt((float(i) + 0.5) / 8.0) * vec2(cos(angle), sin(angle)), s.z));
+  for (int i = 0; i < soft_points; ++i) {
+    float angle = turn + golden_angle * float(i);
+    float radius = soft_reach * sqrt((float(i) + 0.5) / float(soft_points));
+    sum += texture(shadow_map, vec3(s.xy + radius * vec2(cos(angle), sin(angle)), s.z));
   }
-  float arrives = sum / 8.0;
+  float arrives = sum / float(soft_points);
 #else
   float arrives = texture(shadow_map, s);
 #endif
   // the map's edge is never seen: shadows fade out before it
   vec2 off = abs(s.xy - 0.5) * 2.0;
-  return mix(arrives, 1.0, smoothstep(0.75, 1.0, max(off.x, off.y)));
+  return mix(arrives, 1.0, smoothstep(shadow_fade, 1.0, max(off.x, off.y)));
 }
 
 // The room as a smooth surface mirrors it: dark floor, dim walls, a wide soft box around the key light and a strip.
 vec3 room(vec3 direction, float blur) {
   float height = direction.z * 0.5 + 0.5;
-  vec3 walls = mix(vec3(0.085, 0.090, 0.092), vec3(0.30, 0.33, 0.37), smoothstep(0.2, 1.0, height));
-  float edge = mix(0.04, 0.35, blur);
-  float key = smoothstep(0.86 - edge, 0.86 + edge * 0.5, dot(direction, towards_key));
-  vec3 side = normalize(vec3(-towards_key.y, towards_key.x, 0.45));
+  vec3 walls = mix(room_floor, room_ceiling, smoothstep(0.2, 1.0, height));
+  float edge = mix(sharpest_edge, softest_edge, blur);
+  float key = smoothstep(box_edge - edge, box_edge + edge * 0.5, dot(direction, towards_key));
+  vec3 side = normalize(vec3(-towards_key.y, towards_key.x, strip_height));
   // one side of the room is brighter: without that, a shaft would be an even grey
-  walls *= mix(0.7, 1.5, smoothstep(-0.5, 0.9, dot(direction, side)));
-  float strip = smoothstep(0.82 - edge, 0.82 + edge * 0.5, dot(direction, side));
-  vec3 light = walls + key * vec3(3.2, 3.1, 2.9) * (1.0 - 0.6 * blur) + strip * vec3(0.9, 1.05, 1.25);
-  return mix(light, light * vec3(1.0, 0.62, 0.52), scope);
+  walls *= mix(dim_side, bright_side, smoothstep(-0.5, 0.9, dot(direction, side)));
+  float strip = smoothstep(strip_edge - edge, strip_edge + edge * 0.5, dot(direction, side));
+  vec3 light = walls + key * box_light * (1.0 - box_lost_to_blur * blur) + strip * strip_light;
+  return mix(light, light * room_in_body, scope);
 }
 
 // Reflection of one light by a rough dielectric or metal: GGX with Smith's visibility (Walter 2007).

@@ -15,9 +15,36 @@ const float grain_period = 0.0135;
 // Light through tissue: how far it creeps around the terminator; red goes furthest (mean free path in liver).
 const vec3 creep = vec3(0.26, 0.10, 0.08);
 
+const float scattered = 0.35;  // more, where light creeps: what entered elsewhere comes out there
+
+// The relief of the capsule: slopes of mottling and grain; grain is seen up to this many unit_lengths away.
+const float mottle_slope = 0.20, grain_slope = 0.13, grain_sight = 5.0;
+const float soft_relief = 0.3;  // of it shades the body: light inside tissue does not see the capsule's grain
+
+// The pattern's share in the colour, and the tint of spots where blood stands.
+const float mottle_weight = 1.7, grain_weight = 0.8, contrast = 0.38;
+const vec3 blood_tint = vec3(0.78, 0.74, 1.15);
+
+const vec3 shade_light = vec3(0.15, 0.04, 0.03);  // of the key light, through the tissue beside a shadow
+
+// The light at the lens: full at this many unit_lengths, at most so much nearer by (an endoscope dims itself).
+const float torch_sight = 3.2, torch_most = 1.6;
+
+// Light from all around, below and above, and by which powers of the openness its colours are lost in a hollow.
+const vec3 ambient_below = vec3(0.11, 0.05, 0.042), ambient_above = vec3(0.22, 0.245, 0.28);
+const vec3 hollow_power = vec3(1.2, 2.0, 2.1);
+const float hollow_share = 0.8;  // of the direct light, too, is kept out of a hollow by what stands over it
+
+// The film of water: reflectance at normal incidence (a little above water's 0.02: serous fluid), how the mottling roughens
+// it, how strong the two lights glint, and what it mirrors of the room straight on and at grazing angles.
+const vec3 water_f0 = vec3(0.028);
+const float smoothest = 0.8, roughened = 0.5;
+const float key_glint = 1.5, fill_glint = 1.3;
+const float mirror_straight = 0.045, mirror_grazing = 0.75, mirror_blur = 0.25, mirror_in_shade = 0.4;
+
 vec3 wrapped(float n_dot_l) {
   vec3 w = clamp((vec3(n_dot_l) + creep) / (1.0 + creep), 0.0, 1.0);
-  return w * w * (1.0 + 0.35 * (1.0 - w)) ;
+  return w * w * (1.0 + scattered * (1.0 - w));
 }
 
 void main() {
@@ -26,37 +53,37 @@ void main() {
   vec3 v = normalize(eye - p_W);
   vec3 n0 = normalize(n_W);
   // the relief fades with distance, where it would only flicker
-  float near = clamp(unit_length * 5.0 / distance(eye, p_W), 0.0, 1.0);
-  vec3 slope = (mottle.rgb - 0.5) * 0.20 + (fine.rgb - 0.5) * 0.13 * near;
+  float near = clamp(unit_length * grain_sight / distance(eye, p_W), 0.0, 1.0);
+  vec3 slope = (mottle.rgb - 0.5) * mottle_slope + (fine.rgb - 0.5) * grain_slope * near;
   vec3 n = normalize(n0 - (slope - n0 * dot(slope, n0)));
-  vec3 n_soft = normalize(mix(n0, n, 0.3));
+  vec3 n_soft = normalize(mix(n0, n, soft_relief));
 
   // colour: darker, bluer spots where blood stands, paler between the lobules
-  float spot = (mottle.a - 0.5) * 1.7 + (fine.a - 0.5) * 0.8;
-  vec3 albedo = material_colour * (1.0 + 0.38 * spot);
-  albedo = mix(albedo, albedo * vec3(0.78, 0.74, 1.15), clamp(-spot, 0.0, 1.0));
+  float spot = (mottle.a - 0.5) * mottle_weight + (fine.a - 0.5) * grain_weight;
+  vec3 albedo = material_colour * (1.0 + contrast * spot);
+  albedo = mix(albedo, albedo * blood_tint, clamp(-spot, 0.0, 1.0));
 
   // shadows on tissue are red, not grey: light enters beside them
   float shade = lit(p_W, n0, dot(n0, towards_key));
-  vec3 light = key_colour * wrapped(dot(n_soft, towards_key)) * mix(vec3(0.15, 0.04, 0.03), vec3(1.0), shade);
+  vec3 light = key_colour * wrapped(dot(n_soft, towards_key)) * mix(shade_light, vec3(1.0), shade);
   float nv = clamp(dot(n_soft, v), 0.0, 1.0);
-  float torch = clamp(unit_length * 3.2 / distance(eye, p_W), 0.0, 1.6);
+  float torch = clamp(unit_length * torch_sight / distance(eye, p_W), 0.0, torch_most);
   light += fill_colour * torch * nv;
 
   // ambient: cool from above, warm from the neighbouring tissue below; what a hollow keeps is redder
   float above = n_soft.z * 0.5 + 0.5;
-  vec3 open = pow(vec3(openness), vec3(1.2, 2.0, 2.1));
-  light += mix(vec3(0.11, 0.05, 0.042), vec3(0.22, 0.245, 0.28), above) * open;
-  vec3 body = albedo * light * mix(vec3(1.0), open, 0.8);
+  vec3 open = pow(vec3(openness), hollow_power);
+  light += mix(ambient_below, ambient_above, above) * open;
+  vec3 body = albedo * light * mix(vec3(1.0), open, hollow_share);
 
   // the film of water: sharp glints of both lights and a mirror of the room, strongest at grazing angles
-  vec3 f0 = vec3(0.028);
-  float wet = material_roughness * (0.8 + 0.5 * mottle.a);
-  vec3 glint = gloss(n, v, towards_key, wet, f0) * key_colour * pi * shade * 1.5;
-  glint += gloss(n, v, v, wet, f0) * fill_colour * torch * pi * 1.3;
+  float wet = material_roughness * (smoothest + roughened * mottle.a);
+  vec3 glint = gloss(n, v, towards_key, wet, water_f0) * key_colour * pi * shade * key_glint;
+  glint += gloss(n, v, v, wet, water_f0) * fill_colour * torch * pi * fill_glint;
   glint *= openness;
   float grazing = pow(1.0 - nv, 5.0);
-  vec3 mirror = room(reflect(-v, n), 0.25) * (0.045 + 0.75 * grazing) * openness * openness * mix(0.4, 1.0, shade);
+  vec3 mirror = room(reflect(-v, n), mirror_blur) * (mirror_straight + mirror_grazing * grazing);
+  mirror *= openness * openness * mix(mirror_in_shade, 1.0, shade);
 
   colour = vec4(film(body + glint + mirror), 1.0);
 }

@@ -1,0 +1,161 @@
+#include "render_node/session_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace omentum::render {
+namespace {
+
+constexpr std::int64_t kToolGoneNs =
+    1'000'000'000;  // a pose this old: the device has left, its tool is not drawn
+constexpr std::int64_t kForceGoneNs = 250'000'000;  // a force this old is nobody's any more
+
+Vec3 to_eigen(const msg::Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+bool finite(const msg::ToolPose& pose) {
+  return to_eigen(pose.position).allFinite() && std::isfinite(pose.grip) &&
+         std::isfinite(pose.orientation.w + pose.orientation.x + pose.orientation.y + pose.orientation.z);
+}
+
+}  // namespace
+
+SessionWatch::SessionWatch(const runtime::Scene& scene, std::vector<LoadedOrgan> organs,
+                           std::int64_t begin_ns)
+    : scene_name_(scene.name),
+      organs_(std::move(organs)),
+      begin_ns_(begin_ns),
+      tools_(scene.tools.size()),
+      rows_(scene.tools.size()),
+      histories_(scene.tools.size()),
+      echoes_(organs_.size()),
+      state_arrived_ns_(organs_.size(), 0) {
+  for (std::size_t t = 0; t < rows_.size(); ++t) {
+    ids_.push_back(scene.tools[t].id);
+    rows_[t].name = scene.tools[t].name;
+    rows_[t].colour = tool_colour(scene.tools[t].id);
+  }
+}
+
+void SessionWatch::listen(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns) {
+  if (const msg::SceneInfo* info = inbox.fetch_scene_info()) check_scene_info(*info, organs_);
+  if (const msg::Topology* topology = inbox.fetch_topology(); topology && topology->version > 0) {
+    faults.raise("an organ was cut, but this render_node draws whole organs only");
+  }
+  listen_to_organs(inbox, view, now_ns);
+  for (std::size_t t = 0; t < tools_.size(); ++t) listen_to_tool(inbox, t, now_ns);
+  find_deepest_dent(view, now_ns);
+  statuses_ = inbox.statuses();
+  incomplete_states_ = inbox.incomplete_states();
+  const std::uint64_t resets = session_.resets;
+  session_ = inbox.session();
+  if (session_.resets != resets) {
+    for (ForceHistory& history : histories_) history.clear();
+  }
+}
+
+void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t now_ns) {
+  for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    const AssembledState* state = inbox.fetch_state(i);
+    if (!state) continue;
+    view.deform(i, state->displacements);
+    echoes_[i] = state->echoes;
+    state_arrived_ns_[i] = now_ns;
+    fresh_echoes_ = true;
+  }
+}
+
+void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns) {
+  ToolNow& now = tools_[tool];
+  transport::Arrived<msg::ToolPose> pose;
+  now.seen = inbox.pose(ids_[tool], pose) && pose.age_ns(now_ns) < kToolGoneNs && pose.sample.valid &&
+             finite(pose.sample);
+  if (now.seen) {
+    const auto& q = pose.sample.orientation;
+    now.p_WT = to_eigen(pose.sample.position);
+    now.q_WT = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+    now.grip_rad = pose.sample.grip;
+  }
+  transport::Arrived<msg::ToolForce> force;
+  const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGoneNs;
+  now.force_n = felt ? to_eigen(force.sample.force) : Vec3::Zero();
+  now.contact_nodes.clear();
+  now.contact_forces_n.clear();
+  rows_[tool].present = now.seen;
+  rows_[tool].state = force_state_words(felt ? force.sample.state : 0);
+  rows_[tool].fault = felt && (force.sample.state & msg::FORCE_FAULT) != 0;
+  if (felt) {
+    listen_to_force(inbox, tool, force, now_ns);
+  } else {
+    histories_[tool].interrupt();
+  }
+}
+
+void SessionWatch::listen_to_force(Inbox& inbox, std::size_t tool,
+                                   const transport::Arrived<msg::ToolForce>& force, std::int64_t now_ns) {
+  ToolNow& now = tools_[tool];
+  histories_[tool].add(seconds_since_begin(now_ns), now.force_n.norm());
+  if (const auto arrived = inbox.arrival_of(ids_[tool], force.sample.echo_seq)) {
+    hand_to_force_.add_ns(force.arrived_ns - *arrived);
+  }
+  const msg::Contact& contact = inbox.contact(ids_[tool]);
+  now.contact_organ = contact.organ;
+  now.contact_nodes = contact.nodes;
+  for (const msg::Vec3& on_node : contact.forces) {
+    now.contact_forces_n.push_back(static_cast<float>(to_eigen(on_node).norm()));
+  }
+}
+
+void SessionWatch::find_deepest_dent(const SceneView& view, std::int64_t now_ns) {
+  dent_.reset();
+  for (const ToolNow& tool : tools_) {
+    // a tool of now and an organ of then make no dent
+    if (tool.contact_organ >= organs_.size() ||
+        now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleStateNs)
+      continue;
+    const auto dent = view.dent_of(tool);
+    if (dent && (!dent_ || dent->depth_m > dent_->dent.depth_m)) dent_ = {*dent, tool.contact_organ};
+  }
+  if (dent_) largest_dent_m_ = std::max(largest_dent_m_, dent_->dent.depth_m);
+}
+
+void SessionWatch::shown(const Inbox& inbox, std::int64_t now_ns) {
+  if (!fresh_echoes_) return;
+  fresh_echoes_ = false;
+  for (const msg::Echo& echo : echoes()) {
+    if (const auto arrived = inbox.arrival_of(echo.tool, echo.seq))
+      hand_to_picture_.add_ns(now_ns - *arrived);
+  }
+}
+
+bool SessionWatch::paused(std::int64_t now_ns) const {
+  return haptic_paused(statuses_, now_ns).value_or(session_.paused);
+}
+
+void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelView& panel) const {
+  panel.scene = scene_name_;
+  panel.time_s = seconds_since_begin(now_ns);
+  panel.paused = paused(now_ns);
+  panel.nodes = node_rows(statuses_, now_ns);
+  panel.tools = rows_;
+  for (std::size_t t = 0; t < rows_.size(); ++t) {
+    panel.tools[t].force_n = static_cast<float>(tools_[t].force_n.norm());
+    panel.tools[t].largest_n = histories_[t].largest_n();
+    panel.tools[t].curve = histories_[t].samples();
+  }
+  panel.hand_to_force_us = hand_to_force_.percentile_us(0.5);
+  panel.hand_to_force_p99_us = hand_to_force_.percentile_us(0.99);
+  panel.hand_to_picture_us = hand_to_picture_.percentile_us(0.5);
+  panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
+  panel.dent_mm = dent_ ? 1e3 * dent_->dent.depth_m : 0;
+  for (std::size_t i = 0; i < view.organ_count(); ++i) {
+    const OrganSkin& skin = view.skin(i);
+    panel.organs.push_back({1e3 * skin.largest_displacement_m(), 1e3 * kLinearShare * skin.extent_m(),
+                            state_arrived_ns_[i] > 0, now_ns - std::max(state_arrived_ns_[i], begin_ns_)});
+  }
+  panel.incomplete_states = incomplete_states_;
+  panel.faults = all_faults(statuses_);
+}
+
+}  // namespace omentum::render

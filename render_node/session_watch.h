@@ -1,0 +1,69 @@
+// What render_node knows of its session at this moment.
+#pragma once
+
+#include "render_node/force_history.h"
+#include "render_node/inbox.h"
+#include "render_node/panel_view.h"
+#include "render_node/scene_view.h"
+#include "runtime/histogram.h"
+
+namespace omentum::render {
+
+/// The deepest dent of this moment, and in which organ.
+struct DeepestDent {
+  Dent dent;
+  std::size_t organ = 0;
+};
+
+/// Takes from the inbox what came, moves the drawn organs, and says what the panel shows. Reads no clock:
+/// times are given (steady clock, ns). One thread, the drawing one.
+class SessionWatch {
+ public:
+  SessionWatch(const runtime::Scene& scene, std::vector<LoadedOrgan> organs, std::int64_t begin_ns);
+
+  /// What came since the last call. Throws std::runtime_error when deform_node serves another organ.
+  void listen(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns);
+  /// The state of the last listen() is on the screen.
+  void shown(const Inbox& inbox, std::int64_t now_ns);
+
+  const std::vector<ToolNow>& tools() const { return tools_; }
+  /// The newest pose of each tool in what is drawn.
+  std::vector<msg::Echo> echoes() const { return merge_echoes(echoes_); }
+  /// What haptic_node says of itself; where none speaks, what was commanded last.
+  bool paused(std::int64_t now_ns) const;
+  std::optional<DeepestDent> deepest_dent() const { return dent_; }
+  /// Of the whole session, m.
+  double largest_dent_m() const { return largest_dent_m_; }
+
+  /// Fills in everything but what the person at the window chose.
+  void describe(const SceneView& view, std::int64_t now_ns, PanelView& panel) const;
+
+ private:
+  void listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t now_ns);
+  void listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
+  void listen_to_force(Inbox& inbox, std::size_t tool, const transport::Arrived<msg::ToolForce>& force,
+                       std::int64_t now_ns);
+  void find_deepest_dent(const SceneView& view, std::int64_t now_ns);
+  double seconds_since_begin(std::int64_t now_ns) const {
+    return 1e-9 * static_cast<double>(now_ns - begin_ns_);
+  }
+
+  std::string scene_name_;
+  std::vector<std::uint32_t> ids_;  // of the scene's tools
+  std::vector<LoadedOrgan> organs_;
+  std::int64_t begin_ns_;
+  std::vector<ToolNow> tools_;
+  std::vector<ToolRow> rows_;
+  std::vector<ForceHistory> histories_;
+  std::vector<std::vector<msg::Echo>> echoes_;  // per organ, of the state that is drawn
+  std::vector<std::int64_t> state_arrived_ns_;  // per organ; 0: none came
+  bool fresh_echoes_ = false;                   // since the last frame
+  std::optional<DeepestDent> dent_;
+  double largest_dent_m_ = 0;
+  std::vector<HeardStatus> statuses_;
+  SessionState session_;
+  std::uint64_t incomplete_states_ = 0;
+  runtime::Histogram hand_to_force_, hand_to_picture_;
+};
+
+}  // namespace omentum::render
