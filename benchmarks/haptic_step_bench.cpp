@@ -1,6 +1,7 @@
 // The haptic step (collision, solve, force) of two tools that drift in contact, and its first touch of cold
 // memory: does it fit into a fraction of a millisecond, whatever the mesh's size? Goal: median below 20 us,
 // p99 below 50 us on a liver of 1,800 surface nodes, within a factor of 2 of that on one of 26,000 nodes.
+#include "geometry/rotation.h"
 #include "haptic_node/haptic_setup.h"
 #include "haptic_node/haptic_step.h"
 #include "organ/build_organ.h"
@@ -129,7 +130,7 @@ class Run {
     return {model_.rest[node], work_.surface.normal(at)};
   }
   void put(std::size_t tool, const Vec3& tip, const Vec3& normal) {
-    inputs_[tool] = {true, false, {tip, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal)}, 0};
+    inputs_[tool] = {true, false, {tip, geometry::rotation_onto(Vec3::UnitZ(), normal)}, 0};
   }
   void relocate() {
     for (haptic::ToolInput& input : inputs_) input.relocated = true;
