@@ -3,6 +3,7 @@
 // p99 below 50 us on a liver of 1,800 nodes, within a factor of 2 of that on one of 26,000 nodes. The tips
 // are as wide in edges on every mesh, but contact and neighbourhood come out a little larger on finer ones:
 // hence also the time per pair of a contact node and a neighbour, which is what mesh size alone changes.
+#include "geometry/rotation.h"
 #include "haptic_node/haptic_setup.h"
 #include "haptic_node/haptic_step.h"
 #include "organ/build_organ.h"
@@ -130,7 +131,7 @@ class Run {
     return {model_.rest[node], work_.surface.normal(at)};
   }
   void put(std::size_t tool, const Vec3& tip, const Vec3& normal) {
-    inputs_[tool] = {true, false, {tip, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal)}, 0};
+    inputs_[tool] = {true, false, {tip, geometry::rotation_onto(Vec3::UnitZ(), normal)}, 0};
   }
   void relocate() {
     for (haptic::ToolInput& input : inputs_) input.relocated = true;

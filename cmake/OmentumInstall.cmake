@@ -1,6 +1,14 @@
-# cmake --install: the libraries that other programs may build on, as the package Omentum.
+# cmake --install: the programs, and the libraries that other programs may build on, as the package Omentum. One of
+# them alone: --component programs, --component development.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+
+foreach(program haptic_node deform_node render_node virtual_device omentum_session organ_build organ_solve organ_phantom
+    scene_prepare)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+  endif()
+endforeach()
 
 if(NOT TARGET omentum_geometry OR NOT TARGET omentum_physics OR NOT TARGET omentum_organ)
   return()

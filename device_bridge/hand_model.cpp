@@ -1,5 +1,7 @@
 #include "device_bridge/hand_model.h"
 
+#include "geometry/rotation.h"
+
 namespace omentum::device {
 
 Motion step_hand(const runtime::HandSpec& hand, const Motion& now, const Motion& target, const Vec3& force,
@@ -17,7 +19,7 @@ double hand_energy(const runtime::HandSpec& hand, const Motion& now, const Motio
 }
 
 Quat shaft_orientation(const Vec3& shaft) noexcept {
-  return Quat::FromTwoVectors(Vec3::UnitZ(), shaft);
+  return geometry::rotation_onto(Vec3::UnitZ(), shaft);
 }
 
 Vec3 angular_velocity(const Quat& before, const Quat& after, double dt_s) noexcept {

@@ -7,8 +7,6 @@
 #include "runtime/scene.h"
 #include "runtime/signals.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -65,17 +63,17 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"A simulated hand that presses the scene's organ and feels its force, or a recorded hand"};
+  runtime::CommandLine line(
+      "virtual_device",
+      "A simulated hand that presses the scene's organ and feels its force, or a recorded hand");
   Options options;
-  runtime::add_node_options(app, options.bridge.node);
-  app.add_option("--trace", options.trace, "play this recorded hand instead of the scene's script")
-      ->type_name("FILE");
-  app.add_option("--record", options.bridge.record, "record the poses as a trace")->type_name("FILE");
-  app.add_option("--rate-hz", options.rate_hz, "poses per second")
-      ->check(CLI::Range(10.0, 10000.0))
-      ->capture_default_str();
-  app.add_option("--seconds", options.bridge.seconds, "end after this time; 0: run until stopped")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  return runtime::node_main(app, argc, argv, [&] { run(options); });
+  runtime::add_node_options(line, options.bridge.node);
+  line.option("--trace", options.trace, "play this recorded hand instead of the scene's script")
+      .type_name("FILE");
+  line.option("--record", options.bridge.record, "record the poses as a trace").type_name("FILE");
+  line.option("--rate-hz", options.rate_hz, "poses per second").between(10.0, 10000.0).show_default();
+  line.option("--seconds", options.bridge.seconds, "end after this time; 0: run until stopped")
+      .between(0.0, 1e6)
+      .show_default();
+  return line.run(argc, argv, [&] { run(options); });
 }

@@ -3,20 +3,19 @@
 #include "runtime/report.h"
 #include "runtime/signals.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 int main(int argc, char** argv) {
   using namespace omentum;
-  CLI::App app("Feels the scene's organ with the tools' points and answers each pose with a force.",
-               "haptic_node");
+  runtime::CommandLine line(
+      "haptic_node", "Feels the scene's organ with the tools' points and answers each pose with a force.");
   haptic::HapticOptions options;
-  runtime::add_node_options(app, options.node);
-  app.add_option("--rate-hz", options.rate_hz, "rate without a device; a miss is counted against its period")
-      ->check(CLI::Range(50.0, 10000.0))
-      ->capture_default_str();
+  runtime::add_node_options(line, options.node);
+  line.option("--rate-hz", options.rate_hz, "rate without a device; a miss is counted against its period")
+      .between(50.0, 10000.0)
+      .show_default();
 
-  return runtime::node_main(app, argc, argv, [&] {
+  return line.run(argc, argv, [&] {
     runtime::RateLoop pace(options.rate_hz);
     runtime::StopSignal signal([&] { pace.stop(); });
     haptic::HapticLoop loop(options, pace);

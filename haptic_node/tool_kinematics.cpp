@@ -1,5 +1,7 @@
 #include "haptic_node/tool_kinematics.h"
 
+#include "geometry/rotation.h"
+
 namespace omentum::haptic {
 namespace {
 
@@ -15,7 +17,7 @@ ToolFrame through_trocar(const ToolFrame& measured, const Vec3& pivot) noexcept 
   if (insertion < kMinInsertion_m) return measured;
   const Vec3 z = (to_pivot.dot(measured_z) >= 0 ? 1 : -1) / insertion * to_pivot;
   // the smallest turn that puts the shaft through the pivot adds no roll
-  return {measured.p_WT, (Eigen::Quaterniond::FromTwoVectors(measured_z, z) * measured.q_WT).normalized()};
+  return {measured.p_WT, (geometry::rotation_onto(measured_z, z) * measured.q_WT).normalized()};
 }
 
 Vec3 rotation_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) noexcept {

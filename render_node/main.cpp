@@ -4,7 +4,6 @@
 #include "runtime/report.h"
 #include "runtime/signals.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
@@ -26,26 +25,23 @@ std::string parse_size(const std::string& text, omentum::render::Size& size) {
 
 int main(int argc, char** argv) {
   using namespace omentum;
-  CLI::App app("Shows the scene's organs, instruments and forces in a window or as PNG pictures.",
-               "render_node");
+  runtime::CommandLine line(
+      "render_node", "Shows the scene's organs, instruments and forces in a window or as PNG pictures.");
   render::RenderOptions options;
-  runtime::add_node_options(app, options.node);
-  std::string size;
-  app.add_flag("--headless", options.headless, "draw off-screen even where there is a display");
-  app.add_option("--size", size, "of the picture, default 1280x800 in a window and 960x600 off-screen")
-      ->check([&](const std::string& text) { return parse_size(text, options.size); })
-      ->type_name("WxH");
-  app.add_option("--fps", options.fps, "most frames per second")
-      ->check(CLI::Range(1.0, 240.0))
-      ->capture_default_str();
-  app.add_option("--seconds", options.seconds, "end after so long (0: never)")->check(CLI::NonNegativeNumber);
-  app.add_option("--out", options.out, "folder for pictures (off-screen: the current one)")->type_name("DIR");
-  app.add_option("--picture-period-s", options.picture_period_s,
-                 "between two pictures (0: none but the last)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_flag("--no-panel", options.no_panel, "draw the scene only");
+  runtime::add_node_options(line, options.node);
+  line.flag("--headless", options.headless, "draw off-screen even where there is a display");
+  line.option(
+          "--size", [&](const std::string& text) { return parse_size(text, options.size); },
+          "of the picture, default 1280x800 in a window and 960x600 off-screen")
+      .type_name("WxH");
+  line.option("--fps", options.fps, "most frames per second").between(1.0, 240.0).show_default();
+  line.option("--seconds", options.seconds, "end after so long (0: never)").not_negative();
+  line.option("--out", options.out, "folder for pictures (off-screen: the current one)").type_name("DIR");
+  line.option("--picture-period-s", options.picture_period_s, "between two pictures (0: none but the last)")
+      .not_negative();
+  line.flag("--no-panel", options.no_panel, "draw the scene only");
 
-  return runtime::node_main(app, argc, argv, [&] {
+  return line.run(argc, argv, [&] {
     runtime::RateLoop pace(options.fps);
     runtime::StopSignal signal([&] { pace.stop(); });
     setpriority(PRIO_PROCESS, 0, 5);  // pictures must never take the force loop's time

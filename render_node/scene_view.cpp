@@ -1,5 +1,6 @@
 #include "render_node/scene_view.h"
 
+#include "geometry/rotation.h"
 #include "render_node/lighting.h"
 #include "render_node/solids.h"
 
@@ -43,8 +44,7 @@ double area_of(std::span<const geometry::Triangle> triangles, std::span<const Ve
 
 // z of the mesh along `direction`, scaled.
 Mat4f placed(const Vec3& origin, const Vec3& direction, double width, double length) {
-  const Eigen::Matrix3d turn =
-      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), direction).toRotationMatrix();
+  const Eigen::Matrix3d turn = geometry::rotation_onto(Vec3::UnitZ(), direction).toRotationMatrix();
   Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
   pose.topLeftCorner<3, 3>() = turn * Vec3(width, width, length).asDiagonal();
   pose.topRightCorner<3, 1>() = origin;

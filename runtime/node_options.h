@@ -1,13 +1,10 @@
 // The command line that haptic_node, deform_node, render_node and virtual_device share (DESIGN 5).
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <string>
+#include "runtime/command_line.h"
 
-namespace CLI {
-class App;
-}
+#include <filesystem>
+#include <string>
 
 namespace omentum::runtime {
 
@@ -22,11 +19,7 @@ struct NodeOptions {
   std::filesystem::path log;         // --log FILE: loop samples as CSV
 };
 
-/// Adds the shared options to `app`.
-void add_node_options(CLI::App& app, NodeOptions& options);
-
-/// Parses, calls `run`, and turns what happens into an exit code: 0 after run() returns, and for --help;
-/// 2 with one line "NAME: what and where" on stderr for a wrong argument or any std::exception.
-int node_main(CLI::App& app, int argc, char** argv, const std::function<void()>& run);
+/// Adds the shared options to `line`.
+void add_node_options(CommandLine& line, NodeOptions& options);
 
 }  // namespace omentum::runtime

@@ -1,10 +1,8 @@
 // omentum_session: sends one command (start, pause, reset, ...) to every node of a session. Of a pause it
 // says what haptic_node made of it.
 #include "runtime/clock.h"
-#include "runtime/node_options.h"
+#include "runtime/command_line.h"
 #include "transport/bus.h"
-
-#include <CLI/CLI.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -12,6 +10,7 @@
 #include <map>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace {
 
@@ -130,30 +129,28 @@ int main(int argc, char** argv) {
                                                       {"toggle-pause", kTogglePause},
                                                       {"reset", msg::COMMAND_RESET},
                                                       {"clear-fault", msg::COMMAND_CLEAR_FAULT}};
-  CLI::App app("Sends one command to every node of a running session.", "omentum_session");
+  runtime::CommandLine line("omentum_session", "Sends one command to every node of a running session.");
+  std::vector<std::string> names;
+  for (const auto& [name, number] : commands) names.push_back(name);
   std::string command, dds = "fast", profile = "loopback", keystore;
   int domain = 0, nodes = 0;
-  app.add_option("command", command, "start, pause, toggle-pause, reset or clear-fault")
-      ->required()
-      ->check(CLI::IsMember(commands));
-  app.add_option("--dds", dds, "DDS vendor: fast or cyclone")
-      ->check(CLI::IsMember({"fast", "cyclone"}))
-      ->capture_default_str();
-  app.add_option("--domain", domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
-  app.add_option("--profile", profile, "loopback (one machine) or lan")
-      ->check(CLI::IsMember({"loopback", "lan"}))
-      ->capture_default_str();
-  app.add_option("--secure", keystore, "DDS Security key store")->type_name("KEYSTORE");
-  app.add_option("--nodes", nodes, "send as soon as so many nodes listen (0: when no further one is found)")
-      ->check(CLI::Range(0, 64))
-      ->capture_default_str();
+  line.option("command", command, "start, pause, toggle-pause, reset or clear-fault").required().one_of(names);
+  line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
+  line.option("--domain", domain, "DDS domain").between(0, 230).show_default();
+  line.option("--profile", profile, "loopback (one machine) or lan")
+      .one_of({"loopback", "lan"})
+      .show_default();
+  line.option("--secure", keystore, "DDS Security key store").type_name("KEYSTORE");
+  line.option("--nodes", nodes, "send as soon as so many nodes listen (0: when no further one is found)")
+      .between(0, 64)
+      .show_default();
 
-  return runtime::node_main(app, argc, argv, [&] {
+  return line.run(argc, argv, [&] {
     run({.vendor = transport::parse_vendor(dds),
          .domain = domain,
          .profile = transport::parse_profile(profile),
          .name = "omentum_session",
          .keystore = keystore},
-        commands.at(command), nodes);
+         commands.at(command), nodes);
   });
 }

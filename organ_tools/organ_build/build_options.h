@@ -2,14 +2,11 @@
 #pragma once
 
 #include "organ/organ.h"
+#include "runtime/command_line.h"
 
 #include <filesystem>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace omentum::organ_tools {
 
@@ -27,8 +24,8 @@ struct BuildCommand {
   std::string dynamic;  // refused
 };
 
-/// Adds the options to `app`.
-void add_build_options(CLI::App& app, BuildCommand& command);
+/// Adds the options to `line`.
+void add_build_options(runtime::CommandLine& line, BuildCommand& command);
 
 /// Throws geometry::InputError for what this version does not offer, rather than ignoring it.
 void require_offered(const BuildCommand& command);

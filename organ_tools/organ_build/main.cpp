@@ -5,9 +5,7 @@
 #include "organ_tools/organ_build/interruption.h"
 #include "organ_tools/organ_build/progress_line.h"
 #include "physics/blas_threads.h"
-#include "runtime/node_options.h"
-
-#include <CLI/CLI.hpp>
+#include "runtime/command_line.h"
 
 #include <algorithm>
 #include <iostream>
@@ -67,9 +65,10 @@ void build(const organ_tools::BuildCommand& command) {
 
 int main(int argc, char** argv) {
   organ_tools::watch_for_interruption();
-  CLI::App app("Computes the force tensors of an organ from its mesh, material and supports.");
+  runtime::CommandLine line("organ_build",
+                            "Computes the force tensors of an organ from its mesh, material and supports.");
   organ_tools::BuildCommand command;
-  organ_tools::add_build_options(app, command);
-  const int code = runtime::node_main(app, argc, argv, [&] { build(command); });
+  organ_tools::add_build_options(line, command);
+  const int code = line.run(argc, argv, [&] { build(command); });
   return organ_tools::interrupted() && code != 0 ? kExitInterrupted : code;
 }

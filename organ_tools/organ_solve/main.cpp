@@ -3,9 +3,7 @@
 #include "organ_tools/organ_solve/imposed_csv.h"
 #include "organ_tools/organ_solve/solution_csv.h"
 #include "organ_tools/organ_solve/solve_models.h"
-#include "runtime/node_options.h"
-
-#include <CLI/CLI.hpp>
+#include "runtime/command_line.h"
 
 #include <iostream>
 
@@ -22,17 +20,16 @@ struct SolveCommand {
   std::string prefix;
 };
 
-void add_options(CLI::App& app, SolveCommand& command) {
-  app.add_option("organ", command.organ, "organ file")->required()->type_name("ORGAN.h5");
-  app.add_option("--imposed", command.imposed, "CSV: node,ux,uy,uz (node of the mesh file from 0, m)")
-      ->type_name("FILE");
-  app.add_option("--model", command.model, "tensors or direct")->type_name("MODEL")->capture_default_str();
-  app.add_option("--gravity", command.gravity, "acceleration x,y,z, m/s^2")->type_name("X,Y,Z");
-  app.add_option("--remove", command.removed, "removed tetrahedra: not part of this version")
-      ->type_name("FILE");
-  app.add_option("-o,--output", command.prefix, "writes PREFIX.u.csv (m) and PREFIX.f.csv (N)")
-      ->required()
-      ->type_name("PREFIX");
+void add_options(runtime::CommandLine& line, SolveCommand& command) {
+  line.option("organ", command.organ, "organ file").required().type_name("ORGAN.h5");
+  line.option("--imposed", command.imposed, "CSV: node,ux,uy,uz (node of the mesh file from 0, m)")
+      .type_name("FILE");
+  line.option("--model", command.model, "tensors or direct").type_name("MODEL").show_default();
+  line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
+  line.option("--remove", command.removed, "removed tetrahedra: not part of this version").type_name("FILE");
+  line.option("-o,--output", command.prefix, "writes PREFIX.u.csv (m) and PREFIX.f.csv (N)")
+      .required()
+      .type_name("PREFIX");
 }
 
 void require_offered(const SolveCommand& command) {
@@ -79,8 +76,8 @@ void solve(const SolveCommand& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Solves an organ for imposed displacements and gravity.");
+  runtime::CommandLine line("organ_solve", "Solves an organ for imposed displacements and gravity.");
   SolveCommand command;
-  add_options(app, command);
-  return runtime::node_main(app, argc, argv, [&] { solve(command); });
+  add_options(line, command);
+  return line.run(argc, argv, [&] { solve(command); });
 }

@@ -1,10 +1,9 @@
 // organ_phantom: makes the project's own liver, as a tetrahedral mesh and as a labelled volume.
 #include "organ_tools/phantom/label_volume.h"
 #include "organ_tools/phantom/tetrahedralize.h"
+#include "runtime/command_line.h"
 
 #include <unistd.h>
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 
 namespace {
@@ -31,22 +30,15 @@ void write_whole(const std::filesystem::path& file, Write&& write) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Makes the phantom liver: about 18 cm, in metres, z up, the inferior edge towards -y."};
+  runtime::CommandLine line(
+      "organ_phantom",
+      "Makes the phantom liver: about 18 cm, in metres, z up, the inferior edge towards -y.");
   std::string size = "paper";
   std::filesystem::path mesh_file, labels_file;
-  app.add_option("--size", size, "paper (1,500-1,800 nodes) or fine (above 16,000)")
-      ->check(CLI::IsMember({"paper", "fine"}));
-  app.add_option("-o,--output", mesh_file, "the mesh, Gmsh 2.2 (.msh)")->required();
-  app.add_option("--labels", labels_file, "also the labelled volume, NIfTI-1 (.nii)");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "organ_phantom: %s\n", error.what());
-    return 2;
-  }
-  try {
+  line.option("--size", size, "paper (1,500-1,800 nodes) or fine (above 16,000)").one_of({"paper", "fine"});
+  line.option("-o,--output", mesh_file, "the mesh, Gmsh 2.2 (.msh)").required();
+  line.option("--labels", labels_file, "also the labelled volume, NIfTI-1 (.nii)");
+  return line.run(argc, argv, [&] {
     const geometry::TetraMesh mesh =
         phantom::tetrahedralize_liver(size == "fine" ? phantom::fine_size() : phantom::paper_size());
     write_whole(mesh_file, [&](const auto& file) { geometry::write_mesh(mesh, file); });
@@ -57,8 +49,5 @@ int main(int argc, char** argv) {
         phantom::write_nifti(phantom::sample_liver(kVoxelSpacing), file);
       });
     }
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "organ_phantom: %s\n", error.what());
-    return 2;
-  }
+  });
 }

@@ -3,7 +3,6 @@
 #include "organ_tools/scene_prepare/scene_text.h"
 #include "runtime/node_options.h"
 
-#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
@@ -71,16 +70,16 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Fits a scene to an organ: press points, trocars, camera.", "scene_prepare");
+  runtime::CommandLine line("scene_prepare", "Fits a scene to an organ: press points, trocars, camera.");
   Options options;
-  app.add_option("scene", options.scene, "scene file (TOML)")->type_name("SCENE");
-  app.add_option("--organ", options.organ, "organ file that the scene's first organ becomes")
-      ->type_name("ORGAN.h5");
-  app.add_option("-o,--output", options.output, "the fitted scene")->type_name("OUT.toml");
-  app.add_flag("--keep-points", options.keep_points,
-               "the organ is the scene's own: only project the press points onto its surface");
-  app.add_flag("--describe", options.describe, "print what the scene needs (JSON) and end");
-  app.add_option("--measure", options.measured, "print a mesh file's bounding box (JSON) and end")
-      ->type_name("MESH");
-  return runtime::node_main(app, argc, argv, [&] { run(options); });
+  line.option("scene", options.scene, "scene file (TOML)").type_name("SCENE");
+  line.option("--organ", options.organ, "organ file that the scene's first organ becomes")
+      .type_name("ORGAN.h5");
+  line.option("-o,--output", options.output, "the fitted scene").type_name("OUT.toml");
+  line.flag("--keep-points", options.keep_points,
+            "the organ is the scene's own: only project the press points onto its surface");
+  line.flag("--describe", options.describe, "print what the scene needs (JSON) and end");
+  line.option("--measure", options.measured, "print a mesh file's bounding box (JSON) and end")
+      .type_name("MESH");
+  return line.run(argc, argv, [&] { run(options); });
 }

@@ -1,5 +1,6 @@
 #include "organ_tools/scene_prepare/scene_fit.h"
 
+#include "geometry/rotation.h"
 #include "organ_tools/scene_prepare/press_sites.h"
 
 #include <Eigen/Geometry>
@@ -29,7 +30,7 @@ runtime::Triple to_triple(const Vec3& v) {
 
 /// Rotation and translation that take the scene's press point and normal to the organ's.
 Eigen::Isometry3d carry(const runtime::HandSpec& from, const PressSite& to) {
-  const auto R = Eigen::Quaterniond::FromTwoVectors(to_vector(from.press_normal), to.normal);
+  const auto R = geometry::rotation_onto(to_vector(from.press_normal), to.normal);
   return Eigen::Translation3d(to.point) * R * Eigen::Translation3d(-to_vector(from.press_point));
 }
 

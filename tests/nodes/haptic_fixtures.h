@@ -4,7 +4,7 @@
 #include "haptic_node/haptic_step.h"
 #include "physics/force_tensors.h"
 #include "physics/stiffness.h"
-#include "support/meshes.h"
+#include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "organ/csv.h"
 
 #include "geometry/tetra_mesh.h"
-#include "support/process.h"
+#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 

@@ -4,8 +4,8 @@
 #include "organ/organ_writer.h"
 #include "organ/stored_tensors.h"
 #include "physics/direct_solve.h"
-#include "support/meshes.h"
-#include "support/process.h"
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 #include <hdf5.h>

@@ -1,8 +1,8 @@
 // organ_build and organ_solve as a user runs them: real processes, real files.
 #include "organ/csv.h"
 #include "organ/organ.h"
-#include "support/meshes.h"
-#include "support/process.h"
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 #include "organ/support_spec.h"
 
-#include "support/meshes.h"
-#include "support/process.h"
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 

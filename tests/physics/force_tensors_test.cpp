@@ -4,7 +4,7 @@
 #include "physics/direct_solve.h"
 #include "physics/surface_compliance.h"
 #include "physics/tensor_solve.h"
-#include "support/meshes.h"
+#include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
 

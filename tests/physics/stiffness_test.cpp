@@ -1,6 +1,6 @@
 #include "physics/stiffness.h"
 
-#include "support/meshes.h"
+#include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
 

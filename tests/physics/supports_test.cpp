@@ -1,7 +1,7 @@
 #include "physics/supports.h"
 
 #include "physics/stiffness_factor.h"
-#include "support/meshes.h"
+#include "tests/support/meshes.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,7 @@
 // An organ for the tests: a ball of triangles, and dents in it.
 #pragma once
 
+#include "geometry/rotation.h"
 #include "render_node/scene_view.h"
 
 #include <cmath>
@@ -79,7 +80,7 @@ inline ToolNow tool_at(const Vec3& where, const Vec3& force_n) {
   ToolNow tool;
   tool.seen = true;
   tool.p_WT = where;
-  tool.q_WT = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), where);
+  tool.q_WT = geometry::rotation_onto(Vec3::UnitZ(), where);
   tool.force_n = force_n;
   return tool;
 }

@@ -4,15 +4,13 @@
 #include "runtime/scene.h"
 #include "runtime/signals.h"
 
-#include <CLI/CLI.hpp>
-
 #include <iostream>
 
 int main(int argc, char** argv) {
-  CLI::App app{"waits for a signal"};
+  omentum::runtime::CommandLine line("node_main_example", "waits for a signal");
   omentum::runtime::NodeOptions options;
-  omentum::runtime::add_node_options(app, options);
-  return omentum::runtime::node_main(app, argc, argv, [&] {
+  omentum::runtime::add_node_options(line, options);
+  return line.run(argc, argv, [&] {
     omentum::runtime::load_scene(options.scene);
     omentum::runtime::RateLoop loop(1000);
     omentum::runtime::StopSignal stop_signal([&] { loop.stop(); });

@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-# what each room may use beside itself; a room that is not listed must not appear in an include
+# what each room may use beside itself
 FLOORS = {
     "geometry": set(),
     "physics": {"geometry"},
@@ -21,11 +21,13 @@ STANDING_ON = set(FLOORS)
 PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session", "organ_tools"}
 FREE = {"tests", "benchmarks"}  # may look into every room
 ROOMS = set(FLOORS) | PROGRAMS | FREE
+NO_ROOMS = ("build", "install", "cmake", ".")  # how the folders are called that may hold sources without being a room
+GENERATED = {"messages": "idl"}  # folders of generated headers, and the room that makes them
 
 # (pattern of a header, the folders that may include it, what it is)
 VENDORS = [
     (re.compile(r"(fastdds|fastrtps|fastcdr|dds|ddsc|idlc|ddscxx)/"), ("transport/",), "a DDS header"),
-    (re.compile(r"(epoxy|GL|GLES\d?|EGL|GLFW|KHR)/|imgui_impl_"), ("render_node/gl/",), "an OpenGL or window header"),
+    (re.compile(r"(epoxy|GL|GLES\d?|EGL|GLFW|KHR)/|(.*/)?imgui_impl_"), ("render_node/gl/",), "an OpenGL or window header"),
     (re.compile(r"(linux/(input|hidraw|uinput|joystick)|libevdev|hidapi|libusb|HD|HDU|libudev|dhdc|drdc)\b"),
      ("device_bridge/",), "a device's header"),
     (re.compile(r"CGAL/"), ("organ_tools/phantom/",), "a GPL header of CGAL (docs/decisions.md 8)"),
@@ -45,32 +47,42 @@ def allowed_rooms(room):
     return FLOORS[room] | {room}
 
 
-def breach_of(path, target):
+def breach_of(path, target, quoted):
     """Why the file `path` (relative, with slashes) must not include `target`; None when it may."""
     for pattern, folders, what in VENDORS:
         if pattern.match(target) and not path.startswith(folders):
             return f"includes {what} ({target}); only {' and '.join(folders)} may"
+    if ".." in target.split("/"):
+        return f"includes {target}; say it from the root of the repository"
     room, used = path.split("/")[0], target.split("/")[0]
+    used = GENERATED.get(used, used)
     if used in ROOMS and "/" in target and used not in allowed_rooms(room):
         return f"{room} includes {target}; it may use {', '.join(sorted(allowed_rooms(room) - {room})) or 'no other room'}"
+    if quoted and "/" in target and used not in ROOMS and not any(pattern.match(target) for pattern, _, _ in VENDORS):
+        return f"includes {target}; {used} is no room (another's header belongs in <>)"
     return None
 
 
 def sources(root):
-    for room in sorted(ROOMS):
-        for file in sorted((root / room).rglob("*")):
-            if file.suffix in SOURCES and file.is_file():
-                yield file
+    """Every source below `root` but those of NO_ROOMS."""
+    for top in sorted(root.iterdir()):
+        if not top.name.startswith(NO_ROOMS):
+            for file in sorted(top.rglob("*")) if top.is_dir() else [top]:
+                if file.suffix in SOURCES and file.is_file():
+                    yield file
 
 
 def breaches(root):
     found = []
     for file in sources(root):
         path = file.relative_to(root).as_posix()
+        if path.split("/")[0] not in ROOMS:
+            found.append(f"{path}:1: lies in no room; rooms are {', '.join(sorted(ROOMS))}")
+            continue
         lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
         for number, line in enumerate(lines, 1):
             match = INCLUDE.match(line)
-            reason = breach_of(path, match.group(2)) if match else None
+            reason = breach_of(path, match.group(2), match.group(1) == '"') if match else None
             if reason:
                 found.append(f"{path}:{number}: {reason}")
         if file.name == "main.cpp" and path.startswith(NODES) and len(lines) > MAIN_LINES:

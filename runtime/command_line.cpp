@@ -1,0 +1,105 @@
+#include "runtime/command_line.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+namespace omentum::runtime {
+namespace {
+
+constexpr int kBadInput = 2;  // the exit code of every refused argument, scene, mesh or organ
+
+std::string on_one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+int refuse(const std::string& name, const std::string& what) {
+  std::cerr << name << ": " << on_one_line(what) << std::endl;
+  return kBadInput;
+}
+
+}  // namespace
+
+using Option = CommandLine::Option;
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+Option& Option::type_name(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+Option& Option::between(int low, int high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+Option& Option::between(double low, double high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+Option& Option::not_negative() {
+  option_->check(CLI::NonNegativeNumber);
+  return *this;
+}
+Option& Option::one_of(const std::vector<std::string>& words) {
+  option_->check(CLI::IsMember(words));
+  return *this;
+}
+Option& Option::show_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& description)
+    : app_(std::make_unique<CLI::App>(description, name)) {}
+CommandLine::~CommandLine() = default;
+
+Option CommandLine::option(const std::string& name, std::string& value, const std::string& description) {
+  return Option(app_->add_option(name, value, description));
+}
+Option CommandLine::option(const std::string& name, std::filesystem::path& value,
+                           const std::string& description) {
+  return Option(app_->add_option(name, value, description));
+}
+Option CommandLine::option(const std::string& name, int& value, const std::string& description) {
+  return Option(app_->add_option(name, value, description));
+}
+Option CommandLine::option(const std::string& name, double& value, const std::string& description) {
+  return Option(app_->add_option(name, value, description));
+}
+Option CommandLine::option(const std::string& name, Taker take, const std::string& description) {
+  const auto use = [name, take = std::move(take)](const std::string& text) {
+    if (const std::string wrong = take(text); !wrong.empty()) throw CLI::ValidationError(name, wrong);
+  };
+  return Option(app_->add_option_function<std::string>(name, use, description));
+}
+Option CommandLine::option(const std::string& name, std::vector<std::string>& values,
+                           const std::string& description) {
+  return Option(app_->add_option(name, values, description)
+                    ->expected(1)
+                    ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+}
+Option CommandLine::flag(const std::string& name, bool& value, const std::string& description) {
+  return Option(app_->add_flag(name, value, description));
+}
+
+int CommandLine::run(int argc, char** argv, const std::function<void()>& program) {
+  const std::string name = std::filesystem::path(argc > 0 ? argv[0] : app_->get_name()).filename().string();
+  try {
+    app_->parse(argc, argv);
+    program();
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app_->exit(e);
+    return refuse(name, std::string(e.what()) + " (see " + name + " --help)");
+  } catch (const std::exception& e) {
+    return refuse(name, e.what());
+  }
+}
+
+}  // namespace omentum::runtime
