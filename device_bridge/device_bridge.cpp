@@ -21,6 +21,7 @@ DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique
     : options_(options),
       loop_(loop),
       answers_(runtime::steady_now_ns()),
+      orders_(runtime::steady_now_ns()),
       status_message_(node::introduce(msg::NODE_DEVICE, loop.rate_hz())) {
   const runtime::NodeOptions& node = options.node;
   if (!node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(node.log);
@@ -44,10 +45,12 @@ void DeviceBridge::connect() {
   pose_writer_ = bus_->writer<msg::ToolPose>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   force_reader_ = bus_->reader<msg::ToolForce>([this](const msg::ToolForce& answer) { receive(answer); });
-  status_reader_ = bus_->reader<msg::NodeStatus>(
-      [this](const msg::NodeStatus& status) { answers_.add(status, runtime::steady_now_ns()); });
-  command_reader_ =
-      bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& command) { receive(command); });
+  status_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& status) {
+    answers_.add(status, runtime::steady_now_ns());
+    orders_.hear(status, runtime::steady_now_ns());
+  });
+  command_reader_ = bus_->reader<msg::SessionCommand>(
+      [this](const msg::SessionCommand& command) { orders_.hear(command); });
   for (const auto& channel : channels_) info_writer_->write(channel->info());
 }
 
@@ -80,9 +83,9 @@ void DeviceBridge::exchange(ToolChannel& channel) noexcept {
 }
 
 void DeviceBridge::obey() noexcept {
-  const bool restart = restart_.exchange(false);
+  const bool restart = orders_.take_reset();
   for (const auto& channel : channels_) {
-    channel->device().pause(paused_);
+    channel->device().pause(orders_.paused());
     if (restart) channel->device().restart();
   }
 }
@@ -97,18 +100,9 @@ void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
   }
 }
 
-void DeviceBridge::receive(const msg::SessionCommand& command) noexcept {
-  // a sender repeats a command that may have been lost: a second RESET would start the glide again
-  if (command.seq == last_command_) return;
-  last_command_ = command.seq;
-  if (command.command == msg::COMMAND_START) paused_ = false;
-  if (command.command == msg::COMMAND_PAUSE) paused_ = true;
-  if (command.command == msg::COMMAND_RESET) restart_ = true;
-}
-
 void DeviceBridge::publish_status() {
   status_record_.fetch();
-  status_message_.paused = paused_;
+  status_message_.paused = orders_.paused();
   node::fill_status(status_record_.value(), faults_, status_message_);
   status_writer_->write(status_message_);
 }

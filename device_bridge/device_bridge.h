@@ -4,6 +4,7 @@
 #include "device_bridge/answer_book.h"
 #include "device_bridge/tool_channel.h"
 #include "device_bridge/trace.h"
+#include "node/session_orders.h"
 #include "runtime/background.h"
 #include "runtime/faults.h"
 #include "runtime/loop_log.h"
@@ -46,7 +47,6 @@ class DeviceBridge {
   void obey() noexcept;
   void exchange(ToolChannel& channel) noexcept;
   void receive(const msg::ToolForce& answer) noexcept;
-  void receive(const msg::SessionCommand& command) noexcept;
   void publish_status();
 
   BridgeOptions options_;
@@ -57,9 +57,7 @@ class DeviceBridge {
   runtime::RealtimeGrant realtime_;
   std::unique_ptr<runtime::LoopLog> log_;
   std::unique_ptr<TraceLog> record_;
-  std::atomic<bool> paused_{false};
-  std::atomic<bool> restart_{false};
-  std::uint64_t last_command_ = 0;                       // its seq; the command reader's
+  node::SessionOrders orders_;
   runtime::Mailbox<runtime::LoopRecord> status_record_;  // from the loop to the status
   msg::NodeStatus status_message_;                       // the status thread's
 

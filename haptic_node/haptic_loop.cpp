@@ -241,6 +241,7 @@ nlohmann::json HapticLoop::report() const {
                      {"energy_given_j", line->safety().passivity().given_j()}});
   }
   const double samples = static_cast<double>(std::max<std::uint64_t>(1, force_samples_));
+  const transport::EndpointStatus link = pose_reader_->status();
   return {{"dds", options_.node.dds},
           {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
           {"force_n", {{"mean", force_sum_n_ / samples}, {"max", force_max_n_}}},
@@ -249,6 +250,11 @@ nlohmann::json HapticLoop::report() const {
             {"nodes_max", nodes_max_},
             {"neighbourhood_max", neighbourhood_max_}}},
           {"poses", poses},
+          {"pose_link",
+           {{"deadline_missed", link.deadline_missed},
+            {"liveliness_lost", link.liveliness_lost},
+            {"rejected", link.rejected},
+            {"incompatible_qos", link.incompatible_qos}}},
           {"realtime", {{"fifo", grant_.fifo}, {"locked", grant_.locked}}},
           {"faults", faults_.lines()}};
 }

@@ -134,7 +134,9 @@ int main(int argc, char** argv) {
   for (const auto& [name, number] : commands) names.push_back(name);
   std::string command, dds = "fast", profile = "loopback", keystore;
   int domain = 0, nodes = 0;
-  line.option("command", command, "start, pause, toggle-pause, reset or clear-fault").required().one_of(names);
+  line.option("command", command, "start, pause, toggle-pause, reset or clear-fault")
+      .required()
+      .one_of(names);
   line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
   line.option("--domain", domain, "DDS domain").between(0, 230).show_default();
   line.option("--profile", profile, "loopback (one machine) or lan")
@@ -151,6 +153,6 @@ int main(int argc, char** argv) {
          .profile = transport::parse_profile(profile),
          .name = "omentum_session",
          .keystore = keystore},
-         commands.at(command), nodes);
+        commands.at(command), nodes);
   });
 }

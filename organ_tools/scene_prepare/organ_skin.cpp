@@ -47,9 +47,13 @@ OrganSkin::OrganSkin(const organ::Organ& organ)
 }
 
 void OrganSkin::measure_supports(const organ::Organ& organ) {
-  std::vector<Vec3> supports;
+  std::vector<Vec3> supports, rollers;
   for (std::size_t n = 0; n < organ.fixed.size(); ++n)
-    if (organ.fixed[n] != 0) supports.push_back(organ.mesh.positions[n]);
+    if (organ.fixed[n] == physics::kPinned) supports.push_back(organ.mesh.positions[n]);
+  // rollers count where nothing is held altogether
+  for (std::size_t n = 0; supports.empty() && n < organ.fixed.size(); ++n)
+    if (organ.fixed[n] != 0) rollers.push_back(organ.mesh.positions[n]);
+  if (supports.empty()) supports = std::move(rollers);
   if (!supports.empty()) support_centre_ = mean(supports);
   support_distance_.assign(positions_.size(), diagonal_);
   for (std::size_t s = 0; s < positions_.size(); ++s)

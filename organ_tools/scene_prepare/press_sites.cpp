@@ -18,6 +18,8 @@ constexpr double kLiverDiagonalM = 0.2;
 constexpr double kSupportShare = 0.3;
 /// Two hands press at least this far apart, as a part of the organ's diagonal: a hand's width on a liver.
 constexpr double kApartShare = 0.25;
+/// Below this part of the diagonal no distance is asked for any more.
+constexpr double kLeastApartShare = 0.01;
 /// Supports count as "above" when their direction from the centre is steeper than this (cosine).
 constexpr double kSupportsAbove = 0.5;
 /// Examined places lie at least this far apart, as a part of the organ's diagonal.
@@ -49,7 +51,9 @@ class SiteSearch {
   }
 
   PressSite best(double slide_m, const std::vector<PressSite>& taken) const {
-    for (double apart = kApartShare * skin_.diagonal();; apart /= 2) {
+    // the last time without a distance: on an organ with one free place two hands share it
+    for (double apart = kApartShare * skin_.diagonal();;
+         apart = apart > kLeastApartShare * skin_.diagonal() ? apart / 2 : 0) {
       PressSite best{};
       double best_score = -1;
       for (const Candidate& candidate : candidates_) {
@@ -74,7 +78,7 @@ class SiteSearch {
       const SurfaceId s(i);
       if (!skin_.mobile(s)) continue;
       const double facing = 0.5 + 0.5 * skin_.normal(s).dot(open_);
-      candidates_.push_back({s, facing * facing * std::sqrt(skin_.support_distance(s) / farthest_)});
+      candidates_.push_back({s, facing * facing * std::sqrt(share_of_farthest(s))});
     }
     if (candidates_.empty())
       throw geometry::InputError("no surface node is free to move; expected an organ with fewer supports");
@@ -147,7 +151,12 @@ class SiteSearch {
       return (skin_.position(a) - at.position).squaredNorm() <
              (skin_.position(b) - at.position).squaredNorm();
     });
-    return std::min(1.0, skin_.support_distance(nearest) / (kSupportShare * farthest_));
+    return std::min(1.0, share_of_farthest(nearest) / kSupportShare);
+  }
+
+  /// Distance from the supports, as a part of the largest one; 1 where every node is one (rollers all over).
+  double share_of_farthest(SurfaceId s) const {
+    return farthest_ > 0 ? skin_.support_distance(s) / farthest_ : 1;
   }
 
   static bool near_any(const Vec3& p, const std::vector<PressSite>& taken, double distance) {

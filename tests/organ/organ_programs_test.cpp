@@ -314,7 +314,8 @@ TEST_P(RealOrganTest, TensorsEqualTheDirectSolve) {
     for (int i = 0; i < count; ++i) {  // scattered evenly over the surface, each its own way
       const std::int32_t s = (2 * i + 1) * built.surface.mobile_count / (2 * count);
       csv += std::to_string(built.mesh.file_node[built.surface.node[s]]);
-      for (int axis = 0; axis < 3; ++axis) csv.append(",").append(std::to_string(0.002 * std::sin(i + 2.0 * axis)));
+      for (int axis = 0; axis < 3; ++axis)
+        csv.append(",").append(std::to_string(0.002 * std::sin(i + 2.0 * axis)));
       csv += "\n";
     }
     const std::string imposed = write("imposed.csv", csv);

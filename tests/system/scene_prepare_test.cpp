@@ -115,6 +115,26 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ForeignOrganTest,
                            return test.param.first.substr(0, test.param.first.find('.'));
                          });
 
+// Rollers under every node and one pinned face; and an organ that leaves one place only for two hands.
+// Neither may keep the search going for ever.
+TEST(BoxTest, AwkwardSupportsStillGiveBothHandsAPlace) {
+  const ScratchFolder folder;
+  const std::filesystem::path mesh = folder / "box.msh";
+  const std::string organ = folder / "organ.h5", fitted = folder / "scene.toml";
+  geometry::write_mesh(make_box_mesh(4, 3, 3, {0.12, 0.09, 0.06}), mesh);
+  for (const std::vector<std::string>& supports : {std::vector<std::string>{"plane:z>-1:z", "plane:x<0.01"},
+                                                   {"plane:x<0.11", "plane:y<0.08", "plane:z<0.05"}}) {
+    std::vector<std::string> arguments = {mesh,   "-o",        organ,  "--young", "12000", "--poisson",
+                                          "0.45", "--density", "1060", "--scale", "1"};
+    for (const std::string& support : supports) arguments.insert(arguments.end(), {"--fixed", support});
+    Process build("organ_build", arguments);
+    ASSERT_EQ(build.wait(), 0) << build.messages();
+    Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
+    ASSERT_TRUE(comes_true([&] { return !prepare.running(); })) << supports.front();
+    EXPECT_EQ(prepare.wait(), 0) << prepare.messages();
+  }
+}
+
 TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
   const runtime::Scene held = runtime::load_scene(OMENTUM_HELD_SCENE);
   const ScratchFolder folder;
