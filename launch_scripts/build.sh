@@ -1,45 +1,39 @@
 # shellcheck shell=bash
-# Sourced by run, test and bench: builds a preset, with a line of progress every few seconds.
+# Sourced by run, test, lint and bench: builds a preset, with a line of progress every few seconds.
+
+# shellcheck source=launch_scripts/progress.sh
+source "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 
 # one cache for all clones of the repository
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 
-# build_preset PRESET [-DNAME=VALUE ...] -- [TARGET ...]
+# build_preset PRESET [TARGET ...]: without targets, those of the build preset. One at a time in a build folder.
 build_preset() {
-  local preset=$1 definitions=()
-  shift
-  while [[ $# -gt 0 && $1 != -- ]]; do
-    definitions+=("$1")
-    shift
+  local preset=$1 waiting_s=8 begin=$SECONDS status=0 lock
+  mkdir -p build
+  exec {lock}>>"build/$preset.lock"
+  until flock --wait "$((SECONDS > begin ? waiting_s : 1))" "$lock"; do
+    echo "build: waiting for process $(cat "build/$preset.lock"), which builds $preset too, $((SECONDS - begin)) s"
   done
-  [[ $# -eq 0 ]] || shift
-  local folder=build/$preset log
+  echo $$ >"build/$preset.lock"
+  configure_and_build "$@" || status=$?
+  exec {lock}>&- # the session that follows must not hold it
+  return "$status"
+}
+
+configure_and_build() {
+  local preset=$1 log status=0
+  local targets=("${@:2}")
   log=$(mktemp)
-  if [[ ! -f $folder/build.ninja || ${#definitions[@]} -gt 0 ]]; then
-    if ! cmake --preset "$preset" "${definitions[@]}" >"$log" 2>&1; then
-      tail -n 30 "$log" >&2
-      rm -f "$log"
-      echo "build: cmake --preset $preset failed" >&2
-      return 1
-    fi
-  fi
-  NINJA_STATUS='[%f/%t] ' ninja -C "$folder" "$@" >"$log" 2>&1 &
-  local ninja=$! begin=$SECONDS status=0 next_line=3
-  # a script's background job does not hear Ctrl-C itself
-  # shellcheck disable=SC2064
-  trap "kill $ninja 2>/dev/null || true; rm -f '$log'; exit 130" INT TERM
-  while kill -0 "$ninja" 2>/dev/null; do
-    sleep 0.2
-    if ((SECONDS - begin >= next_line)); then
-      echo "build: $preset $(grep -o '^\[[0-9]*/[0-9]*\]' "$log" | tail -n 1 || true) after $((SECONDS - begin)) s"
-      next_line=$((SECONDS - begin + 10))
-    fi
-  done
-  wait "$ninja" || status=$?
-  trap - INT TERM
-  if [[ $status -ne 0 ]]; then
+  if ! with_progress "build: configuring $preset" "$log" cmake --preset "$preset"; then
+    tail -n 30 "$log" >&2
+    echo "build: cmake --preset $preset failed" >&2
+    status=1
+  elif : >"$log" && ! with_progress "build: $preset" "$log" \
+    cmake --build --preset "$preset" ${targets[0]+--target "${targets[@]}"}; then
     grep -v '^\[[0-9]*/[0-9]*\] ' "$log" | tail -n 60 >&2
     echo "build: preset $preset failed" >&2
+    status=1
   fi
   rm -f "$log"
   return "$status"
