@@ -19,7 +19,7 @@ void pose_problem(const HapticModel& model, std::span<const ToolInput> inputs, H
                                 contact.tool, inputs[contact.tool].max_stiffness_n_m};
     for (int j = 0; j <= i; ++j) {
       work.problem.W(i, j) = contact_compliance(work.nodes, work.shares[i], work.shares[j]);
-      work.problem.W(j, i) = work.problem.W(i, j).transpose();
+      if (j < i) work.problem.W(j, i) = work.problem.W(i, j).transpose();
     }
   }
   physics::limit_stiffness(work.problem);

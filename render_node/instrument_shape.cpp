@@ -141,9 +141,9 @@ Mat4f part_pose(const InstrumentPart& part, const Eigen::Vector3d& p_WT, const E
 
 Vec3f tool_colour(std::uint32_t id) {
   // distinct from tissue, from each other, and for red-green blindness (blue against yellow)
-  static const std::array<Vec3f, 4> kColours{
+  static const std::array<Vec3f, 4> colours{
       {{0.03f, 0.52f, 0.85f}, {0.95f, 0.55f, 0.04f}, {0.55f, 0.30f, 0.85f}, {0.25f, 0.75f, 0.30f}}};
-  return kColours[id % kColours.size()];
+  return colours[id % colours.size()];
 }
 
 }  // namespace omentum::render

@@ -11,7 +11,7 @@ namespace {
 void attribute(unsigned location, int components, std::size_t offset) {
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                        reinterpret_cast<void*>(offset));
+                        reinterpret_cast<void*>(offset));  // NOLINT(performance-no-int-to-ptr): OpenGL's way
 }
 
 }  // namespace

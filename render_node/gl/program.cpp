@@ -29,7 +29,7 @@ unsigned compile(GLenum kind, const std::string& name, std::string_view prefix, 
 
 }  // namespace
 
-Program::Program(std::string name, std::string_view vertex, std::string_view prefix,
+Program::Program(const std::string& name, std::string_view vertex, std::string_view prefix,
                  std::string_view fragment) {
   const unsigned v = compile(GL_VERTEX_SHADER, name, "", vertex);
   const unsigned f = compile(GL_FRAGMENT_SHADER, name, prefix, fragment);

@@ -12,7 +12,8 @@ namespace omentum::render::gl {
 class Program {
  public:
   /// Both sources begin without #version; `prefix` goes before the fragment shader.
-  Program(std::string name, std::string_view vertex, std::string_view prefix, std::string_view fragment);
+  Program(const std::string& name, std::string_view vertex, std::string_view prefix,
+          std::string_view fragment);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

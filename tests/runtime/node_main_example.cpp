@@ -1,4 +1,4 @@
-// A node that does nothing but wait for its end: what node_main and StopSignal make of it is under test.
+// A node that does nothing but wait for its end: what CommandLine and StopSignal make of it is under test.
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
 #include "runtime/scene.h"

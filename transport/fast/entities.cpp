@@ -130,7 +130,7 @@ Entities::~Entities() {
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
 
-dds::Topic* Entities::topic(const TopicSpec& spec, dds::TypeSupport type) {
+dds::Topic* Entities::topic(const TopicSpec& spec, const dds::TypeSupport& type) {
   const std::lock_guard lock(mutex_);
   dds::Topic*& topic = topics_[spec.name];
   if (!topic && participant->register_type(type) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)

@@ -29,7 +29,7 @@ struct Entities {
   Entities& operator=(const Entities&) = delete;
 
   /// The topic of this name, registered on first use. Throws std::runtime_error. Any thread.
-  dds::Topic* topic(const TopicSpec& spec, dds::TypeSupport type);
+  dds::Topic* topic(const TopicSpec& spec, const dds::TypeSupport& type);
 
   Profile profile;
   dds::DomainParticipant* participant = nullptr;
