@@ -114,6 +114,9 @@ class DeformedSurface {
   const geometry::Surface& surface() const noexcept { return surface_; }
 
  private:
+  // above the rounding of float coordinates within 8 m of W's origin and of superposed displacements, m
+  static constexpr float kRounding_m = 1e-6f;
+
   using Corners = std::array<const Vec3*, 3>;
 
   void index_clusters();

@@ -1,0 +1,186 @@
+// What is asked of the deformed surface: where a point is, what it met, where it slides.
+#include "geometry/closest_points.h"
+#include "haptic_node/deformed_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace omentum::haptic {
+namespace {
+
+// Triangles that a sliding contact may cross in one tick; a fast instrument crosses three.
+constexpr int kMaxSlideSteps = 64;
+// Barycentric coordinates below this lie on the opposite edge.
+constexpr double kOnEdge = 1e-12;
+
+Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b - a).cross(c - a);
+}
+
+double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
+  const Vec3 u = a - corner, v = b - corner;
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+// Looks at triangle after triangle for the nearest point to p within a distance.
+struct NearestSearch {
+  const Vec3& p;
+  double squared_m;  // of what was found, else of the reach
+  std::optional<SurfacePoint> found{};
+
+  void look_at(TriangleId triangle, const std::array<const Vec3*, 3>& corners) {
+    const auto point = geometry::closest_point_on_triangle(p, *corners[0], *corners[1], *corners[2]);
+    if (point.squared_distance > squared_m) return;
+    squared_m = point.squared_distance;
+    found = SurfacePoint{triangle, point.barycentric};
+  }
+};
+
+// The same for the first triangle that the segment p -> q passes from outside.
+struct EntrySearch {
+  const Vec3 &p, &q;
+  std::optional<Entry> first{};
+
+  void look_at(TriangleId triangle, const std::array<const Vec3*, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    if ((q - p).dot(area_normal(*a, *b, *c)) >= 0) return;
+    const auto hit = geometry::intersect_segment_triangle(p, q, *a, *b, *c);
+    if (hit && (!first || hit->parameter < first->parameter))
+      first = Entry{hit->parameter, {triangle, hit->barycentric}};
+  }
+};
+
+}  // namespace
+
+// Queries reach further by the margin, so that a cluster's buckets need a look only when that is used up, and
+// then only when somebody asks.
+template <class Visit>
+void DeformedSurface::visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept {
+  bin_pending();
+  grid_.visit_segment(p, q, radius_m + binning_margin_, [&](TriangleId triangle) {
+    if (fresh(triangle)) visit(triangle);  // others cannot be here: evaluate() looked
+  });
+}
+
+DeformedSurface::Corners DeformedSurface::stored_corners(TriangleId triangle) const noexcept {
+  const geometry::Triangle& t = surface_.triangles[triangle];
+  return {&positions_[t[0]], &positions_[t[1]], &positions_[t[2]]};
+}
+
+void DeformedSurface::find_normals() {
+  normals_.assign(rest_.size(), Vec3::Zero());
+  for (const geometry::Triangle& t : surface_.triangles) {
+    const Vec3 normal = area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]);
+    for (const SurfaceId n : t) normals_[n] += normal;
+  }
+  for (Vec3& normal : normals_) normal.normalize();
+}
+
+Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
+  const geometry::Triangle& t = surface_.triangles[point.triangle];
+  const Vec3& k = point.barycentric;
+  const Vec3 sum = k[0] * normals_[t[0]] + k[1] * normals_[t[1]] + k[2] * normals_[t[2]];
+  const double length = sum.norm();
+  // on a blade two opposite normals may cancel: then the face's own
+  return length > 0 ? Vec3(sum / length) : area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]).normalized();
+}
+
+std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) noexcept {
+  EntrySearch entry{p, q};
+  visit_near(p, q, 0, [&](TriangleId triangle) { entry.look_at(triangle, stored_corners(triangle)); });
+  return entry.first;
+}
+
+std::optional<SurfacePoint> DeformedSurface::nearest_if_inside(const Vec3& p, double reach_m) noexcept {
+  NearestSearch nearest{p, reach_m * reach_m};
+  visit_near(p, p, reach_m,
+             [&](TriangleId triangle) { nearest.look_at(triangle, stored_corners(triangle)); });
+  if (nearest.found && outside_of_feature(*nearest.found, p)) return std::nullopt;
+  return nearest.found;
+}
+
+std::optional<DeformedSurface::Immersion> DeformedSurface::immersion(const Vec3& p, double reach_m) noexcept {
+  for (double reach = std::min(kReach_m, reach_m);; reach = std::min(2 * reach, reach_m)) {
+    evaluate({p.array() - reach, p.array() + reach});
+    bin_pending();
+    if (const auto nearest = grid_.nearest(p, reach, positions_)) {
+      const SurfacePoint point{nearest->triangle, nearest->barycentric};
+      if (outside_of_feature(point, p)) return std::nullopt;
+      return Immersion{point, std::sqrt(nearest->squared_distance)};
+    }
+    if (reach == reach_m) return std::nullopt;
+  }
+}
+
+DeformedSurface::Encounter DeformedSurface::meet(const Vec3& p, const Vec3& q, double radius_m) noexcept {
+  // what was out of reach before the last step passed over p only if it moved that far
+  const double moved = entered_motion_ < kReach_m ? known_motion_ : kReach_m;
+  const double reach = std::min(moved, kReach_m - kRounding_m) + kRounding_m;
+  NearestSearch around_p{p, reach * reach}, around_q{q, radius_m * radius_m};
+  EntrySearch entry{p, q};
+  visit_near(p, q, std::max(radius_m, reach), [&](TriangleId triangle) {
+    around_p.look_at(triangle, stored_corners(triangle));
+    around_q.look_at(triangle, stored_corners(triangle));
+    entry.look_at(triangle, stored_corners(triangle));
+  });
+  Encounter met{std::nullopt, std::sqrt(around_q.squared_m)};
+  if (around_p.found && !outside_of_feature(*around_p.found, p))
+    met.touched = around_p.found;
+  else if (entry.first)
+    met.touched = entry.first->point;
+  return met;
+}
+
+// The sign of a distance follows from the normal of the face, from the sum of both faces' normals on an edge,
+// from their angle-weighted sum at a vertex (Baerentzen and Aanaes 2005).
+bool DeformedSurface::outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept {
+  const geometry::Triangle& t = surface_.triangles[nearest.triangle];
+  std::array<SurfaceId, 3> feature;
+  int size = 0;
+  for (int v = 0; v < 3; ++v) {
+    if (nearest.barycentric[v] > kOnEdge) feature[size++] = t[v];
+  }
+  Vec3 normal = Vec3::Zero();
+  for (const TriangleId around : surface_.triangles_of(feature[0])) {
+    const geometry::Triangle& face = surface_.triangles[around];
+    const auto holds = [&](SurfaceId n) { return std::find(face.begin(), face.end(), n) != face.end(); };
+    if ((size > 1 && !holds(feature[1])) || (size > 2 && !holds(feature[2]))) continue;
+    const Vec3 face_normal =
+        area_normal(position(face[0]), position(face[1]), position(face[2])).normalized();
+    double weight = 1;
+    if (size == 1) {
+      const auto corner = std::find(face.begin(), face.end(), feature[0]) - face.begin();
+      weight = angle_at(position(face[corner]), position(face[(corner + 1) % 3]),
+                        position(face[(corner + 2) % 3]));
+    }
+    normal += weight * face_normal;
+  }
+  return normal.dot(p - position(nearest)) >= 0;
+}
+
+SurfacePoint DeformedSurface::slide(const SurfacePoint& from, const Vec3& p) noexcept {
+  const auto closest_on = [&](TriangleId triangle) {
+    const geometry::Triangle& t = surface_.triangles[triangle];
+    return geometry::closest_point_on_triangle(p, position(t[0]), position(t[1]), position(t[2]));
+  };
+  geometry::TrianglePoint best = closest_on(from.triangle);
+  TriangleId here = from.triangle;
+  for (int step = 0; step < kMaxSlideSteps; ++step) {
+    const TriangleId origin = here;
+    // only where the closest point lies on an edge or a vertex can a neighbour be nearer
+    const geometry::Triangle& t = surface_.triangles[origin];
+    const Vec3 k = best.barycentric;
+    if (k.minCoeff() > kOnEdge) break;
+    for (int v = 0; v < 3; ++v) {
+      if (k[v] <= kOnEdge) continue;
+      for (const TriangleId next : surface_.triangles_of(t[v])) {
+        const geometry::TrianglePoint point = closest_on(next);
+        if (point.squared_distance < best.squared_distance) best = point, here = next;
+      }
+    }
+    if (here == origin) break;
+  }
+  return {here, best.barycentric};
+}
+
+}  // namespace omentum::haptic
