@@ -40,7 +40,7 @@ DeviceBridge::~DeviceBridge() = default;
 
 void DeviceBridge::connect() {
   const runtime::RealtimeStart start(runtime::kHandLinkPriority);
-  bus_ = transport::Bus::open(node::bus_options(options_.node, "virtual_device"));
+  bus_ = node::open_bus(options_.node, "virtual_device");
   info_writer_ = bus_->writer<msg::DeviceInfo>();
   pose_writer_ = bus_->writer<msg::ToolPose>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
@@ -104,6 +104,7 @@ void DeviceBridge::publish_status() {
   status_record_.fetch();
   status_message_.paused = orders_.paused();
   node::fill_status(status_record_.value(), faults_, status_message_);
+  status_message_.round_trip_us = node::to_message(answers_.report().to_force);
   status_writer_->write(status_message_);
 }
 

@@ -12,11 +12,11 @@ namespace {
 constexpr std::size_t kFaultBytes = 160;  // string<160> of idl/session.idl
 constexpr std::size_t kHostBytes = 64;    // string<64> of idl/session.idl
 
+}  // namespace
+
 msg::Percentiles to_message(const runtime::Percentiles& p) {
   return {.p50 = p.p50, .p99 = p.p99, .p999 = p.p999, .max = p.max, .count = p.count};
 }
-
-}  // namespace
 
 runtime::Scene load_scene(const runtime::NodeOptions& options) {
   runtime::Scene scene = runtime::load_scene(options.scene);

@@ -24,6 +24,9 @@ std::unique_ptr<transport::Bus> open_bus(const runtime::NodeOptions& options, co
 /// wall clock, ns, so that of two runs the smaller one is the older, also on two machines.
 msg::NodeStatus introduce(std::uint32_t kind, double rate_hz);
 
+/// A distribution as the topics carry it, us.
+msg::Percentiles to_message(const runtime::Percentiles& percentiles);
+
 /// Fills in the loop's figures and the faults; the rest stays. Not for a real-time thread (texts allocate).
 void fill_status(const runtime::LoopRecord& record, const runtime::FaultList& faults,
                  msg::NodeStatus& status);

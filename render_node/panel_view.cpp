@@ -29,6 +29,15 @@ std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64
   return rows;
 }
 
+msg::Percentiles device_round_trip(const std::vector<HeardStatus>& heard) {
+  msg::Percentiles slowest{};
+  for (const auto& [status, arrived_ns] : heard) {
+    if (status.round_trip_us.count > 0 && status.round_trip_us.p50 >= slowest.p50)
+      slowest = status.round_trip_us;
+  }
+  return slowest;
+}
+
 std::optional<bool> haptic_paused(const std::vector<HeardStatus>& heard, std::int64_t now_ns) {
   std::optional<bool> paused;
   for (const auto& [status, arrived_ns] : heard) {

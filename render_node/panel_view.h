@@ -54,8 +54,8 @@ struct PanelView {
   bool endoscope = false, arrows = true, markers = true;
   std::vector<NodeRow> nodes;
   std::vector<ToolRow> tools;
-  // from a pose's arrival here to the arrival of its force, and to the end of the frame that shows it; 0:
-  // unknown
+  // from a pose to its force, as the device says, and from its arrival here to the end of the frame that
+  // shows it; 0: unknown
   double hand_to_force_us = 0, hand_to_force_p99_us = 0;
   double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
   double dent_mm = 0;  // the deepest of this moment (dent.h)
@@ -75,6 +75,9 @@ inline constexpr double kLinearShare = 0.1;
 
 /// Names, rates and silence of the nodes.
 std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64_t now_ns);
+/// From a pose to its force, as the device measures it on its own clock, us; the slowest device's, count 0
+/// where none tells.
+msg::Percentiles device_round_trip(const std::vector<HeardStatus>& heard);
 /// Whether a haptic_node that still speaks says that it is paused; nothing where none speaks.
 std::optional<bool> haptic_paused(const std::vector<HeardStatus>& heard, std::int64_t now_ns);
 /// "deform_node: TEXT" for each fault of each node.

@@ -86,19 +86,15 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
   rows_[tool].state = force_state_words(felt ? force.sample.state : 0);
   rows_[tool].fault = felt && (force.sample.state & msg::FORCE_FAULT) != 0;
   if (felt) {
-    listen_to_force(inbox, tool, force, now_ns);
+    listen_to_contact(inbox, tool, now_ns);
   } else {
     histories_[tool].interrupt();
   }
 }
 
-void SessionWatch::listen_to_force(Inbox& inbox, std::size_t tool,
-                                   const transport::Arrived<msg::ToolForce>& force, std::int64_t now_ns) {
+void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns) {
   ToolNow& now = tools_[tool];
   histories_[tool].add(seconds_since_begin(now_ns), now.force_n.norm());
-  if (const auto arrived = inbox.arrival_of(ids_[tool], force.sample.echo_seq)) {
-    hand_to_force_.add_ns(force.arrived_ns - *arrived);
-  }
   const msg::Contact& contact = inbox.contact(ids_[tool]);
   now.contact_organ = contact.organ;
   now.contact_nodes = contact.nodes;
@@ -144,8 +140,9 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
     panel.tools[t].largest_n = histories_[t].largest_n();
     panel.tools[t].curve = histories_[t].samples();
   }
-  panel.hand_to_force_us = hand_to_force_.percentile_us(0.5);
-  panel.hand_to_force_p99_us = hand_to_force_.percentile_us(0.99);
+  const msg::Percentiles round_trip = device_round_trip(statuses_);
+  panel.hand_to_force_us = round_trip.p50;
+  panel.hand_to_force_p99_us = round_trip.p99;
   panel.hand_to_picture_us = hand_to_picture_.percentile_us(0.5);
   panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
   panel.dent_mm = dent_ ? 1e3 * dent_->dent.depth_m : 0;

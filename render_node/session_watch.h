@@ -41,8 +41,7 @@ class SessionWatch {
  private:
   void listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t now_ns);
   void listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
-  void listen_to_force(Inbox& inbox, std::size_t tool, const transport::Arrived<msg::ToolForce>& force,
-                       std::int64_t now_ns);
+  void listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
   void find_deepest_dent(const SceneView& view, std::int64_t now_ns);
   double seconds_since_begin(std::int64_t now_ns) const {
     return 1e-9 * static_cast<double>(now_ns - begin_ns_);
@@ -63,7 +62,7 @@ class SessionWatch {
   std::vector<HeardStatus> statuses_;
   SessionState session_;
   std::uint64_t incomplete_states_ = 0;
-  runtime::Histogram hand_to_force_, hand_to_picture_;
+  runtime::Histogram hand_to_picture_;
 };
 
 }  // namespace omentum::render

@@ -69,6 +69,15 @@ TEST(PanelView, RateIsMeasuredNotConfigured) {
   EXPECT_NEAR(node_rows({{status, 0}}, 0)[0].rate_hz, 800, 1e-9);
 }
 
+TEST(PanelView, TheRoundTripIsTheDevicesOwnAndTheSlowestOne) {
+  msg::NodeStatus haptic = status_of(msg::NODE_HAPTIC, 1), quick = status_of(msg::NODE_DEVICE, 2),
+                  slow = status_of(msg::NODE_DEVICE, 3);
+  EXPECT_EQ(device_round_trip({{haptic, 0}}).count, 0u);
+  quick.round_trip_us = {.p50 = 90, .p99 = 200, .p999 = 300, .max = 400, .count = 7};
+  slow.round_trip_us = {.p50 = 130, .p99 = 180, .p999 = 300, .max = 400, .count = 7};
+  EXPECT_EQ(device_round_trip({{haptic, 0}, {slow, 0}, {quick, 0}}).p50, 130);
+}
+
 TEST(PanelView, MissesOfRealTimeLoopsMatter) {
   for (const auto& [kind, missed, matter] : {std::tuple{msg::NODE_HAPTIC, 0, false},
                                              {msg::NODE_HAPTIC, 20, true},
