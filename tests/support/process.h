@@ -3,11 +3,13 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -112,11 +114,22 @@ bool comes_true(Condition&& condition) {
   return true;
 }
 
-/// A DDS domain for this process: two tests that run at the same time are two processes.
+/// A DDS domain that no other test, session or clone on this machine uses for as long as this process lives:
+/// its number is held as an abstract socket, by the launcher's rule (launch_scripts/launcher/domain.py). From
+/// 100 downwards: the launcher comes from below, and beyond 100 a domain's ports lie among those that the
+/// system gives to any program.
 inline int domain_of_test() {
-  constexpr int kFirst = 101, kCount = 130;  // above those that the launcher takes
-  static std::atomic<int> uses{0};
-  return kFirst + (getpid() * 3 + uses++) % kCount;
+  constexpr int kLast = 100, kFirst = 1;
+  for (int number = kLast; number >= kFirst; --number) {
+    const int held = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const std::string name = std::string("omentum-domain-").append(std::to_string(number));
+    sockaddr_un address{AF_UNIX, {}};  // the first byte stays zero: abstract
+    name.copy(address.sun_path + 1, name.size());
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+    if (bind(held, reinterpret_cast<const sockaddr*>(&address), size) == 0) return number;
+    close(held);
+  }
+  throw std::runtime_error("all DDS domains are in use");
 }
 
 }  // namespace omentum::test

@@ -41,7 +41,7 @@ TEST(ParseProfile, NamesTheChoices) {
 class EachVendor : public testing::TestWithParam<Vendor> {
  protected:
   BusOptions options() const { return {.vendor = GetParam(), .domain = domain, .name = "bus_test"}; }
-  int domain = test::own_domain();
+  int domain = test::domain_of_test();
 };
 
 TEST_P(EachVendor, AKeyStoreIsRefusedNotIgnored) {
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, EachVendor, testing::Values(Vendor::kFast, Ven
                          [](const auto& info) { return info.param == Vendor::kFast ? "Fast" : "Cyclone"; });
 
 TEST(CycloneBus, OneProcessCannotUseADomainWithTwoProfiles) {
-  const BusOptions loopback{.vendor = Vendor::kCyclone, .domain = test::own_domain()};
+  const BusOptions loopback{.vendor = Vendor::kCyclone, .domain = test::domain_of_test()};
   BusOptions lan = loopback;
   lan.profile = Profile::kLan;
   const auto bus = Bus::open(loopback);

@@ -1,6 +1,7 @@
 // Runs the peer program and waits for conditions.
 #pragma once
 
+#include "tests/support/process.h"
 #include "transport/bus.h"
 
 #include <ifaddrs.h>
@@ -23,13 +24,6 @@ inline const char* word(transport::Vendor vendor) {
 
 inline const char* word(transport::Profile profile) {
   return profile == transport::Profile::kLan ? "lan" : "loopback";
-}
-
-/// A domain of this process's own; tests of one process that run one after the other get different ones.
-inline int own_domain() {
-  constexpr int kDomains = 231;
-  static int uses = 0;
-  return (getpid() + 97 * uses++) % kDomains;
 }
 
 /// Whether an interface other than lo is up and does multicast: what profile `lan` finds its peers through.

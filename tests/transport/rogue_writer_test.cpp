@@ -15,7 +15,7 @@ using test::eventually;
 class RogueWriter : public testing::TestWithParam<Vendor> {};
 
 TEST_P(RogueWriter, ItsSamplesReachNoCallbackAndGoodOnesStillDo) {
-  const int domain = test::own_domain();
+  const int domain = test::domain_of_test();
   const auto bus = Bus::open({.vendor = GetParam(), .domain = domain, .name = "reader"});
   std::atomic<std::size_t> good{0}, bad{0};
   const auto reader = bus->reader<msg::Contact>(

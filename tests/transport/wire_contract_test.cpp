@@ -35,7 +35,7 @@ class WireContract : public testing::TestWithParam<Pairing> {
         {.vendor = GetParam().reader, .domain = domain, .profile = profile, .name = "wire_contract_test"});
   }
 
-  int domain = test::own_domain();
+  int domain = test::domain_of_test();
   Profile profile;
 };
 
