@@ -53,8 +53,7 @@ class Process {
  public:
   /// `program`: a name in the build's bin/, or a path.
   Process(const std::string& program, const std::vector<std::string>& arguments) {
-    const std::string path =
-        program.find('/') == std::string::npos ? OMENTUM_BIN_DIR "/" + program : program;
+    const std::string path = program.find('/') == std::string::npos ? OMENTUM_BIN_DIR "/" + program : program;
     std::vector<char*> argv{const_cast<char*>(path.c_str())};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
