@@ -107,11 +107,13 @@ class PointInTetrahedron {
                      std::size_t besides)
       : positions_(positions), tetrahedra_(tetrahedra), point_(point), besides_(besides) {}
 
+  // NOLINTBEGIN(readability-identifier-naming): what Eigen's tree calls
   bool intersectVolume(const Eigen::AlignedBox3d& box) const { return box.contains(point_); }
   bool intersectObject(std::size_t t) {
     found_ = found_ || (t != besides_ && holds(t));
     return found_;
   }
+  // NOLINTEND(readability-identifier-naming)
   bool found() const { return found_; }
 
  private:
