@@ -43,6 +43,8 @@ const char* describe(PoseVerdict verdict) {
       return "new connection";
     case PoseVerdict::kInvalid:
       return "marked invalid";
+    case PoseVerdict::kSameMeasurement:
+      return "not measured anew";
     case PoseVerdict::kNotFinite:
       return "not finite";
     case PoseVerdict::kNotARotation:
@@ -98,6 +100,12 @@ PoseVerdict PoseGuard::judge(const msg::ToolPose& pose, std::int64_t arrival_ns)
   const PoseVerdict well_formed = form(pose);
   if (well_formed != PoseVerdict::kAccepted) return well_formed;
   if (!known_.present) return accept(pose, arrival_ns, PoseVerdict::kReconnected);
+  if (pose.seq > known_.pose.seq && pose.stamp_ns == known_.pose.stamp_ns) {
+    // it came, so that its number is not lost; what is known ages on
+    lost_ += pose.seq - known_.pose.seq - 1;
+    known_.pose.seq = pose.seq;
+    return PoseVerdict::kSameMeasurement;
+  }
   const PoseVerdict verdict = follows(known_, pose, arrival_ns);
   if (verdict == PoseVerdict::kAccepted) return accept(pose, arrival_ns, verdict);
 

@@ -15,20 +15,24 @@ inline constexpr double kMaxTurnSpeed_rad_s = 60;
 
 enum class PoseVerdict : std::uint8_t {
   kAccepted,
-  kReconnected,   // accepted: the first one, or a new place or count that lasted
-  kInvalid,       // the device says that it has no measurement: no fault
-  kNotFinite,     // NaN or infinity in any number
-  kNotARotation,  // the quaternion's length is off
-  kOldSequence,   // repeated, or older than what is known, by number or stamp
-  kJump,          // farther than an instrument can have moved
+  kReconnected,      // accepted: the first one, or a new place or count that lasted
+  kInvalid,          // no fault: the device says that it has no measurement
+  kSameMeasurement,  // no fault: a new number, but not measured anew (the stamp is the known one)
+  kNotFinite,        // NaN or infinity in any number
+  kNotARotation,     // the quaternion's length is off
+  kOldSequence,      // repeated, or older than what is known, by number or stamp
+  kJump,             // farther than an instrument can have moved
 };
-inline constexpr int kPoseVerdicts = 7;
+inline constexpr int kPoseVerdicts = 8;
 
 /// A short English phrase, e.g. "position jumps".
 const char* describe(PoseVerdict verdict);
 
 inline bool is_accepted(PoseVerdict verdict) {
   return verdict <= PoseVerdict::kReconnected;
+}
+inline bool is_fault(PoseVerdict verdict) {
+  return verdict > PoseVerdict::kSameMeasurement;
 }
 
 /// later - earlier of two stamps from the wire; what does not fit is the largest there is.

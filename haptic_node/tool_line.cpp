@@ -31,7 +31,7 @@ bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
   lost_.store(guard_.lost(), std::memory_order_relaxed);
   if (!is_accepted(verdict)) {
     refused_.fetch_add(1, std::memory_order_relaxed);
-    if (verdict != PoseVerdict::kInvalid) faults_.raise(refusals_[static_cast<std::size_t>(verdict)]);
+    if (is_fault(verdict)) faults_.raise(refusals_[static_cast<std::size_t>(verdict)]);
     return false;
   }
   accepted_.fetch_add(1, std::memory_order_relaxed);

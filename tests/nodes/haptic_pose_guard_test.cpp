@@ -52,7 +52,10 @@ TEST(PoseGuard, AnOldMeasurementUnderANewNumberIsRefused) {
   guard.judge(pose(10), 0);
   msg::ToolPose again = pose(11);
   again.stamp_ns = pose(10).stamp_ns;
-  EXPECT_EQ(guard.judge(again, kMs), PoseVerdict::kOldSequence);
+  EXPECT_EQ(guard.judge(again, kMs), PoseVerdict::kSameMeasurement);
+  EXPECT_FALSE(is_fault(PoseVerdict::kSameMeasurement)) << "a device that is faster than its tracker is none";
+  EXPECT_EQ(guard.judge(pose(again.seq + 1), 2 * kMs), PoseVerdict::kAccepted);
+  EXPECT_EQ(guard.lost(), 0u) << "it came, it was only nothing new";
 }
 
 TEST(PoseGuard, StampsFromTheEndsOfTheirRangeAreNoSmallGap) {

@@ -1,7 +1,8 @@
 // What the panel says, and that it can be laid out.
 #include "render_node/panel.h"
-#include "render_node/panel_style.h"
 #include "render_node/pose_arrivals.h"
+
+#include "panel_context.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -216,15 +217,7 @@ TEST(PoseArrivals, AreFoundUntilOverwritten) {
 // Lays a panel out without anything to draw it on; the height that it took.
 class PanelLayout : public testing::Test {
  protected:
-  void SetUp() override {
-    ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;
-    style_panel();
-    unsigned char* pixels = nullptr;
-    int width = 0, height = 0;
-    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-  }
-  void TearDown() override { ImGui::DestroyContext(); }
+  PanelContext context_;
 
   float height_of(const PanelView& view) {
     PanelActions actions;

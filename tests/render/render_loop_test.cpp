@@ -1,9 +1,8 @@
 // The node's loop on a renderer that only remembers, with a scripted person at its window.
 #include "render_node/render_loop.h"
 
-#include "render_node/panel_style.h"
-
 #include "block_session.h"
+#include "panel_context.h"
 #include "recording_renderer.h"
 
 #include <gmock/gmock.h>
@@ -57,12 +56,6 @@ class Click {
 class RenderLoopTest : public testing::Test {
  protected:
   void SetUp() override {
-    ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;
-    style_panel();
-    unsigned char* pixels = nullptr;
-    int width = 0, height = 0;
-    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
     renderer_.windowed = true;
     renderer_.on_begin_frame = [this] { return next_input(); };
     renderer_.on_panel = [] { ImGui::Render(); };
@@ -72,7 +65,6 @@ class RenderLoopTest : public testing::Test {
     bus_ = transport::Bus::open(
         {.vendor = transport::Vendor::kCyclone, .domain = options_.node.domain, .name = "test"});
   }
-  void TearDown() override { ImGui::DestroyContext(); }
 
   void then(Step step) { script_.push_back(std::move(step)); }
   void drag(float x, float y) {
@@ -97,6 +89,7 @@ class RenderLoopTest : public testing::Test {
     return loop.report();
   }
 
+  PanelContext context_;
   test::BlockScene block_;
   RenderOptions options_;
   RecordingRenderer renderer_{kWindow};
