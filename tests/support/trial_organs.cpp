@@ -1,0 +1,106 @@
+#include "tests/support/trial_organs.h"
+
+#include "organ/build_organ.h"
+#include "organ/support_spec.h"
+#include "runtime/scene.h"
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+namespace omentum::test {
+namespace {
+
+using geometry::Vec3;
+
+constexpr double kMillimetre = 1e-3, kPoisson = 0.45, kDensity_kg_m3 = 1060;
+// The lower part of an organ lies in its bed, as the phantom's does in its scene.
+constexpr double kSupportedShare = 0.3;
+constexpr const char* kPhantomSupport = "plane:z<-0.02";
+const std::string kScene = OMENTUM_SOURCE_DIR "/scenes/liver.toml";
+
+std::optional<geometry::TetraMesh> mesh_of(const OrganRecipe& recipe) {
+  if (!recipe.file.empty()) {
+    const auto file = data_file(recipe.file);
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    return geometry::check_mesh(geometry::read_mesh(file), kMillimetre).mesh;
+  }
+  if (!std::filesystem::exists(OMENTUM_BIN_DIR "/organ_phantom")) return std::nullopt;
+  const ScratchFolder folder;
+  Process phantom("organ_phantom", {"-o", folder / "phantom.msh"});
+  if (phantom.wait() != 0) throw std::runtime_error(phantom.messages());
+  return geometry::check_mesh(geometry::read_mesh(folder / "phantom.msh"), 1).mesh;
+}
+
+std::string support_of(const OrganRecipe& recipe, const geometry::TetraMesh& mesh) {
+  if (recipe.file.empty()) return kPhantomSupport;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.positions) box.extend(p);
+  return "plane:z<" + std::to_string(box.min().z() + kSupportedShare * box.sizes().z());
+}
+
+}  // namespace
+
+std::span<const OrganRecipe> organ_recipes() {
+  static const std::array<OrganRecipe, 6> recipes = {{
+      {"phantom", "", 6e3},
+      {"openhelp_liver_7k", "tet/openhelp_liver_7k.msh", 50e3},
+      {"openhelp_kidney_left_22k", "tet/openhelp_kidney_left_22k.msh", 10e3},
+      {"sofamcp_prostate", "tet/sofamcp_prostate.vtk", 20e3},
+      {"openhelp_liver_25k", "tet/openhelp_liver_25k.msh", 5e3},
+      {"openhelp_stomach_15k", "tet/openhelp_stomach_15k.msh", 3e3},
+  }};
+  return recipes;
+}
+
+const OrganRecipe& organ_recipe(const std::string& name) {
+  std::string known;
+  for (const OrganRecipe& recipe : organ_recipes()) {
+    if (recipe.name == name) return recipe;
+    known += (known.empty() ? "" : ", ") + recipe.name;
+  }
+  throw std::invalid_argument("organ '" + name + "', expected one of " + known);
+}
+
+std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe) {
+  std::optional<geometry::TetraMesh> mesh = mesh_of(recipe);
+  if (!mesh) return std::nullopt;
+  auto fixed = organ::parse_supports(std::array{support_of(recipe, *mesh)}, *mesh);
+  const organ::Organ organ =
+      organ::make_organ(recipe.name, std::move(*mesh), {recipe.young_pa, kPoisson, kDensity_kg_m3},
+                        std::move(fixed), organ::Storage::kFloat);
+  const auto folder = std::filesystem::temp_directory_path() / "omentum_trial_organs";
+  std::filesystem::create_directories(folder);
+  const auto file = folder / (organ.hash + ".h5");
+  organ::BuildOptions options;
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  organ::build_organ(organ, file, options);
+  return organ::load_organ(file, organ::Load::kWithTensors);
+}
+
+std::vector<haptic::ToolModel> scene_tools(bool with_trocars) {
+  std::vector<haptic::ToolModel> tools;
+  for (const runtime::ToolSpec& spec : runtime::load_scene(kScene).tools) {
+    haptic::ToolModel tool;
+    for (const runtime::Triple& p : spec.points) tool.points.emplace_back(p.data());
+    tool.grasps = spec.shape == "grasper";
+    if (with_trocars && spec.trocar) tool.trocar = Vec3(spec.trocar->data());
+    tools.push_back(std::move(tool));
+  }
+  return tools;
+}
+
+haptic::HapticModel trial_model(const organ::Organ& organ, std::vector<haptic::ToolModel> tools) {
+  haptic::HapticModel model{organ.surface,
+                            geometry::surface_positions(organ.mesh, organ.surface),
+                            *organ.compliance,
+                            {},
+                            std::move(tools)};
+  for (const geometry::NodeId n : organ.surface.node)
+    model.file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
+  return model;
+}
+
+}  // namespace omentum::test

@@ -1,0 +1,35 @@
+// Organs of real shape for what measures contact: the phantom and the meshes beside the repository.
+#pragma once
+
+#include "haptic_node/haptic_model.h"
+#include "organ/organ.h"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace omentum::test {
+
+/// What an organ on trial is made of. All lie on a support below.
+struct OrganRecipe {
+  std::string name;  // "phantom", or a file of shared/data/tet without its ending
+  std::string file;  // relative to shared/data; empty: the phantom
+  double young_pa;
+};
+
+/// The phantom as in scenes/liver.toml first, then livers, kidney, prostate, stomach.
+std::span<const OrganRecipe> organ_recipes();
+/// Throws std::invalid_argument, naming those that there are.
+const OrganRecipe& organ_recipe(const std::string& name);
+
+/// With its tensors; nothing where the data or the phantom's program are absent. The organ file is kept in
+/// the system's temporary folder. Throws geometry::InputError.
+std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe);
+
+/// The two tools of scenes/liver.toml, the right hand's probe first, with or without their trocars.
+std::vector<haptic::ToolModel> scene_tools(bool with_trocars);
+
+/// Without friction, by point contacts. The organ's tensors are shared.
+haptic::HapticModel trial_model(const organ::Organ& organ, std::vector<haptic::ToolModel> tools);
+
+}  // namespace omentum::test
