@@ -163,7 +163,7 @@ void measure_organ(const test::OrganRecipe& recipe, const Options& options, std:
     return;
   }
   const haptic::HapticModel model = test::trial_model(*organ, {test::scene_tools(false).front()});
-  const auto place = test::find_press_place(model, kSlide_m);
+  const auto place = test::find_press_place(model, recipe.up, kSlide_m);
   if (!place) throw std::runtime_error(recipe.name + ": no place to press");
   std::printf(
       "%s: %d mobile surface nodes, %.0f kPa; pressed at (%.1f, %.1f, %.1f) mm, normal (%.2f, %.2f, %.2f), "

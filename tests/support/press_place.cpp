@@ -16,7 +16,7 @@ using geometry::Vec3;
 constexpr int kDirections = 8;
 constexpr double kToolRadius_m = 4e-3;  // the scene's probe reaches so far beside its tip
 constexpr double kShortest_m = 4e-3, kShorter_m = 2e-3, kSampleEvery_m = 1e-3;
-constexpr double kUpperSide = 0.3;  // least z of an upper node's normal
+constexpr double kUpperSide = 0.3;  // least cosine between an upper node's normal and up
 constexpr double kLeaning = 0.5;    // least cosine between the normals around a place and its own
 // A surface that falls away by more than half of the deepest press lets the tool out of a slide.
 constexpr double kUneven_m = 4e-3;
@@ -56,10 +56,10 @@ struct Candidate {
 
 // Mobile nodes with nothing but gentle mobile surface in a cylinder around them, the flattest first.
 std::vector<Candidate> candidates(const haptic::HapticModel& model, const std::vector<Vec3>& normals,
-                                  double radius_m) {
+                                  const Vec3& up, double radius_m) {
   std::vector<Candidate> found;
   for (SurfaceId s(0); s < model.surface.mobile_count; s = SurfaceId(s + 1)) {
-    if (normals[s].z() < kUpperSide) continue;
+    if (normals[s].dot(up) < kUpperSide) continue;
     double uneven_m = 0;
     for (SurfaceId other(0); other < model.surface.node_count() && uneven_m <= kUneven_m;
          other = SurfaceId(other + 1)) {
@@ -104,10 +104,10 @@ Vec3 PressPlace::direction(double degrees) const {
   return std::cos(turn) * along + std::sin(turn) * normal.cross(along);
 }
 
-std::optional<PressPlace> find_press_place(const haptic::HapticModel& model, double slide_m) {
+std::optional<PressPlace> find_press_place(const haptic::HapticModel& model, const Vec3& up, double slide_m) {
   const std::vector<Vec3> normals = normals_of(model);
   for (; slide_m >= kShortest_m; slide_m -= kShorter_m) {
-    for (const Candidate& candidate : candidates(model, normals, slide_m + kToolRadius_m)) {
+    for (const Candidate& candidate : candidates(model, normals, up, slide_m + kToolRadius_m)) {
       PressPlace place{model.rest[candidate.node], normals[candidate.node], slide_m};
       if (measure(model, place)) return place;
     }

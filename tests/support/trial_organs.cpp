@@ -16,9 +16,6 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kMillimetre = 1e-3, kPoisson = 0.45, kDensity_kg_m3 = 1060;
-// The lower part of an organ lies in its bed, as the phantom's does in its scene.
-constexpr double kSupportedShare = 0.3;
-constexpr const char* kPhantomSupport = "plane:z<-0.02";
 const std::string kScene = OMENTUM_SOURCE_DIR "/scenes/liver.toml";
 
 std::optional<geometry::TetraMesh> mesh_of(const OrganRecipe& recipe) {
@@ -34,23 +31,18 @@ std::optional<geometry::TetraMesh> mesh_of(const OrganRecipe& recipe) {
   return geometry::check_mesh(geometry::read_mesh(folder / "phantom.msh"), 1).mesh;
 }
 
-std::string support_of(const OrganRecipe& recipe, const geometry::TetraMesh& mesh) {
-  if (recipe.file.empty()) return kPhantomSupport;
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : mesh.positions) box.extend(p);
-  return "plane:z<" + std::to_string(box.min().z() + kSupportedShare * box.sizes().z());
-}
-
 }  // namespace
 
 std::span<const OrganRecipe> organ_recipes() {
+  // each lies in a bed of about the lowest third, as the phantom does in its scene; the prostate, which hangs
+  // on its urethra along z, on its back
   static const std::array<OrganRecipe, 6> recipes = {{
-      {"phantom", "", 6e3},
-      {"openhelp_liver_7k", "tet/openhelp_liver_7k.msh", 50e3},
-      {"openhelp_kidney_left_22k", "tet/openhelp_kidney_left_22k.msh", 10e3},
-      {"sofamcp_prostate", "tet/sofamcp_prostate.vtk", 20e3},
-      {"openhelp_liver_25k", "tet/openhelp_liver_25k.msh", 5e3},
-      {"openhelp_stomach_15k", "tet/openhelp_stomach_15k.msh", 3e3},
+      {"phantom", "", 6e3, "plane:z<-0.02", Vec3::UnitZ()},
+      {"openhelp_liver_7k", "tet/openhelp_liver_7k.msh", 50e3, "plane:z<0.091", Vec3::UnitZ()},
+      {"openhelp_kidney_left_22k", "tet/openhelp_kidney_left_22k.msh", 10e3, "plane:z<0.063", Vec3::UnitZ()},
+      {"sofamcp_prostate", "tet/sofamcp_prostate.vtk", 20e3, "plane:y>0.0045", -Vec3::UnitY()},
+      {"openhelp_liver_25k", "tet/openhelp_liver_25k.msh", 5e3, "plane:z<0.091", Vec3::UnitZ()},
+      {"openhelp_stomach_15k", "tet/openhelp_stomach_15k.msh", 3e3, "plane:z<0.118", Vec3::UnitZ()},
   }};
   return recipes;
 }
@@ -67,7 +59,7 @@ const OrganRecipe& organ_recipe(const std::string& name) {
 std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe) {
   std::optional<geometry::TetraMesh> mesh = mesh_of(recipe);
   if (!mesh) return std::nullopt;
-  auto fixed = organ::parse_supports(std::array{support_of(recipe, *mesh)}, *mesh);
+  auto fixed = organ::parse_supports(std::array{recipe.fixed}, *mesh);
   const organ::Organ organ =
       organ::make_organ(recipe.name, std::move(*mesh), {recipe.young_pa, kPoisson, kDensity_kg_m3},
                         std::move(fixed), organ::Storage::kFloat);

@@ -10,11 +10,13 @@
 
 namespace omentum::test {
 
-/// What an organ on trial is made of. All lie on a support below.
+/// What an organ on trial is made of.
 struct OrganRecipe {
   std::string name;  // "phantom", or a file of shared/data/tet without its ending
   std::string file;  // relative to shared/data; empty: the phantom
   double young_pa;
+  std::string fixed;  // what holds it, as organ_build takes it
+  geometry::Vec3 up;  // away from there, unit: the side to press
 };
 
 /// The phantom as in scenes/liver.toml first, then livers, kidney, prostate, stomach.
