@@ -4,6 +4,7 @@
 //   net_energy/ORGAN/DEPTH_MM/DIRECTION_DEG    energy given to the hand over the path, as a share of the most
 //                                              that it had put in on the way; goal: within 1 %
 //   force_step_n/ORGAN/DEPTH_MM/DIRECTION_DEG  largest change of the force in one step; goal: 0.02 N in 20 um
+#include "benchmarks/bench_json.h"
 #include "geometry/rotation.h"
 #include "haptic_node/haptic_step.h"
 #include "runtime/command_line.h"
@@ -11,10 +12,13 @@
 #include "tests/support/trial_organs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -42,7 +46,6 @@ struct Path {
 struct Figures {
   double net_j = 0;  // given to the hand over the whole path
   double most_put_in_j = 0;
-  double most_given_j = 0;  // at any time, beyond what it had put in
   double largest_step_n = 0, largest_force_n = 0;
   int leg = 0;         // of the largest step ...
   double along_m = 0;  // ... and where in it
@@ -51,6 +54,7 @@ struct Figures {
   double ratio() const { return most_put_in_j > 0 ? net_j / most_put_in_j : 0; }
 };
 
+// One tool's way along closed paths, each on an organ at rest.
 class Walk {
  public:
   Walk(const haptic::HapticModel& model, double step_m, std::FILE* trace)
@@ -59,41 +63,38 @@ class Walk {
   Figures go(const Path& path) {
     haptic::HapticState state(model_);
     const auto work = std::make_unique<haptic::HapticWorkspace>(model_);
-    input_.engaged = true;
-    input_.frame.q_WT = geometry::rotation_onto(Vec3::UnitZ(), path.place.normal);
     const auto corners = path.corners();
-    input_.frame.p_WT = corners[0];
+    input_.engaged = true;
+    input_.frame = {corners[0], geometry::rotation_onto(Vec3::UnitZ(), path.place.normal)};
     step(state, *work);
     Figures figures;
-    double given_j = 0, way_m = 0;
+    double way_m = 0;
     for (int leg = 0; leg < static_cast<int>(kLegs.size()); ++leg) {
       const Vec3 whole = corners[leg + 1] - corners[leg];
       const int steps = std::max(1, static_cast<int>(std::ceil(whole.norm() / step_m_)));
       for (int i = 1; i <= steps; ++i) {
-        const Vec3 before = output_.force, from = input_.frame.p_WT;
+        const Vec3 force = output_.force, from = input_.frame.p_WT;
         input_.frame.p_WT = corners[leg] + whole * i / steps;
         figures.unsolved += step(state, *work) != physics::ContactStatus::kConverged;
-        given_j += 0.5 * (before + output_.force).dot(input_.frame.p_WT - from);
-        figures.most_put_in_j = std::max(figures.most_put_in_j, -given_j);
-        figures.most_given_j = std::max(figures.most_given_j, given_j);
-        figures.largest_force_n = std::max(figures.largest_force_n, output_.force.norm());
-        const double change_n = (output_.force - before).norm();
-        if (change_n > figures.largest_step_n) {
-          figures.largest_step_n = change_n;
-          figures.leg = leg;
-          figures.along_m = whole.norm() * i / steps;
-        }
-        way_m += whole.norm() / steps;
-        record(path, way_m, given_j);
+        account(force, from, figures);
+        if ((output_.force - force).norm() == figures.largest_step_n)
+          figures.leg = leg, figures.along_m = whole.norm() * i / steps;
+        record(path, way_m += whole.norm() / steps, figures.net_j);
       }
     }
-    figures.net_j = given_j;
     return figures;
   }
 
  private:
   physics::ContactStatus step(haptic::HapticState& state, haptic::HapticWorkspace& work) {
     return haptic::haptic_step(model_, {&input_, 1}, state, work, {&output_, 1}).status;
+  }
+  // One step from where the tip was and what it felt there.
+  void account(const Vec3& force, const Vec3& from, Figures& figures) const {
+    figures.net_j += 0.5 * (force + output_.force).dot(input_.frame.p_WT - from);
+    figures.most_put_in_j = std::max(figures.most_put_in_j, -figures.net_j);
+    figures.largest_force_n = std::max(figures.largest_force_n, output_.force.norm());
+    figures.largest_step_n = std::max(figures.largest_step_n, (output_.force - force).norm());
   }
   void record(const Path& path, double way_m, double given_j) const {
     if (trace_ == nullptr) return;
@@ -126,19 +127,35 @@ struct Options {
   }
 };
 
+// ORGAN/DEPTH_MM/DIRECTION_DEG
+std::string case_name(const std::string& organ, double depth_mm, double direction_deg) {
+  std::array<char, 64> numbers;
+  std::snprintf(numbers.data(), numbers.size(), "/%g/%g", depth_mm, direction_deg);
+  return organ + numbers.data();
+}
+
+void add_figures(bench::Results& results, const std::string& path, const Figures& figures) {
+  results.add({.name = "net_energy/" + path, .value = figures.ratio(), .unit = "1", .limit = kNetLimit});
+  results.add({.name = "force_step_n/" + path,
+               .value = figures.largest_step_n,
+               .unit = "N",
+               .limit = kForceStepLimit_n});
+}
+
 void print_head() {
   std::printf("%-26s %5s | %9s %9s %9s | %10s %-22s %8s | %9s %8s\n", "organ", "depth", "net least",
               "net most", "over goal", "force step", "where", "over goal", "put in", "force");
 }
 
 void measure_depth(Walk& walk, const std::string& organ, const test::PressPlace& place, double depth_mm,
-                   const Options& options) {
+                   const Options& options, bench::Results& results) {
   double least = 0, most = 0, put_in_j = 0, force_n = 0;
   int over_net = 0, over_step = 0, paths = 0, unsolved = 0;
   Figures worst;
   double worst_direction = 0;
   for (const double direction : options.directions_deg()) {
     const Figures f = walk.go({place, 1e-3 * depth_mm, direction});
+    add_figures(results, case_name(organ, depth_mm, direction), f);
     least = std::min(least, f.ratio()), most = std::max(most, f.ratio());
     over_net += std::abs(f.ratio()) > kNetLimit, over_step += f.largest_step_n > kForceStepLimit_n;
     put_in_j = std::max(put_in_j, f.most_put_in_j), force_n = std::max(force_n, f.largest_force_n);
@@ -156,7 +173,8 @@ void measure_depth(Walk& walk, const std::string& organ, const test::PressPlace&
   std::fflush(stdout);
 }
 
-void measure_organ(const test::OrganRecipe& recipe, const Options& options, std::FILE* trace) {
+void measure_organ(const test::OrganRecipe& recipe, const Options& options, std::FILE* trace,
+                   bench::Results& results) {
   const auto organ = test::make_trial_organ(recipe);
   if (!organ) {
     std::printf("%-26s skipped: its mesh is not there\n", recipe.name.c_str());
@@ -175,10 +193,10 @@ void measure_organ(const test::OrganRecipe& recipe, const Options& options, std:
       1e3 * place->fall_m);
   Walk walk(model, 1e-6 * options.step_um, trace);
   for (const double depth_mm : options.depths_mm())
-    measure_depth(walk, recipe.name, *place, depth_mm, options);
+    measure_depth(walk, recipe.name, *place, depth_mm, options, results);
 }
 
-void run(const Options& options) {
+void run(const Options& options, bench::Results& results) {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> trace(nullptr, std::fclose);
   if (!options.trace.empty()) {
     if (options.organ.empty() || options.depth_mm <= 0 || options.direction_deg < 0)
@@ -187,20 +205,27 @@ void run(const Options& options) {
     if (!trace) throw std::runtime_error(options.trace.string() + ": cannot be written");
     std::fprintf(trace.get(), "way_m,depth_m,x_m,y_m,z_m,fx_n,fy_n,fz_n,stored_j,given_j,touching\n");
   }
+  const auto all = test::organ_recipes();
+  const auto chosen = options.organ.empty() ? all : std::span(&test::organ_recipe(options.organ), 1);
   print_head();
-  if (!options.organ.empty()) return measure_organ(test::organ_recipe(options.organ), options, trace.get());
-  for (const test::OrganRecipe& recipe : test::organ_recipes()) measure_organ(recipe, options, nullptr);
+  for (const test::OrganRecipe& recipe : chosen) measure_organ(recipe, options, trace.get(), results);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  bench::Results results(argc, argv);
   Options options;
-  runtime::CommandLine line("contact_energy_bench", "Net energy and force steps of closed paths in contact.");
+  runtime::CommandLine line(
+      "contact_energy_bench",
+      "Net energy and force steps of closed paths in contact; --json FILE writes them.");
   line.option("--organ", options.organ, "only this one: phantom, openhelp_liver_7k, ...");
   line.option("--depth", options.depth_mm, "only this one, mm").between(0.01, 50.0);
   line.option("--direction", options.direction_deg, "only this one, degrees").between(0.0, 360.0);
   line.option("--step-um", options.step_um, "length of a step").between(0.1, 1000.0).show_default();
   line.option("--trace", options.trace, "writes one path as CSV").type_name("FILE");
-  return line.run(argc, argv, [&] { run(options); });
+  return line.run(argc, argv, [&] {
+    run(options, results);
+    results.write();
+  });
 }
