@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <map>
 #include <memory>
 
 namespace omentum::haptic_test {
@@ -20,23 +19,10 @@ constexpr double kBound_j = 10e-3;
 constexpr double kPath_s = 4;
 constexpr std::array<double, 4> kStalls_s = {0.005, 0.015, 0.025, 0.04};
 
-const haptic::HapticModel* model_of(const std::string& organ) {
-  static std::map<std::string, std::unique_ptr<haptic::HapticModel>> models;
-  const auto known = models.find(organ);
-  if (known != models.end()) return known->second.get();
-  auto& model = models[organ];
-  const test::OrganRecipe& recipe = test::organ_recipe(organ);
-  // the trocar of the scene is above the phantom
-  if (const auto made = test::make_trial_organ(recipe))
-    model = std::make_unique<haptic::HapticModel>(
-        test::trial_model(*made, test::scene_tools(recipe.file.empty())));
-  return model.get();
-}
-
 class ContinuousPaths : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    model_ = model_of(GetParam());
+    model_ = test::scene_model(GetParam());
     if (!model_) GTEST_SKIP() << GetParam() << ": ../shared/data or organ_phantom is absent";
   }
   /// Paths of this organ: 1, 2, ...

@@ -37,7 +37,8 @@ PathTrial::PathTrial(const haptic::HapticModel& model, std::vector<Way> ways, Co
       outputs_(ways_.size()),
       before_(ways_.size()),
       frames_(ways_.size()),
-      in_air_since_s_(ways_.size(), std::numeric_limits<double>::infinity()) {
+      in_air_since_s_(ways_.size(), std::numeric_limits<double>::infinity()),
+      tool_work_j_(ways_.size()) {
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     air_.emplace_back(model, static_cast<std::int32_t>(i));
     if (coupling == Coupling::kSafe)
@@ -101,8 +102,11 @@ void PathTrial::account(double t_s) {
       return;
     }
     const haptic::ToolFrame& now = state_.tools[i].frame;
-    work_j_ += 0.5 * (was.force + is.force).dot(now.p_WT - frames_[i].p_WT) +
-               0.5 * (was.torque + is.torque).dot(haptic::rotation_between(frames_[i].q_WT, now.q_WT));
+    const double work_j =
+        0.5 * (was.force + is.force).dot(now.p_WT - frames_[i].p_WT) +
+        0.5 * (was.torque + is.torque).dot(haptic::rotation_between(frames_[i].q_WT, now.q_WT));
+    tool_work_j_[i] += work_j;
+    work_j_ += work_j;
     free = free && is.force.isZero(0);
   }
   findings_.given_j = std::max(findings_.given_j, work_j_);

@@ -44,6 +44,11 @@ class PathTrial {
   /// From 0 to `seconds`. `stalls_s`: lengths of gaps between ticks, taken in turn every half second.
   const Findings& run(double seconds, std::span<const double> stalls_s = {});
 
+  /// Given to one hand so far, less what it put in, J: by its device where it has one.
+  double given_j(std::size_t tool) const {
+    return hands_.empty() ? tool_work_j_[tool] : hands_[tool]->given_j();
+  }
+
   /// Called after every tick with its time.
   std::function<void(double t_s, std::span<const haptic::ToolOutput>, const haptic::HapticState&)> watch;
 
@@ -64,6 +69,7 @@ class PathTrial {
   std::vector<std::unique_ptr<HandLine>> hands_;  // none where they are bare
   std::vector<AirOracle> air_;
   std::vector<double> in_air_since_s_;
+  std::vector<double> tool_work_j_;
   double work_j_ = 0, work_when_free_j_ = 0;
   Findings findings_;
 };

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <memory>
 #include <thread>
 
 namespace omentum::test {
@@ -93,6 +95,17 @@ haptic::HapticModel trial_model(const organ::Organ& organ, std::vector<haptic::T
   for (const geometry::NodeId n : organ.surface.node)
     model.file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
   return model;
+}
+
+const haptic::HapticModel* scene_model(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<haptic::HapticModel>> models;
+  const auto known = models.find(name);
+  if (known != models.end()) return known->second.get();
+  auto& model = models[name];
+  const OrganRecipe& recipe = organ_recipe(name);
+  if (const auto organ = make_trial_organ(recipe))
+    model = std::make_unique<haptic::HapticModel>(trial_model(*organ, scene_tools(recipe.file.empty())));
+  return model.get();
 }
 
 }  // namespace omentum::test

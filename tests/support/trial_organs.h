@@ -34,4 +34,8 @@ std::vector<haptic::ToolModel> scene_tools(bool with_trocars);
 /// Without friction, by point contacts. The organ's tensors are shared.
 haptic::HapticModel trial_model(const organ::Organ& organ, std::vector<haptic::ToolModel> tools);
 
+/// The recipe's organ and the scene's tools, made once in a process: with their trocars in the phantom, whose
+/// scene it is. Null where the organ cannot be made.
+const haptic::HapticModel* scene_model(const std::string& recipe);
+
 }  // namespace omentum::test
