@@ -10,7 +10,9 @@ namespace omentum::haptic_test {
 /// late or lost. Keeps the account of what the hand really got.
 class HandLine {
  public:
-  HandLine(std::uint32_t tool, double rate_hz);
+  /// `device`: what it says of itself. Without one it exerts the whole wrench within a table-top device's
+  /// limits.
+  HandLine(std::uint32_t tool, double rate_hz, const msg::DeviceInfo* device = nullptr);
 
   /// What the device exerts from now on, until the next pose.
   const device::Wrench& exert(std::int64_t now_ns);
