@@ -14,8 +14,6 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kAbove_m = 0.04, kDip_m = 0.03, kCircle_m = 0.02;
-/// What a hand may be given beyond what it put in, J (issue 6).
-constexpr double kBound_j = 10e-3;
 
 struct Passage {
   const char* name;
@@ -115,8 +113,8 @@ TEST_P(Passages, ATipThatCameBackFeelsNothing) {
 }
 
 TEST_P(Passages, ATipThatCameBackIsGivenNothing) {
-  EXPECT_LE(given_in_the_air_j(Coupling::kBare), kBound_j);
-  EXPECT_LE(given_in_the_air_j(Coupling::kSafe), kBound_j);
+  EXPECT_LE(given_in_the_air_j(Coupling::kBare), kGivenBound_j);
+  EXPECT_LE(given_in_the_air_j(Coupling::kSafe), kGivenBound_j);
 }
 
 }  // namespace

@@ -31,6 +31,9 @@ struct Findings {
 /// Whether the hands are on devices, behind force safety, or hold the model bare.
 enum class Coupling { kBare, kSafe };
 
+/// What a hand may be given beyond what it put in, J (issue 6): it lifts a handle of 50 g by 2 cm.
+inline constexpr double kGivenBound_j = 10e-3;
+
 /// A tool in the air is let go of within this, s.
 inline constexpr double kLetGo_s = 0.05;
 
