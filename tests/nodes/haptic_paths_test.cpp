@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 #include <memory>
+#include <tuple>
 
 namespace omentum::haptic_test {
 namespace {
@@ -29,15 +31,21 @@ class ContinuousPaths : public testing::TestWithParam<const char*> {
     constexpr int kOrgans = 4;
     return all ? (std::atoi(all) + kOrgans - 1) / kOrgans : 3;
   }
-  /// Every other path without turning.
-  Findings go(std::uint32_t path, Coupling coupling = Coupling::kBare,
-              std::span<const double> stalls_s = {}) const {
-    std::vector<Way> ways;
-    for (std::uint32_t tool = 0; tool < 2; ++tool) {
-      const auto hand = std::make_shared<HandPath>(*model_, 2 * path + tool, kPath_s, path % 2 == 0);
-      ways.emplace_back([hand](double t) { return hand->at(t); });
+  /// Each path is gone once in a process, whatever is asked of it. Every other one turns the tools.
+  const Findings& go(int path, Coupling coupling = Coupling::kBare,
+                     std::span<const double> stalls_s = {}) const {
+    static std::map<std::tuple<const haptic::HapticModel*, int, Coupling, std::size_t>, Findings> known;
+    const auto [entry, is_new] = known.try_emplace({model_, path, coupling, stalls_s.size()});
+    if (is_new) {
+      std::vector<Way> ways;
+      for (std::uint32_t tool = 0; tool < 2; ++tool) {
+        const auto seed = 2 * static_cast<std::uint32_t>(path) + tool;
+        const auto hand = std::make_shared<HandPath>(*model_, seed, kPath_s, path % 2 == 0);
+        ways.emplace_back([hand](double t) { return hand->at(t); });
+      }
+      entry->second = PathTrial(*model_, std::move(ways), coupling).run(kPath_s, stalls_s);
     }
-    return PathTrial(*model_, std::move(ways), coupling).run(kPath_s, stalls_s);
+    return entry->second;
   }
 
   const haptic::HapticModel* model_ = nullptr;
@@ -73,7 +81,7 @@ class Tally {
 TEST_P(ContinuousPaths, LeaveNoForceInTheAir) {
   Tally air, not_finite;
   for (int path = 1; path <= count(); ++path) {
-    const Findings found = go(path);
+    const Findings& found = go(path);
     air.add(found.air_force_n > 0, found.air_force_n, path, found.air);
     not_finite.add(!found.finite, !found.finite, path, found.not_finite);
   }
@@ -84,7 +92,7 @@ TEST_P(ContinuousPaths, LeaveNoForceInTheAir) {
 TEST_P(ContinuousPaths, LeaveNoForceInTheAirWhereTicksStall) {
   Tally air;
   for (int path = 1; path <= count(); ++path) {
-    const Findings found = go(path, Coupling::kBare, kStalls_s);
+    const Findings& found = go(path, Coupling::kBare, kStalls_s);
     air.add(found.air_force_n > 0, found.air_force_n, path, found.air);
   }
   EXPECT_EQ(air.failed(), 0) << air.text("N");
@@ -94,7 +102,7 @@ TEST_P(ContinuousPaths, LeaveNoForceInTheAirWhereTicksStall) {
 TEST_P(ContinuousPaths, GiveTheHandsNoEnergy) {
   Tally all, in_contact;
   for (int path = 1; path <= count(); ++path) {
-    const Findings found = go(path);
+    const Findings& found = go(path);
     all.add(found.given_j > kGivenBound_j, found.given_j, path);
     in_contact.add(found.given_in_contact_j > kGivenBound_j, found.given_in_contact_j, path, found.energy);
   }
@@ -106,7 +114,7 @@ TEST_P(ContinuousPaths, GiveTheHandsNoEnergy) {
 TEST_P(ContinuousPaths, GiveAHandNoEnergyBehindSafety) {
   Tally hand;
   for (int path = 1; path <= count(); ++path) {
-    const Findings found = go(path, Coupling::kSafe);
+    const Findings& found = go(path, Coupling::kSafe);
     hand.add(found.hand_given_j > kGivenBound_j, found.hand_given_j, path);
   }
   EXPECT_EQ(hand.failed(), 0) << hand.text("J");
