@@ -16,6 +16,7 @@ class HandLine {
 
   /// What the device exerts from now on, until the next pose.
   const device::Wrench& exert(std::int64_t now_ns);
+  const device::Wrench& exerted() const { return exerted_; }
   /// The hand went there under it. What the step shall see.
   haptic::ToolInput hear(const haptic::ToolFrame& pose, std::int64_t now_ns);
   /// The step's answer to that pose, on its way to the device.

@@ -44,7 +44,7 @@ class ClosedPaths : public testing::TestWithParam<const char*> {
 
 INSTANTIATE_TEST_SUITE_P(Organs, ClosedPaths,
                          testing::Values("phantom", "openhelp_liver_7k", "openhelp_kidney_left_22k",
-                                         "sofamcp_prostate", "openhelp_liver_25k"),
+                                         "sofamcp_prostate", "openhelp_stomach_15k"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST_P(ClosedPaths, GiveBackWhatTheyGot) {

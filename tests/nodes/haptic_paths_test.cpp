@@ -111,12 +111,14 @@ TEST_P(ContinuousPaths, GiveTheHandsNoEnergy) {
 }
 
 // What arrives at a hand behind safety and its device's hold.
-TEST_P(ContinuousPaths, GiveAHandNoEnergyBehindSafety) {
-  Tally hand;
+TEST_P(ContinuousPaths, LeaveNothingToAHandBehindSafety) {
+  Tally hand, air;
   for (int path = 1; path <= count(); ++path) {
     const Findings& found = go(path, Coupling::kSafe);
     hand.add(found.hand_given_j > kGivenBound_j, found.hand_given_j, path);
+    air.add(found.air_force_n > 0, found.air_force_n, path, found.air);
   }
+  EXPECT_EQ(air.failed(), 0) << air.text("N");
   EXPECT_EQ(hand.failed(), 0) << hand.text("J");
 }
 

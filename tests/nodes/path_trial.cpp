@@ -121,8 +121,9 @@ void PathTrial::account(double t_s) {
 
 void PathTrial::look_for_air(double t_s) {
   for (std::size_t i = 0; i < ways_.size(); ++i) {
-    const double force_n = outputs_[i].force.norm();
-    if (!air_[i].in_air(state_, force_n > 0)) {
+    const double model_n = outputs_[i].force.norm();
+    const double force_n = hands_.empty() ? model_n : std::max(model_n, hands_[i]->exerted().force.norm());
+    if (!air_[i].in_air(state_, model_n > 0)) {
       in_air_since_s_[i] = std::numeric_limits<double>::infinity();
       continue;
     }

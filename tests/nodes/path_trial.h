@@ -18,7 +18,7 @@ using Way = std::function<haptic::ToolFrame(double t_s)>;
 /// given to the hands.
 struct Findings {
   bool finite = true;
-  double air_force_n = 0;  // largest of a tool that had been in the air for kLetGo_s
+  double air_force_n = 0;  // largest, of model or device, on a tool that was in the air for kLetGo_s
   double given_j = 0;      // most that the hands together had got at any time, beyond what they had put in
   double given_in_contact_j = 0;  // the same since the tissue was last free: what it lost before is no credit
   double put_in_j = 0;            // most that they had put in

@@ -25,7 +25,7 @@ std::span<const OrganRecipe> organ_recipes();
 const OrganRecipe& organ_recipe(const std::string& name);
 
 /// With its tensors; nothing where the data or the phantom's program are absent. The organ file is kept in
-/// the system's temporary folder. Throws geometry::InputError.
+/// the build folder. Throws geometry::InputError.
 std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe);
 
 /// The two tools of scenes/liver.toml, the right hand's probe first, with or without their trocars.
