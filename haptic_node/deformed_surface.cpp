@@ -42,6 +42,8 @@ DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<con
   forces_.reserve(kMaxForces);
   index_clusters();
   find_normals();
+  find_other_side();
+  size_bounds();
   restore_rest();
 }
 
@@ -78,20 +80,30 @@ void DeformedSurface::index_clusters() {
   owned_start_.push_back(static_cast<std::int32_t>(owned_.size()));
 }
 
-void DeformedSurface::restore_rest() {
+void DeformedSurface::size_bounds() {
   const auto clusters = static_cast<std::size_t>(clusters_);
   for (int i = 0; i < 3; ++i) {
     low_[i].resize(clusters);
     high_[i].resize(clusters);
   }
-  moved_.assign(clusters, 0);
-  moved_since_binning_.assign(clusters, 0);
-  step_.assign(clusters, 0);
-  motion_.assign(clusters, 0);
+  for (auto* values : {&moved_, &moved_since_binning_, &step_, &motion_}) values->resize(clusters);
   marks_.assign((clusters / sizeof(MarkWord) + 1) * sizeof(MarkWord), 0);
   pending_.reserve(clusters);
   unbinned_.reserve(kMaxRegions * clusters);
-  cluster_version_.assign(clusters, version_);
+  cluster_version_.resize(clusters);
+}
+
+void DeformedSurface::restore_rest() noexcept {
+  std::ranges::copy(rest_, positions_.begin());
+  nodes_.clear();
+  forces_.clear();
+  unbinned_.clear();
+  std::ranges::fill(index_of_, std::int16_t{-1});
+  for (auto* values : {&moved_, &step_, &motion_}) std::ranges::fill(*values, 0.0f);
+  // wherever triangles were, their buckets are looked at before they are asked
+  std::ranges::fill(moved_since_binning_, 2 * static_cast<float>(binning_margin_));
+  std::ranges::fill(cluster_version_, ++version_);
+  known_motion_ = entered_motion_ = 0;
   for (std::int32_t c = 0; c < clusters_; ++c) enclose(c);
 }
 

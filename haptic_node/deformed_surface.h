@@ -52,6 +52,9 @@ class DeformedSurface {
   DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
                   const physics::SurfaceCompliance& compliance);
 
+  /// The organ at rest, whatever was there: no forces, nothing remembered. No allocation.
+  void restore_rest() noexcept;
+
   /// The forces from now on: `nodes` mobile and distinct, at most kMaxForces, `forces` in N. Once per tick.
   void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
 
@@ -71,6 +74,15 @@ class DeformedSurface {
   /// forces on a fine mesh flickered between two directions from tick to tick).
   Vec3 normal(const SurfacePoint& point) const noexcept;
 
+  /// How much tissue something at p that presses a material point in has before it, straight in from the
+  /// point's nearest vertex: the way to the surface on the other side, over the thickness at rest. 1 and 1
+  /// where there is no other side.
+  struct Ahead {
+    double now;   // to where the other side is: 1 while nothing is squeezed, however far the organ is bent
+    double rest;  // to where it is at rest: below 0 p is beyond it
+  };
+  Ahead tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept;
+
   /// The first place where the segment p -> q, inside an evaluated region, passes a triangle from outside to
   /// inside. Looks through every bucket that it crosses.
   std::optional<Entry> first_entry(const Vec3& p, const Vec3& q) noexcept;
@@ -88,16 +100,19 @@ class DeformedSurface {
   /// millisecond, for the tick in which a tool appears.
   std::optional<Immersion> immersion(const Vec3& p, double reach_m) noexcept;
 
-  /// What a point that went from p to q, inside an evaluated region, met on its way.
+  /// What a point that went from p to q, inside an evaluated region, met on its way. `outside`: at p, before
+  /// the last set_forces; else what the surface did there says nothing.
   struct Encounter {
     /// Where it touches: where the surface passed over it by the last set_forces (then p is inside, no deeper
     /// than anything near moved), else its first entry.
     std::optional<SurfacePoint> touched;
     /// How far q is from the surface, m; the radius asked for where that is farther.
     double clearance_m;
+    /// The surface point nearest to q; nothing where that is farther than the radius, or q is inside.
+    std::optional<SurfacePoint> nearest;
   };
   /// `radius_m`: at most kReach_m.
-  Encounter meet(const Vec3& p, const Vec3& q, double radius_m) noexcept;
+  Encounter meet(const Vec3& p, const Vec3& q, double radius_m, bool outside = true) noexcept;
 
   /// How far at most the last set_forces moved anything that was exact before it and is exact now, m.
   double known_motion() const noexcept { return known_motion_; }
@@ -120,7 +135,7 @@ class DeformedSurface {
   using Corners = std::array<const Vec3*, 3>;
 
   void index_clusters();
-  void restore_rest();
+  void size_bounds();
   bool fresh(std::int32_t cluster) const noexcept {
     return cluster >= clusters_ || cluster_version_[cluster] == version_;
   }
@@ -139,6 +154,7 @@ class DeformedSurface {
   void visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept;
   Corners stored_corners(TriangleId triangle) const noexcept;
   void find_normals();
+  void find_other_side();
   bool outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept;
 
   const geometry::Surface& surface_;
@@ -151,6 +167,8 @@ class DeformedSurface {
   std::vector<std::int32_t> next_start_, next_;    // ... and these clusters, mobile ones
   std::vector<std::int32_t> owned_start_, owned_;  // triangles binned with it
   std::vector<Vec3> normals_;                      // [S] at rest, unit
+  std::vector<SurfacePoint> other_side_;           // [S] straight in from each node ...
+  std::vector<double> thickness_;                  // ... and how far that is at rest, m; infinity: nowhere
 
   std::vector<Vec3> positions_;             // [S] exact when last superposed
   std::vector<float> low_[3], high_[3];     // [clusters] box of all triangles that touch the cluster ...

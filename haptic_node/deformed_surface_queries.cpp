@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace omentum::haptic {
 namespace {
@@ -36,17 +37,35 @@ struct NearestSearch {
   }
 };
 
-// The same for the first triangle that the segment p -> q passes from outside.
+// Where the segment p -> q passes the triangle from outside to inside.
+std::optional<Entry> entry_through(TriangleId triangle, const std::array<const Vec3*, 3>& corners,
+                                   const Vec3& p, const Vec3& q) {
+  const auto& [a, b, c] = corners;
+  if ((q - p).dot(area_normal(*a, *b, *c)) >= 0) return std::nullopt;
+  const auto hit = geometry::intersect_segment_triangle(p, q, *a, *b, *c);
+  if (!hit) return std::nullopt;
+  return Entry{hit->parameter, {triangle, hit->barycentric}};
+}
+
+// The same for the first such triangle ...
 struct EntrySearch {
   const Vec3 &p, &q;
   std::optional<Entry> first{};
 
   void look_at(TriangleId triangle, const std::array<const Vec3*, 3>& corners) {
-    const auto& [a, b, c] = corners;
-    if ((q - p).dot(area_normal(*a, *b, *c)) >= 0) return;
-    const auto hit = geometry::intersect_segment_triangle(p, q, *a, *b, *c);
-    if (hit && (!first || hit->parameter < first->parameter))
-      first = Entry{hit->parameter, {triangle, hit->barycentric}};
+    const auto entry = entry_through(triangle, corners, p, q);
+    if (entry && (!first || entry->parameter < first->parameter)) first = entry;
+  }
+};
+
+// ... and for the last one.
+struct LastEntrySearch {
+  const Vec3 &p, &q;
+  Entry last{-1, {}};  // none
+
+  void look_at(TriangleId triangle, const std::array<const Vec3*, 3>& corners) {
+    const auto entry = entry_through(triangle, corners, p, q);
+    if (entry && entry->parameter > last.parameter) last = *entry;
   }
 };
 
@@ -74,6 +93,34 @@ void DeformedSurface::find_normals() {
     for (const SurfaceId n : t) normals_[n] += normal;
   }
   for (Vec3& normal : normals_) normal.normalize();
+}
+
+void DeformedSurface::find_other_side() {
+  Vec3 low = rest_[0], high = rest_[0];
+  for (const Vec3& x : rest_) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double across = (high - low).norm();
+  for (std::size_t n = 0; n < rest_.size(); ++n) {
+    // a ray that leaves the organ enters it when it is walked the other way
+    const Vec3 far = rest_[n] - across * normals_[n], near = rest_[n] - kRounding_m * normals_[n];
+    LastEntrySearch leaves{far, near};
+    grid_.visit_segment(far, near, 0,
+                        [&](TriangleId triangle) { leaves.look_at(triangle, stored_corners(triangle)); });
+    other_side_.push_back(leaves.last.point);
+    thickness_.push_back(leaves.last.parameter >= 0 ? (1 - leaves.last.parameter) * across
+                                                    : std::numeric_limits<double>::infinity());
+  }
+}
+
+DeformedSurface::Ahead DeformedSurface::tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept {
+  Eigen::Index nearest = 0;
+  point.barycentric.maxCoeff(&nearest);
+  const SurfaceId n = surface_.triangles[point.triangle][nearest];
+  if (std::isinf(thickness_[n])) return {1, 1};
+  const auto ahead = [&](const Vec3& far) { return (p - far).dot(normals_[n]) / thickness_[n]; };
+  return {ahead(position(other_side_[n])), ahead(rest_position(other_side_[n]))};
 }
 
 Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
@@ -112,7 +159,8 @@ std::optional<DeformedSurface::Immersion> DeformedSurface::immersion(const Vec3&
   }
 }
 
-DeformedSurface::Encounter DeformedSurface::meet(const Vec3& p, const Vec3& q, double radius_m) noexcept {
+DeformedSurface::Encounter DeformedSurface::meet(const Vec3& p, const Vec3& q, double radius_m,
+                                                 bool outside) noexcept {
   // what was out of reach before the last step passed over p only if it moved that far
   const double moved = entered_motion_ < kReach_m ? known_motion_ : kReach_m;
   const double reach = std::min(moved, kReach_m - kRounding_m) + kRounding_m;
@@ -123,8 +171,9 @@ DeformedSurface::Encounter DeformedSurface::meet(const Vec3& p, const Vec3& q, d
     around_q.look_at(triangle, stored_corners(triangle));
     entry.look_at(triangle, stored_corners(triangle));
   });
-  Encounter met{std::nullopt, std::sqrt(around_q.squared_m)};
-  if (around_p.found && !outside_of_feature(*around_p.found, p))
+  Encounter met{std::nullopt, std::sqrt(around_q.squared_m), around_q.found};
+  if (met.nearest && !outside_of_feature(*met.nearest, q)) met.nearest.reset();
+  if (outside && around_p.found && !outside_of_feature(*around_p.found, p))
     met.touched = around_p.found;
   else if (entry.first)
     met.touched = entry.first->point;

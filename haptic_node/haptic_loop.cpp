@@ -148,6 +148,8 @@ void HapticLoop::tick(std::int64_t now_ns) noexcept {
 void HapticLoop::obey() noexcept {
   if (orders_.take_clear_fault()) {
     for (const auto& line : lines_) line->clear_fault();
+    let_go_of_everything(state_);
+    work_.surface.restore_rest();
   }
   if (!orders_.take_reset()) return;
   for (std::size_t i = 0; i < lines_.size(); ++i) {

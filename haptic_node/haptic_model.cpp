@@ -18,12 +18,15 @@ HapticState::HapticState(const HapticModel& model) {
     ToolState state;
     state.before.assign(tool.points.size(), Vec3::Zero());
     state.now = state.before;
-    state.clearance.assign(tool.points.size(), 0);
+    state.memory.resize(tool.points.size());
     tools.push_back(std::move(state));
   }
+  energies.resize(tools.size());
 }
 
 HapticWorkspace::HapticWorkspace(const HapticModel& model)
-    : surface(model.surface, model.rest, model.compliance), nodes(model.compliance) {}
+    : surface(model.surface, model.rest, model.compliance),
+      nodes(model.compliance),
+      works(model.tools.size()) {}
 
 }  // namespace omentum::haptic

@@ -1,6 +1,7 @@
 // What the haptic step works on: a constant model, a state that changes, and scratch.
 #pragma once
 
+#include "haptic_node/contact_energy.h"
 #include "haptic_node/contact_nodes.h"
 #include "haptic_node/deformed_surface.h"
 #include "haptic_node/spread_contact.h"
@@ -48,6 +49,7 @@ struct ToolContact {
   Vec3 force = Vec3::Zero();    // lambda, on the tissue, N
   Vec3 offset = Vec3::Zero();   // gap that a grasp keeps, m
   double sunken_m = 0;          // depth that is no press: the point appeared there (see meet_appeared)
+  double slid_m = 0;            // how far the material point moved in this tick, at rest
   bool sliding = false;         // friction was used up: the material point moves on
   bool grasped = false;
 
@@ -61,13 +63,25 @@ struct NodeForce {
   Vec3 force;  // on the tissue, N
 };
 
+/// What is known of a tool's point that holds no contact.
+struct PointMemory {
+  double clearance_m = 0;  // how far it is from the surface at least
+  // inside the organ without having come in: it feels nothing until it was outside
+  bool adrift = false;
+  std::uint8_t ask_in = 0;      // ticks until it is asked where the point is; 0: nobody asks
+  Vec3 way_out = Vec3::Zero();  // the normal of the contact that it lost; zero: any way
+};
+
 struct ToolState {
   bool engaged = false;
   bool appeared = false;  // in this tick, without moving there
+  bool let_go = false;    // a contact that carried force was dropped in this tick
   ToolFrame frame;
-  std::vector<Vec3> before, now;  // [P] points at the last tick and at this one, in W
-  std::vector<double> clearance;  // [P] how far each point is from the surface at least, m
-  bool opened = false;            // the jaws were open since the last grasp
+  Vec3 tip_way = Vec3::Zero();      // in this tick, m
+  double pace_m = 0;                // the longest way of a point in a tick, lately
+  std::vector<Vec3> before, now;    // [P] points at the last tick and at this one, in W
+  std::vector<PointMemory> memory;  // [P]
+  bool opened = false;              // the jaws were open since the last grasp
   bool grasping = false;
   std::uint64_t grasp_count = 0;
 };
@@ -76,13 +90,18 @@ struct ToolState {
 struct HapticState {
   explicit HapticState(const HapticModel& model);
 
+  std::uint64_t ticks = 0;
   std::vector<ToolState> tools;
+  std::vector<ContactEnergy> energies;  // [tools]
   std::array<ToolContact, physics::kMaxContacts> contacts;
   int contact_count = 0;
   std::array<NodeForce, DeformedSurface::kMaxForces> node_forces;  // distinct (node, tool)
   int node_force_count = 0;
 
   std::span<ToolContact> active() { return {contacts.data(), static_cast<std::size_t>(contact_count)}; }
+  std::span<const ToolContact> active() const {
+    return {contacts.data(), static_cast<std::size_t>(contact_count)};
+  }
   std::span<const NodeForce> forces() const {
     return {node_forces.data(), static_cast<std::size_t>(node_force_count)};
   }
@@ -94,6 +113,7 @@ struct HapticWorkspace {
 
   DeformedSurface surface;
   ContactNodes nodes;
+  std::vector<ContactWork> works;  // [tools]
   std::array<Share, physics::kMaxContacts> shares;
   physics::ContactProblem problem;
   physics::ContactWorkspace solver;

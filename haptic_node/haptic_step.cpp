@@ -1,11 +1,18 @@
 #include "haptic_node/haptic_step.h"
 
+#include "haptic_node/contact_work.h"
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace omentum::haptic {
 namespace {
 
 using Gaps = std::array<Vec3, physics::kMaxContacts>;
+using Forces = std::array<Vec3, physics::kMaxContacts>;
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 void pose_problem(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
                   HapticWorkspace& work) {
@@ -55,7 +62,7 @@ void share_force(const HapticModel& model, HapticState& state, const ToolContact
 
 void solve_points(const HapticModel& model, HapticState& state, HapticWorkspace& work, StepResult& result,
                   Gaps& gaps) {
-  std::array<Vec3, physics::kMaxContacts> forces;
+  Forces forces;
   const std::span<ToolContact> contacts = state.active();
   for (std::size_t i = 0; i < contacts.size(); ++i) forces[i] = contacts[i].force;
   const physics::ContactSolution solution = physics::solve_contacts(work.problem, forces, work.solver);
@@ -110,23 +117,44 @@ void solve_spread_contacts(const HapticModel& model, HapticState& state, HapticW
   }
 }
 
-void measure(const HapticState& state, const Gaps& free_gaps, const Gaps& gaps,
-             std::span<ToolOutput> outputs) {
+void measure(std::span<const ToolInput> inputs, const HapticState& state, std::span<ToolOutput> outputs) {
   for (std::size_t t = 0; t < outputs.size(); ++t) {
+    const ContactEnergy& energy = state.energies[t];
     outputs[t] = {};
     outputs[t].grasping = state.tools[t].grasping;
     outputs[t].grasp_count = state.tools[t].grasp_count;
+    outputs[t].share = energy.share;
+    outputs[t].stored_j = energy.share * energy.stored_j;
+    outputs[t].force = energy.side;
+    if (inputs[t].engaged && !is_sound(inputs[t])) outputs[t].force.setConstant(kNoNumber);
   }
   for (int i = 0; i < state.contact_count; ++i) {
     const ToolContact& contact = state.contacts[i];
     if (!contact.touches()) continue;
     const ToolState& tool = state.tools[contact.tool];
     ToolOutput& output = outputs[contact.tool];
+    const Vec3 felt = output.share * contact.force;
     ++output.touching;
-    output.force -= contact.force;
-    output.torque -= (tool.now[contact.point] - tool.frame.p_WT).cross(contact.force);
-    output.stored_j += 0.5 * contact.force.dot(free_gaps[i] - gaps[i]);
+    output.force -= felt;
+    output.torque -= (tool.now[contact.point] - tool.frame.p_WT).cross(felt);
   }
+}
+
+bool is_finite(const StepResult& result, const HapticState& state) {
+  return result.status != physics::ContactStatus::kNotFinite &&
+         std::ranges::all_of(state.forces(), [](const NodeForce& entry) { return entry.force.allFinite(); });
+}
+
+// What is no number reaches neither the surface of the next tick nor the wire; the hands that held on to the
+// tissue are told so, and their safety stops them.
+void stop(HapticState& state, std::span<ToolOutput> outputs) {
+  for (ToolOutput& output : outputs) output = {};
+  for (const ToolContact& contact : state.active()) outputs[contact.tool].force.setConstant(kNoNumber);
+  let_go_of_everything(state);
+}
+
+bool anyone_let_go(const HapticState& state) {
+  return std::ranges::any_of(state.tools, [](const ToolState& tool) { return tool.let_go; });
 }
 
 // The surface of the next tick: all tools' forces together.
@@ -154,24 +182,36 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
                        HapticWorkspace& work, std::span<ToolOutput> outputs) noexcept {
   StepResult result;
   Gaps free_gaps, gaps;
+  Forces before;
   work.nodes.begin_tick();
   place_tools(model, inputs, state, work.surface);
   evaluate_neighbourhood(state, work.surface);
+  leave_astray(state, work.surface);
   follow_surface(model, state, work.surface);
   meet_appeared(state, work.surface);
   find_contacts(state, work.surface);
   result.neighbourhood = work.surface.evaluated_nodes();
 
   state.node_force_count = 0;
-  for (int i = 0; i < state.contact_count; ++i)
+  const auto count = static_cast<std::size_t>(state.contact_count);
+  for (std::size_t i = 0; i < count; ++i) {
+    before[i] = state.contacts[i].force;
     free_gaps[i] = free_gap(state, state.contacts[i], work.surface);
+  }
   if (model.mode == ContactMode::kPoint) {
     pose_problem(model, inputs, state, work);
     solve_points(model, state, work, result, gaps);
   } else {
     solve_spread_contacts(model, state, work, gaps);
   }
-  measure(state, free_gaps, gaps, outputs);
+  if (is_finite(result, state)) {
+    measure_work(model, state, before, free_gaps, gaps, work.works);
+    balance(state.energies, work.works, anyone_let_go(state));
+    measure(inputs, state, outputs);
+  } else {
+    result.status = physics::ContactStatus::kNotFinite;
+    stop(state, outputs);
+  }
   for (const ToolOutput& output : outputs) result.contacts += output.touching;
   release_contacts(state, {gaps.data(), static_cast<std::size_t>(state.contact_count)});
   result.nodes = hand_over_forces(state, work.surface);

@@ -9,7 +9,8 @@ namespace omentum::haptic {
 struct ToolOutput {
   Vec3 force = Vec3::Zero();   // on the hand at the tip, in W, N
   Vec3 torque = Vec3::Zero();  // on the hand about the tip, in W, N m
-  double stored_j = 0;         // elastic energy that its contacts hold
+  double stored_j = 0;         // elastic energy that its contacts hold for the hand: share times the model's
+  double share = 1;            // of the tissue's reaction that the hand feels (see contact_energy.h)
   int touching = 0;            // contacts with a force
   bool grasping = false;
   std::uint64_t grasp_count = 0;
@@ -26,7 +27,8 @@ struct StepResult {
 
 /// Poses in, forces out: collides with the surface under the last tick's forces, solves the contacts of all
 /// tools together on C_AA (Cotin 1999, section 4-2), and hands the new forces to the surface. The force on a
-/// hand is minus the sum of its contacts' forces on the tissue. Quasi-static: no time step enters.
+/// hand is minus the sum of its contacts' forces on the tissue, times the share that keeps its energy, and
+/// the side force that goes with it (contact_energy.h). Quasi-static: no time step enters.
 ///
 /// `inputs` and `outputs`: [tools]. No allocation, no lock, no file. One thread.
 StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,

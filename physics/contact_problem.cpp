@@ -49,7 +49,7 @@ class Solver {
     reduce(forces);
     ContactSolution solution;
     solution.residual_m = residual();
-    while (solution.rounds < kMaxRounds) {
+    while (solution.rounds < kMaxRounds && std::isfinite(solution.residual_m)) {
       problem_.friction > 0 ? solve_frictional_set(solution.residual_m) : solve_frictionless_set();
       ++solution.rounds;
       solution.residual_m = residual();
@@ -57,8 +57,13 @@ class Solver {
       for (int s = 0; s < kFirstSweeps + solution.rounds; ++s) sweep();
       solution.residual_m = residual();
     }
-    if (solution.residual_m > kGapTolerance_m) solution.status = ContactStatus::kIterationLimit;
     for (int i = 0; i < problem_.count; ++i) forces[i] = force(i);
+    if (!std::isfinite(solution.residual_m)) {
+      std::fill_n(forces.begin(), problem_.count, Vec3::Zero());
+      solution.status = ContactStatus::kNotFinite;
+    } else if (solution.residual_m > kGapTolerance_m) {
+      solution.status = ContactStatus::kIterationLimit;
+    }
     return solution;
   }
 
@@ -135,6 +140,8 @@ class Solver {
   }
 
   double residual() {
+    // std::max takes a number for the larger of it and none
+    if (!work_.gap.allFinite() || !work_.x.allFinite()) return std::numeric_limits<double>::infinity();
     double worst = 0;
     for (int i = 0; i < problem_.count; ++i) worst = std::max(worst, violation(unknowns_[i]));
     return worst;

@@ -66,6 +66,7 @@ void limit_stiffness(ContactProblem& problem) noexcept;
 enum class ContactStatus : std::uint8_t {
   kConverged,       // every law holds within kGapTolerance_m
   kIterationLimit,  // forces are inside their cones, but some gap is off by `residual_m`
+  kNotFinite,       // the problem has no numbers to solve: all forces are zero
 };
 
 struct ContactSolution {

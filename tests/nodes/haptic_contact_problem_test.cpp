@@ -235,6 +235,25 @@ TEST(ContactProblem, PinnedSurfaceIsAStiffWallNotASingularOne) {
   EXPECT_NEAR(forces[0].z(), -1e-5 / kContactCompliance_m_n, 1e-9);
 }
 
+// std::max(worst, NaN) is worst: what is no number was reported as converged.
+TEST(ContactProblem, WhatIsNoNumberIsNotConverged) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::mt19937 random(5);
+  for (const double friction : {0.0, 0.4}) {
+    for (const double wrong : {kNan, std::numeric_limits<double>::infinity()}) {
+      auto in_gap = random_problem(4, friction, random), in_compliance = random_problem(4, friction, random);
+      in_gap->contacts[2].free_gap.x() = in_gap->contacts[2].free_gap.z() = wrong;
+      in_compliance->W(1, 1).setConstant(wrong);
+      for (const auto* problem : {in_gap.get(), in_compliance.get()}) {
+        std::vector<Vec3> forces(4, Vec3(0, 0, -1));
+        ContactWorkspace work;
+        EXPECT_EQ(solve_contacts(*problem, forces, work).status, ContactStatus::kNotFinite);
+        for (const Vec3& force : forces) EXPECT_EQ(force, Vec3::Zero());
+      }
+    }
+  }
+}
+
 // ---- what a device can render
 
 // A tool of `count` points pressed into a wall of which the points feel `W`, each to its own depth.

@@ -58,7 +58,9 @@ TEST(HapticStep, ForceEqualsADirectConstrainedSolve) {
     Vec3 direct_total = Vec3::Zero();
     for (const Vec3& f : solution.holding_forces) direct_total += f;
     EXPECT_LE((direct_total - total).norm(), kForceTolerance * total.norm());
-    EXPECT_LE((bench.output(0).force + bench.output(1).force + total).norm(), 1e-12);
+    const Vec3 felt = (bench.output(0).force - bench.state().energies[0].side) / bench.output(0).share +
+                      (bench.output(1).force - bench.state().energies[1].side) / bench.output(1).share;
+    EXPECT_LE((felt + total).norm(), 1e-12) << "a hand feels its share of the tissue's reaction";
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_LE((solution.holding_forces[i] - expected[i]).norm(), kForceTolerance * total.norm());
     }
@@ -272,6 +274,31 @@ TEST(HapticStep, ADeepPressIsSteadyAndSlidesWithoutJumps) {
           << "slid to " << x << ", friction " << friction;
       before = force;
     }
+  }
+}
+
+// What no device can have (and somebody sent): the tool that has it is told, the other one goes on as if it
+// were alone, and nothing of it stays.
+TEST(HapticStep, AToolThatCannotBeComputedWithStopsAlone) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const Vec3 beside = kAbove + Vec3(0.015, 0, 0), deep(0, 0, -0.008);
+  Bench alone(make_model(block(), {round_tool()}));
+  alone.step_to(kAbove);
+  const Vec3 single = alone.move_to(kAbove + deep, 80);
+  for (int kind = 0; kind < 3; ++kind) {
+    Bench both(make_model(block(), {round_tool(), round_tool()}));
+    both.place(1, beside).step_to(kAbove);
+    for (int i = 1; i <= 40; ++i) both.place(1, beside + deep * i / 80).step_to(kAbove + deep * i / 80);
+    if (kind == 0) both.input(1).max_stiffness_n_m = 5e-324;
+    if (kind == 1) both.input(1).max_stiffness_n_m = kNan;
+    if (kind == 2) both.input(1).frame.p_WT.y() = kNan;
+    both.move_to(kAbove + deep, 40);
+    EXPECT_FALSE(both.output(1).force.allFinite());
+    EXPECT_LE((both.output(0).force - single).norm(), 0.05 * single.norm()) << "kind " << kind;
+    for (const haptic::NodeForce& entry : both.state().forces()) EXPECT_TRUE(entry.force.allFinite());
+    both.input(1) = {};
+    both.move_to(kAbove, 80);
+    EXPECT_LE((both.move_to(kAbove + deep, 80) - single).norm(), 1e-3 * single.norm()) << "kind " << kind;
   }
 }
 

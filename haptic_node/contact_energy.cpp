@@ -1,0 +1,57 @@
+#include "haptic_node/contact_energy.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace omentum::haptic {
+namespace {
+
+// The part of a tip's way that goes along the surface.
+Vec3 along_surface(const Vec3& v, const Vec3& push) {
+  const double squared = push.squaredNorm();
+  return squared > 0 ? Vec3(v - v.dot(push) / squared * push) : v;
+}
+
+// An average over the way, not over time: a resting hand keeps its heading.
+void turn_heading(Vec3& heading, const Vec3& way, const Vec3& push) {
+  const double share = std::min(1.0, way.norm() / kHeading_m);
+  heading = along_surface((1 - share) * heading + way / kHeading_m, push);
+  const double length = heading.norm();
+  if (length > 1) heading /= length;
+}
+
+// Energy that came or went with material points that moved.
+double unpaid(std::span<const ContactEnergy> tools, std::span<const ContactWork> works) {
+  double sum = 0;
+  for (std::size_t t = 0; t < tools.size(); ++t)
+    sum += works[t].stored_j - tools[t].stored_j - works[t].put_in_j + works[t].rubbed_j;
+  return sum;
+}
+
+}  // namespace
+
+void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept {
+  assert(tools.size() == works.size());
+  double slid = 0;
+  for (const ContactWork& work : works) slid += work.slid;
+  const double unpaid_j = let_go || slid <= 0 ? 0 : unpaid(tools, works);
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    ContactEnergy& tool = tools[t];
+    const ContactWork& work = works[t];
+    if (work.stored_j < kNoEnergy_j) {
+      tool = ContactEnergy{};
+      continue;
+    }
+    if (tool.stored_j >= kNoEnergy_j) {
+      const double own_j = slid > 0 ? unpaid_j * work.slid / slid : 0;
+      const Vec3 way = along_surface(work.way, work.push);
+      const double held_j = tool.share * (work.stored_j - own_j) - tool.side.dot(way);
+      tool.share = std::clamp(held_j / work.stored_j, 0.0, kMaxShare);
+      turn_heading(tool.heading, way, work.push);
+    }
+    tool.stored_j = work.stored_j;
+    tool.side = (tool.share - 1) * tool.stored_j / kForget_m * tool.heading;
+  }
+}
+
+}  // namespace omentum::haptic

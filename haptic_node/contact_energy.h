@@ -1,0 +1,66 @@
+// What a hand gets back from the tissue is what it put in: the force that it feels follows from that.
+#pragma once
+
+#include "geometry/types.h"
+
+#include <span>
+
+namespace omentum::haptic {
+
+using geometry::Vec3;
+
+/// One tool's contacts between ticks, as energy sees them.
+struct ContactEnergy {
+  double stored_j = 0;          // E: elastic energy that the model says they hold
+  double share = 1;             // kappa: of the model's force that the hand feels
+  Vec3 side = Vec3::Zero();     // along the surface, on the hand at the tip, N
+  Vec3 heading = Vec3::Zero();  // where the tip slides, averaged over the last way; at most 1 long
+};
+
+/// What happened to one tool's contacts in a tick, by the model's own forces.
+struct ContactWork {
+  double stored_j = 0;       // E after the solve
+  double put_in_j = 0;       // work that moving the tool against these forces took (trapezoidal rule)
+  double rubbed_j = 0;       // of it, what friction turned into heat
+  double slid = 0;           // how far material points moved along the surface, weighed by their force, N m
+  Vec3 push = Vec3::Zero();  // on the tissue, N
+  Vec3 way = Vec3::Zero();   // of the tip, m
+};
+
+/// The largest share: a hand that brought more energy than this place would hold gets it back, but is never
+/// pushed by more than this many times the tissue's own reaction.
+inline constexpr double kMaxShare = 2;
+
+/// Over which way along the surface the share returns to one, m: the side force that does it stays below a
+/// tenth of the push in a dent of 6 mm, and what a press felt like elsewhere is forgotten three fingers away.
+inline constexpr double kForget_m = 0.04;
+
+/// Over which way the heading is averaged, m: a hand that trembles or turns round feels no step of the side
+/// force.
+inline constexpr double kHeading_m = 0.005;
+
+/// Energy below this is none, J: a thousandth of what a fingertip's touch does.
+inline constexpr double kNoEnergy_j = 1e-12;
+
+/// A point contact that slides over a mesh is not conservative by itself: the compliance under it changes
+/// from node to face (by half on coarse meshes), normals are interpolated, facets are flat; the stored energy
+/// E(p) then rises and falls without the hand's doing, and closed paths gave back up to 430 % of what was put
+/// in. The missing force is -dE/dp, but over a mesh that is a rasp of several newtons. So the energy is kept
+/// instead: the hand feels
+///     f = kappa f_model,   kappa E = what the hand put in, less what it got back.
+/// While no material point moves the model is conservative (f_model = -dE/dp) and kappa stays what it is;
+/// where one slides, E changes by M without work, and kappa with it:
+///     kappa' = kappa (E' - M) / E',   M = E' - E - put_in + rubbed.
+/// Every closed path then has no net energy, the force reaches zero where the model's does, and over a
+/// surface at constant depth it is constant. What the tissue does is untouched: kappa is the hand's alone.
+///
+/// A place that differs for good (stiffer near a support) is paid for along the way: a force against the
+/// heading, (1 - kappa) E / kForget_m, brings kappa back to one; its work is in the account.
+///
+/// `tools` and `works`: one per tool. M of all tools together is given to those that slid: when the tissue
+/// moves under a resting tool, that is the other's work and no gain of its own. `let_go`: a contact that
+/// carried force was dropped in this tick, so that what is stored cannot be compared: shares stay.
+/// No allocation. Any thread.
+void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept;
+
+}  // namespace omentum::haptic

@@ -1,0 +1,147 @@
+// The energy that a hand gets back, on contacts simple enough to know the answer.
+#include "haptic_node/contact_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace omentum::haptic_test {
+namespace {
+
+using haptic::balance;
+using haptic::ContactEnergy;
+using haptic::ContactWork;
+using haptic::Vec3;
+
+constexpr double kStep_m = 1e-5;
+// The trapezoidal rule over steps of 10 um in dents of millimetres, and what steps beside each other cost.
+constexpr double kQuadrature = 1e-3;
+
+// A point on a frictionless flat whose stiffness changes along x, as a mesh's does from node to face.
+class BumpyFlat {
+ public:
+  static double stiffness(double x) { return 500 * (1 + 0.4 * std::sin(2 * std::numbers::pi * x / 0.008)); }
+  static double push(const Vec3& tip) { return stiffness(tip.x()) * std::max(0.0, -tip.z()); }
+
+  Vec3 felt() const { return energy_[0].share * Vec3(0, 0, push(tip_)) + energy_[0].side; }
+  const ContactEnergy& energy() const { return energy_[0]; }
+  double given_j() const { return given_j_; }
+  double most_put_in_j() const { return -least_j_; }
+
+  void move_to(const Vec3& to) {
+    const Vec3 from = tip_;
+    const int steps = static_cast<int>(std::ceil((to - from).norm() / kStep_m));
+    for (int i = 1; i <= steps; ++i) step_to(from + i * (to - from) / steps);
+  }
+
+ private:
+  void step_to(const Vec3& to) {
+    const Vec3 felt_before = felt(), way = to - tip_;
+    ContactWork work;
+    work.stored_j = 0.5 * push(to) * std::max(0.0, -to.z());
+    work.put_in_j = -0.5 * (push(tip_) + push(to)) * way.z();
+    if (push(tip_) == 0) work.put_in_j = std::min(work.put_in_j, work.stored_j);
+    work.slid = 0.5 * (push(tip_) + push(to)) * std::abs(way.x());
+    work.push = Vec3(0, 0, -push(to));
+    work.way = way;
+    tip_ = to;
+    balance(energy_, std::array{work}, false);
+    given_j_ += 0.5 * (felt_before + felt()).dot(way);
+    least_j_ = std::min(least_j_, given_j_);
+  }
+
+  Vec3 tip_{0, 0, 1e-3};
+  std::array<ContactEnergy, 1> energy_;
+  double given_j_ = 0, least_j_ = 0;
+};
+
+TEST(ContactEnergy, APressThatDoesNotSlideFeelsTheModelsForce) {
+  BumpyFlat flat;
+  flat.move_to({0, 0, -0.006});
+  EXPECT_NEAR(flat.energy().share, 1, kQuadrature);
+  EXPECT_EQ(flat.energy().side, Vec3::Zero());
+  flat.move_to({0, 0, 1e-3});
+  EXPECT_NEAR(flat.given_j(), 0, kQuadrature * flat.most_put_in_j());
+}
+
+TEST(ContactEnergy, AClosedPathHasNoNetEnergy) {
+  for (const double slide : {0.001, 0.002, 0.005, 0.011, 0.02}) {
+    for (const double depth : {0.001, 0.004, 0.008}) {
+      BumpyFlat flat;
+      flat.move_to({0, 0, -depth});
+      flat.move_to({slide, 0, -depth});
+      flat.move_to({slide, 0, 1e-3});
+      EXPECT_NEAR(flat.given_j(), 0, 2 * kQuadrature * flat.most_put_in_j())
+          << "slide " << slide << ", depth " << depth;
+    }
+  }
+}
+
+// Rubbing in a loop, never letting go, is where a source would show: each turn would give the same again.
+TEST(ContactEnergy, AHandThatRubsInLoopsIsFedByNone) {
+  BumpyFlat flat;
+  flat.move_to({0, 0, -0.003});
+  for (int turn = 0; turn < 50; ++turn) {
+    flat.move_to({0.003, 0, -0.003});
+    flat.move_to({0.003, 0, -0.006});
+    flat.move_to({0, 0, -0.006});
+    flat.move_to({0, 0, -0.003});
+    ASSERT_LE(flat.given_j(), 0) << "turn " << turn;
+  }
+  EXPECT_GT(flat.energy().share, 0.5) << "and the tissue is not rubbed away";
+}
+
+TEST(ContactEnergy, AcrossASurfaceTheShareReturnsToOne) {
+  BumpyFlat flat;
+  flat.move_to({0, 0, -0.004});
+  flat.move_to({0.002, 0, -0.004});
+  const double at_first = 0.5 * std::abs(flat.energy().share - 1);
+  // over the bumps it swings about one
+  double mean = 0;
+  for (int step = 1; step <= 80; ++step) {
+    flat.move_to({0.05 + 0.0008 * step, 0, -0.004});
+    mean += flat.energy().share / 80;
+  }
+  EXPECT_LT(std::abs(mean - 1), at_first);
+}
+
+TEST(ContactEnergy, AnothersSlideIsNoGainOfARestingTool) {
+  std::array<ContactEnergy, 2> tools;
+  std::array<ContactWork, 2> works;
+  works[0].stored_j = works[1].stored_j = 1e-3;
+  balance(tools, works, false);
+  // the first tool slides onto softer tissue, and both hold less than before
+  works[0].slid = 1e-4;
+  works[0].stored_j = 0.8e-3;
+  works[1].stored_j = 0.9e-3;
+  balance(tools, works, false);
+  EXPECT_GT(tools[0].share, 1);
+  EXPECT_EQ(tools[1].share, 1);
+}
+
+TEST(ContactEnergy, WhatIsDroppedIsNobodysGain) {
+  std::array<ContactEnergy, 2> tools;
+  std::array<ContactWork, 2> works;
+  works[0].stored_j = works[1].stored_j = 1e-3;
+  balance(tools, works, false);
+  works[0] = {};
+  works[1].slid = 1e-4;
+  balance(tools, works, true);
+  EXPECT_EQ(tools[0].stored_j, 0);
+  EXPECT_EQ(tools[1].share, 1);
+}
+
+TEST(ContactEnergy, ContactThatEndsIsForgotten) {
+  BumpyFlat flat;
+  flat.move_to({0, 0, -0.004});
+  flat.move_to({0.006, 0, -0.004});
+  EXPECT_NE(flat.energy().share, 1);
+  flat.move_to({0.006, 0, 1e-3});
+  EXPECT_EQ(flat.energy().share, 1);
+  EXPECT_EQ(flat.felt(), Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace omentum::haptic_test
