@@ -162,7 +162,7 @@ void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
   const auto again_ns = static_cast<std::int64_t>(kAnswerAgainPeriods * 1e9 / options_.rate_hz);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const msg::ToolForce& force = lines_[i]->answer(outputs_[i], now_ns, dt_s, paused);
-    if (lines_[i]->engaged() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
+    if (lines_[i]->is_told() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
       force_writer_->write(lines_[i]->to_send(ticks_));
       answered_ns_[i] = now_ns;
     }

@@ -63,12 +63,23 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
   }
   const bool fresh = poses_.fetch();
   const HeardPose& heard = poses_.value();
-  reconnected_ = heard.connection != connection_;
+  const std::int64_t silence = silence_ns(heard);
+  // a loop that stood still did not see the silence, but it was one
+  reconnected_ = heard.connection != connection_ || (fresh && heard.arrival_ns - taken_arrival_ns_ > silence);
   way_s_ = 0;
   if (fresh) take(heard);
-  engaged_ = heard.connection > 0 && now_ns - heard.arrival_ns < kLetGo_ns;
-  input = {engaged_, reconnected_, frame_of(heard.pose), heard.pose.grip, max_stiffness_n_m_};
+  const std::int64_t age_ns = now_ns - heard.arrival_ns;
+  engaged_ = heard.connection > 0 && age_ns < silence;
+  told_ = heard.connection > 0 && age_ns < kForget_ns;
+  // a tool that appears lets go first: in the dent of its own last force it would seem to be outside
+  input = {engaged_ && !reconnected_, reconnected_, frame_of(heard.pose), heard.pose.grip,
+           max_stiffness_n_m_};
   return fresh;
+}
+
+// From when on nothing is left of a force: the pose was stale and the decay is over.
+std::int64_t ToolLine::silence_ns(const HeardPose& heard) const noexcept {
+  return static_cast<std::int64_t>(1e9 * (stale_after(heard.interval_s, limits_) + limits_.decay_s));
 }
 
 // How long the way from the pose before took: a burst arrives faster than it was measured, and stamps may be
