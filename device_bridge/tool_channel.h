@@ -4,6 +4,7 @@
 #include "device_bridge/answer_gate.h"
 #include "device_bridge/device.h"
 #include "device_bridge/force_hold.h"
+#include "device_bridge/hand_guard.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
 
@@ -62,6 +63,8 @@ class ToolChannel {
   AnswerGate gate_;
   runtime::Mailbox<Received> received_;
   ForceHold hold_;
+  HandGuard guard_;
+  Wrench exerted_;  // commanded last
   msg::ToolPose pose_;
   double energy_j_ = 0;
 };

@@ -52,10 +52,12 @@ class ToolLine {
   /// hand.
   const msg::ToolForce& answer(const ToolOutput& output, std::int64_t now_ns, double dt_s,
                                bool paused) noexcept;
-  /// The newest answer as the next sample of the topic: only what is sent is counted.
+  /// The newest answer as the next sample of the topic: only what is sent is counted. Then say whether it
+  /// was.
   const msg::ToolForce& to_send(std::uint64_t tick) noexcept;
+  void sent(bool written) noexcept { written_ = written; }
 
-  /// After a reset: the next force fades in from zero, on a new energy account.
+  /// After a reset: the next force fades in from zero.
   void restart() noexcept;
   /// A person says that the latched fault is mended: the next force fades in from zero.
   void clear_fault() noexcept { safety_.clear_fault(); }
@@ -103,7 +105,8 @@ class ToolLine {
   std::uint64_t connection_ = 0;  // of the newest pose taken ...
   std::int64_t stamp_ns_ = 0, taken_arrival_ns_ = 0;  // ... and when it was measured and came
   double way_s_ = 0;      // what the way to it took; 0: no pose was taken in this tick
-  bool written_ = false;  // the last answer was sent
+  bool written_ = false;  // the last answer was
+  bool fed_ = false;      // a source was cut off, and said so
   msg::ToolForce force_{};
 };
 

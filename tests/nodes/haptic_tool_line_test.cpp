@@ -49,7 +49,9 @@ class LineBench {
     line_.listen(now_ns_, bench_.input());
     bench_.step();
     line_.answer(bench_.output(), now_ns_, kTick_s, paused);
-    return line_.to_send(++ticks_);
+    const msg::ToolForce& force = line_.to_send(++ticks_);
+    line_.sent(true);
+    return force;
   }
   /// A device that sends every `ticks` ms, through one of its intervals: the last answer.
   const msg::ToolForce& press_slowly(const Vec3& tip, int ticks) {
@@ -102,6 +104,7 @@ class TwoTools {
     for (std::size_t i = 0; i < 2; ++i) {
       lines_[i].answer(bench_.output(i), now_ns_, kTick_s, false);
       felt_n = newton(lines_[i].to_send(++ticks_));
+      lines_[i].sent(true);
     }
     return felt_n;
   }
@@ -396,7 +399,7 @@ HandRun run_hand(double rate_hz, double friction) {
     }
   }
   run.held_n /= held;
-  run.given_j = safety.passivity().given_j();
+  run.given_j = safety.tank().given_j();
   return run;
 }
 
@@ -410,7 +413,7 @@ TEST(HandInTheLoop, SafetyStaysOutOfAnOrdinaryPress) {
   for (const double friction : {0.0, 0.3}) {
     const HandRun run = run_hand(1000, friction);
     EXPECT_EQ(run.acted, 0u) << "friction " << friction;
-    EXPECT_LE(run.given_j, haptic::PassivityObserver::kReserve_j);
+    EXPECT_LE(run.given_j, node::EnergyTank::kReserve_j);
   }
 }
 
