@@ -145,7 +145,7 @@ SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, doubl
 // Through the exit; what changed for the worse is a fault, once for each time.
 SafeForce ToolLine::pass(const SafetyInput& input) noexcept {
   const bool faulted_before = safety_.faulted();
-  const SafeForce safe = safety_.pass(input);
+  SafeForce safe = safety_.pass(input);
   written_ = false;
   if (safety_.faulted() && !faulted_before) faults_.raise(force_fault_);
   if (safety_.share() < kCutShare && !fed_) faults_.raise(source_fault_);

@@ -1,6 +1,8 @@
 // The energy that a hand receives is bounded, whatever the model answers and the wire loses.
 #include "hand_bench.h"
 
+#include "haptic_fixtures.h"
+
 #include <gtest/gtest.h>
 
 namespace omentum::hand_test {
@@ -205,6 +207,26 @@ TEST(HandEnergy, OfAThrownHandIsBoundedByTwoPeriods) {
             << model.name << ", " << path.name << ", " << rate_hz << " Hz";
       }
     }
+  }
+}
+
+// Through a soft block, around it and along its faces, from one random place to the next.
+TEST(HandEnergy, OfAHandLedThroughAnOrganIsBounded) {
+  constexpr int kPaths = 30;
+  for (int i = 0; i < kPaths; ++i) {
+    const auto organ = std::make_shared<haptic_test::Bench>(
+        haptic_test::make_model(haptic_test::block(), {haptic_test::round_tool()}));
+    const Path around = wander(i % 2 == 0 ? 0.4 : 0.1, static_cast<std::uint32_t>(i));
+    const Vec3 top(0.05, 0.05, 0.035);  // 5 mm below the middle of the upper face
+    HandBench bench(
+        i % 3 == 0 ? 300 : 1000, [=](double t) -> Vec3 { return top + around(t); },
+        [organ](const Seen& s) {
+          organ->step_to(s.tip);
+          return organ->output();
+        });
+    const Received& received = bench.run(4);
+    EXPECT_LE(received.most_j, kBound_j) << "path " << i;
+    EXPECT_GT(received.largest_n, 0.1) << "it was touched";
   }
 }
 
