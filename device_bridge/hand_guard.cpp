@@ -25,10 +25,6 @@ void scale(Wrench& wrench, double share) {
   wrench.grip_torque *= share;
 }
 
-double work_j(const Wrench& wrench, const Vec3& way, const Vec3& turn) {
-  return wrench.force.dot(way) + wrench.torque.dot(turn);
-}
-
 Vec3 turn_between(const Quat& from, const Quat& to) {
   return angular_velocity(from, to, 1);
 }
@@ -59,12 +55,15 @@ Wrench HandGuard::limit(const Wrench& asked, std::int64_t now_ns) noexcept {
   rise_to(wrench, std::min(period_s_, period_before_s_));
   // the hand is seen again in the next period, and the one before is not seen yet
   const double unseen_s = std::max({period_s_, period_before_s_, way_s_});
-  scale(wrench, tank_.share(node::work_ahead_j(wrench.force, wrench.torque, motion_, 2 * unseen_s)));
+  const double share = tank_.share(node::work_ahead_j(wrench.force, wrench.torque, motion_, 2 * unseen_s));
+  if (share < 1) ++held_back_;
+  scale(wrench, share);
   Vec3 damping = tank_.damping(motion_, unseen_s);
   only_actuated(damping);
   wrench.force += damping;
   const double norm = wrench.force.norm();
   if (norm > max_force_n_) wrench.force *= max_force_n_ / norm;
+  exerted_before_ = exerted_;
   return exerted_ = wrench;
 }
 
@@ -82,20 +81,31 @@ void HandGuard::arrive(const Measurement& measured) noexcept {
   tip_ = measured.position;
   orientation_ = measured.orientation.normalized();
   measured_ns_ = measured.measured_ns;
-  since_ = exerted_;
+  impulse_.setZero();
+  angular_impulse_.setZero();
+  acted_s_ = 0;
   reckoned_j_ = 0;
   known_place_ = true;
 }
 
+// What moved the hand in this period: a simulated one the newest command, hardware the one before.
+void HandGuard::act(bool simulated) noexcept {
+  const Wrench& acting = simulated ? exerted_ : exerted_before_;
+  impulse_ += period_s_ * acting.force;
+  angular_impulse_ += period_s_ * acting.torque;
+  acted_s_ += period_s_;
+}
+
 // Unseen the hand may go on as it did. The next measurement puts it right.
 void HandGuard::reckon() noexcept {
-  const Vec3 way = motion_.velocity * period_s_, turn = motion_.turn_rate * period_s_;
-  const double charged_j = std::max(0.0, work_j(exerted_, way, turn));
+  const double power_w = exerted_.force.dot(motion_.velocity) + exerted_.torque.dot(motion_.turn_rate);
+  const double charged_j = std::max(0.0, power_w * period_s_);
   reckoned_j_ += charged_j;
   tank_.observe(charged_j, stored_j(), period_s_);
 }
 
 void HandGuard::follow(const Measurement& measured, bool usable, bool simulated) noexcept {
+  act(simulated);
   if (!usable || (known_place_ && measured.measured_ns <= measured_ns_)) {
     reckon();
     known_place_ = known_place_ && usable;
@@ -112,7 +122,8 @@ void HandGuard::follow(const Measurement& measured, bool usable, bool simulated)
   const Vec3 turn = turn_between(orientation_, measured.orientation.normalized());
   way_s_ = 1e-9 * static_cast<double>(measured.measured_ns - measured_ns_);
   motion_.follow(way, turn, way_s_);
-  const double given_j = work_j(simulated ? exerted_ : since_, way, turn) - reckoned_j_;
+  const double work_j = acted_s_ > 0 ? (impulse_.dot(way) + angular_impulse_.dot(turn)) / acted_s_ : 0;
+  const double given_j = work_j - reckoned_j_;
   arrive(measured);
   tank_.observe(given_j, stored_j(), period_s_);
 }

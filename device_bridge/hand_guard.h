@@ -12,6 +12,9 @@ namespace omentum::device {
 /// decayed ones too, along the way that it measured. What a lost answer, a failed write or a source in the
 /// model would give besides is not exerted. Reads no clock. One thread.
 ///
+/// What tissue holds is not known here: at most the force that is asked for times the way from where none
+/// was. So after a pause in a press, letting go is felt as far as the reserve goes.
+///
 /// A force may fall as it likes. It rises and turns no faster than kFastest_n_s, and for that a stalled loop
 /// counts for one of its own periods.
 class HandGuard {
@@ -32,20 +35,26 @@ class HandGuard {
   void follow(const Measurement& measured, bool usable, bool simulated) noexcept;
 
   const node::EnergyTank& tank() const { return tank_; }
+  /// In how many calls less was exerted than asked for, because the tank did not cover it.
+  std::uint64_t held_back() const { return held_back_; }
 
  private:
   void rise_to(Wrench& wrench, double rise_s) const noexcept;
   void only_actuated(Vec3& force) const noexcept;
   double stored_j() noexcept;
+  void act(bool simulated) noexcept;
   void reckon() noexcept;
   void arrive(const Measurement& measured) noexcept;
 
   double max_force_n_, max_torque_nm_;
   std::uint32_t axes_;
   node::EnergyTank tank_;
+  std::uint64_t held_back_ = 0;
 
-  Wrench asked_, exerted_;
-  Wrench since_;  // exerted until the newest measurement was taken
+  Wrench asked_, exerted_, exerted_before_;
+  // what acted since the newest measurement, times its time: the hand is taken to go evenly between two
+  Vec3 impulse_ = Vec3::Zero(), angular_impulse_ = Vec3::Zero();  // N s, N m s
+  double acted_s_ = 0;
   std::int64_t limited_ns_ = 0;
   bool limited_ = false;
   double period_s_ = 0, period_before_s_ = 0;  // of this call and of the one before

@@ -1,5 +1,6 @@
 #include "device_bridge/tool_channel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -77,6 +78,7 @@ const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
   guard_.follow(measured, pose_.valid, device_->simulates());
   if (moved_from_there && pose_.valid) {
     energy_j_ += moving.force.dot(from_message(pose_.position) - before);
+    most_energy_j_ = std::max(most_energy_j_, energy_j_);
   }
   gate_.sent(pose_.seq, pose_.stamp_ns);
   return pose_;

@@ -95,6 +95,26 @@ TEST(HandGuard, GivesNoMoreThanTheBound) {
   }
 }
 
+// A tracker of 100 Hz in a loop of 1 kHz, and a force that acts only where the hand is not seen.
+TEST(HandGuard, AForceBetweenTwoLooksCounts) {
+  GuardBench bench;
+  bench.rest({}, 10);
+  Vec3 tip = Vec3::Zero(), seen = Vec3::Zero();
+  std::int64_t seen_ns = bench.now_ns;
+  double work_j = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    const Vec3 way(0, 0, 1e-4);
+    work_j += bench.exerted.dot(way);
+    tip += way;
+    bench.now_ns += kMs;
+    bench.exerted = bench.guard.limit(force_z(i % 10 == 0 || i % 10 == 9 ? 0 : 9), bench.now_ns).force;
+    if (i % 10 == 0) seen = tip, seen_ns = bench.now_ns;
+    bench.guard.follow({.valid = true, .measured_ns = seen_ns, .position = seen}, true, false);
+    ASSERT_LE(work_j, EnergyTank::kBound_j) << i;
+  }
+  EXPECT_GT(bench.guard.held_back(), 0u);
+}
+
 TEST(HandGuard, ASpringIsGivenBackWhole) {
   constexpr double kStiffness_n_m = 500;
   GuardBench bench;
@@ -104,6 +124,7 @@ TEST(HandGuard, ASpringIsGivenBackWhole) {
     const Wrench asked = force_z(kStiffness_n_m * depth);
     ASSERT_EQ(bench.tick(asked, {0, 0, -depth}), asked.force) << i;
   }
+  EXPECT_EQ(bench.guard.held_back(), 0u);
 }
 
 // A hand that rubbed for long put in a joule. A force that comes from nowhere does not get it.
