@@ -56,6 +56,11 @@ double stale_after(double pose_interval_s, const ForceLimits& limits) noexcept {
   return std::clamp(kStaleIntervals * pose_interval_s, limits.stale_s, longest_s);
 }
 
+void ForceSafety::set_device(const DeviceLimits& device) noexcept {
+  device_ = device;
+  acting_.set_limits(max_force_n(), max_torque_nm());
+}
+
 void ForceSafety::clear_fault() noexcept {
   faulted_ = false;
   restart();
@@ -141,14 +146,12 @@ Wrench ForceSafety::filter(const SafetyInput& input, std::uint32_t& state) noexc
 
 void ForceSafety::limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept {
   drop_unactuated(wrench, device_.actuated_axes, input.orientation);
-  const double max_force_n = std::min(device_.max_force_n, limits_.max_force_n);
-  const double max_torque_nm = std::min(device_.max_torque_nm, limits_.max_torque_nm);
-  if (clamp_wrench(wrench, max_force_n, max_torque_nm)) state |= msg::FORCE_CLAMPED;
+  if (clamp_wrench(wrench, max_force_n(), max_torque_nm())) state |= msg::FORCE_CLAMPED;
   // a stall is no reason to step: it counts for one period
   if (slew_wrench(wrench, model_, limits_, slew_s(input))) state |= msg::FORCE_SLEW;
   // the decay binds what leaves, the slew limit included
   if (state & (msg::FORCE_STALE | msg::FORCE_PAUSED))
-    clamp_wrench(wrench, gain_ * max_force_n, gain_ * max_torque_nm);
+    clamp_wrench(wrench, gain_ * max_force_n(), gain_ * max_torque_nm());
 }
 
 // A debt is taken out of the hand's own motion.
@@ -160,8 +163,7 @@ void ForceSafety::damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& 
   if (damping_.isZero(0)) return;
   state |= msg::FORCE_PASSIVITY;
   wrench.force += damping_;
-  clamp_wrench(wrench, std::min(device_.max_force_n, limits_.max_force_n),
-               std::min(device_.max_torque_nm, limits_.max_torque_nm));
+  clamp_wrench(wrench, max_force_n(), max_torque_nm());
 }
 
 void ForceSafety::let_go() noexcept {

@@ -74,10 +74,12 @@ struct SafeForce {
 /// are given. One thread.
 class ForceSafety {
  public:
-  explicit ForceSafety(const ForceLimits& limits) : limits_(limits), acting_(limits.decay_s) {}
+  explicit ForceSafety(const ForceLimits& limits) : limits_(limits), acting_(limits.decay_s) {
+    set_device({});
+  }
 
   /// DeviceInfo: from now on the smaller of both limits, on the axes that the device drives.
-  void set_device(const DeviceLimits& device) noexcept { device_ = device; }
+  void set_device(const DeviceLimits& device) noexcept;
 
   /// Every tick. Pauses and stale poses let the force decay to zero within decay_s.
   SafeForce pass(const SafetyInput& input) noexcept;
@@ -102,6 +104,8 @@ class ForceSafety {
   void limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept;
   void damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) noexcept;
   void let_go() noexcept;
+  double max_force_n() const noexcept { return std::min(device_.max_force_n, limits_.max_force_n); }
+  double max_torque_nm() const noexcept { return std::min(device_.max_torque_nm, limits_.max_torque_nm); }
   double interval_s(const SafetyInput& input) const noexcept;
   double slew_s(const SafetyInput& input) const noexcept { return std::min(input.dt_s, limits_.period_s); }
 

@@ -115,6 +115,8 @@ class HandBench {
   }
 
   const Received& received() const { return received_; }
+  /// What the hand received in all until now, J.
+  double work_j() const { return work_j_; }
   haptic::ToolLine& line() { return line_; }
   device::ToolChannel& channel() { return *channel_; }
   Kit kit = Kit::kWhole;

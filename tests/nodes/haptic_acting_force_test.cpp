@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace omentum::haptic {
 namespace {
 
@@ -59,6 +61,20 @@ TEST(ActingForce, OfAForceThatDecayedOnTheWayTheWorseEndCounts) {
   acting.age(0.1);
   EXPECT_NEAR(acting.work(kWay, Vec3::Zero(), 0.1).soon_j, 4e-3, kRounding_j);
   EXPECT_EQ(acting.work(-kWay, Vec3::Zero(), 0.1).soon_j, 0);
+}
+
+// After an expiry a device lets the force fade in: what the hand put in is believed by its share only.
+TEST(ActingForce, WhatAFadingForceTookFromTheHandIsNotOverrated) {
+  constexpr double kLimit_n = 10, kFadeIn_s = 0.2;
+  ActingForce acting(kDecay_s);
+  acting.set_limits(kLimit_n, 0.5);
+  acting.age(1);
+  for (int ms = 1; ms <= 250; ++ms) {
+    tick(acting, 4);
+    const double exerted_n = std::min(4.0, kLimit_n * 1e-3 * ms / kFadeIn_s);
+    EXPECT_NEAR(acting.work(-kWay, Vec3::Zero(), kTick_s / 2).soon_j, -1e-3 * exerted_n, kRounding_j) << ms;
+    EXPECT_NEAR(acting.work(kWay, Vec3::Zero(), kTick_s / 2).soon_j, 4e-3, kRounding_j) << ms;
+  }
 }
 
 TEST(ActingForce, TorqueWorksToo) {
