@@ -54,6 +54,10 @@ class Device {
   /// was measured then.
   virtual Measurement measure(std::int64_t now_ns) noexcept = 0;
 
+  /// Whether measure() itself lets the coming period pass, under the wrench commanded just before: a
+  /// simulation. Hardware came to where it is measured under the wrench before that one.
+  virtual bool simulates() const noexcept { return false; }
+
   /// For devices that move on their own: the session pauses, continues, or starts again.
   virtual void pause(bool /*paused*/) noexcept {}
   virtual void restart() noexcept {}

@@ -120,7 +120,10 @@ nlohmann::json DeviceBridge::report() const {
     expired += channel->expired();
     energy_j += channel->energy_j();
     nlohmann::json hand = channel->device().report();
-    hand.update({{"tool", channel->tool()}, {"energy_j", channel->energy_j()}});
+    hand.update({{"tool", channel->tool()},
+                 {"energy_j", channel->energy_j()},
+                 {"most_energy_j", channel->most_energy_j()},
+                 {"held_back", channel->held_back()}});
     hands.push_back(hand);
   }
   const nlohmann::json round_trip = to_json(answers.to_force);

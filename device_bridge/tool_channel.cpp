@@ -1,5 +1,6 @@
 #include "device_bridge/tool_channel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -45,7 +46,8 @@ ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& fau
                        ": the device measured a pose that is not finite"),
       old_measurement_("tool " + std::to_string(info_.tool) +
                        ": the device's newest measurement is not of this moment"),
-      hold_(info_.max_force_n, info_.max_torque_nm) {
+      hold_(info_.max_force_n, info_.max_torque_nm),
+      guard_(info_.max_force_n, info_.max_torque_nm, info_.actuated_axes) {
   pose_.tool = info_.tool;
   pose_.orientation.w = 1;
 }
@@ -63,14 +65,20 @@ const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
   if (received_.fetch() && !hold_.take(received_.value().answer, received_.value().at_ns)) {
     faults_.raise(bad_force_);
   }
-  const Wrench wrench = hold_.at(now_ns);
+  const Wrench wrench = guard_.limit(hold_.at(now_ns), now_ns);
   device_->command(wrench);
 
+  // what moved the hand to where it is measured now
+  const Wrench moving = device_->simulates() ? wrench : exerted_;
+  exerted_ = wrench;
   const Vec3 before = from_message(pose_.position);
   const bool moved_from_there = pose_.valid;
-  fill(device_->measure(now_ns), now_ns);
+  const Measurement measured = device_->measure(now_ns);
+  fill(measured, now_ns);
+  guard_.follow(measured, pose_.valid, device_->simulates());
   if (moved_from_there && pose_.valid) {
-    energy_j_ += wrench.force.dot(from_message(pose_.position) - before);
+    energy_j_ += moving.force.dot(from_message(pose_.position) - before);
+    most_energy_j_ = std::max(most_energy_j_, energy_j_);
   }
   gate_.sent(pose_.seq, pose_.stamp_ns);
   return pose_;

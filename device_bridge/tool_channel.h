@@ -4,6 +4,7 @@
 #include "device_bridge/answer_gate.h"
 #include "device_bridge/device.h"
 #include "device_bridge/force_hold.h"
+#include "device_bridge/hand_guard.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
 
@@ -40,6 +41,10 @@ class ToolChannel {
   std::uint64_t sent() const { return pose_.seq; }
   /// Given to the hand by the forces' work along the way of the tip, J: negative where the hand gave.
   double energy_j() const { return energy_j_; }
+  /// The most that it was at any time, J: EnergyTank::kBound_j bounds it.
+  double most_energy_j() const { return most_energy_j_; }
+  /// In how many periods less was exerted than answered, because it was not covered (HandGuard).
+  std::uint64_t held_back() const { return guard_.held_back(); }
   /// How many times answers did not come in time, so that the force decayed.
   std::uint64_t expired() const { return hold_.expired(); }
   /// Any thread.
@@ -62,8 +67,10 @@ class ToolChannel {
   AnswerGate gate_;
   runtime::Mailbox<Received> received_;
   ForceHold hold_;
+  HandGuard guard_;
+  Wrench exerted_;  // commanded last
   msg::ToolPose pose_;
-  double energy_j_ = 0;
+  double energy_j_ = 0, most_energy_j_ = 0;
 };
 
 }  // namespace omentum::device

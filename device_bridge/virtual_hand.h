@@ -16,6 +16,7 @@ class VirtualHand : public Device {
   msg::DeviceInfo info() const override;
   void command(const Wrench& wrench) noexcept override { wrench_ = wrench; }
   Measurement measure(std::int64_t now_ns) noexcept override;
+  bool simulates() const noexcept override { return true; }
 
   /// The target comes to rest, or goes on, within a tenth of a second.
   void pause(bool paused) noexcept override { paused_ = paused; }

@@ -11,8 +11,12 @@ namespace {
 
 // Poses that a device may be late by before it counts as silent.
 constexpr double kStaleIntervals = 2.5;
-// A stall is no reason to step: a tick counts for at most so many nominal periods of slew.
-constexpr double kSlewPeriods = 2;
+// A force written now acts until the answer to the next pose but one: one interval until that pose, one more
+// until the device turns to its answer.
+constexpr double kHorizonIntervals = 2;
+// What the noise of a tracker seems to give at most, W: stiffness times its variance times the rate, 20 um of
+// noise against 1 kN/m at 1 kHz.
+constexpr double kTrackerNoise_w = 0.4e-3;
 
 bool shorten(Vec3& v, double limit) {
   const double length = v.norm();
@@ -52,33 +56,62 @@ double stale_after(double pose_interval_s, const ForceLimits& limits) noexcept {
   return std::clamp(kStaleIntervals * pose_interval_s, limits.stale_s, longest_s);
 }
 
+void ForceSafety::set_device(const DeviceLimits& device) noexcept {
+  device_ = device;
+  acting_.set_limits(max_force_n(), max_torque_nm());
+}
+
 void ForceSafety::clear_fault() noexcept {
   faulted_ = false;
   restart();
 }
 
-void ForceSafety::restart() noexcept {
-  gain_ = 0;
-  passivity_.restart();
+// How long the hand goes on unseen after a pose.
+double ForceSafety::interval_s(const SafetyInput& input) const noexcept {
+  return input.pose_interval_s > 0 ? input.pose_interval_s : std::max(way_s_, limits_.period_s);
 }
 
-// What the hand did since the last tick, under the force that was written last.
+// What the hand did since the last tick, under the forces that may have acted.
 void ForceSafety::follow(const SafetyInput& input) noexcept {
-  if (input.written) acting_ = passed_;
-  if (!known_place_ || input.reconnected) {
-    velocity_.setZero();
+  acting_.age(input.dt_s);
+  if (input.written) acting_.tell(passed_, told_valid_s_, input.dt_s);
+  told_valid_s_ = stale_after(input.pose_interval_s, limits_);
+  const bool same_hand = known_place_ && !input.reconnected;
+  if (same_hand && input.way_s > 0) {
+    const Vec3 way = input.tip - tip_, turn = rotation_between(orientation_, input.orientation);
+    const ActingForce::Work given = acting_.work(way, turn, input.way_s);
+    charge({given.soon_j - reckoned_.soon_j, given.late_j - reckoned_.late_j}, input);
+    reckoned_ = {};
+    way_s_ = input.way_s;
+    motion_.follow(way, turn, way_s_);
   } else {
-    const Vec3 way = input.tip - tip_;
-    if (input.way_s > 0) {
-      way_s_ = input.way_s;
-      velocity_ = way / way_s_;
-    }
-    passivity_.observe(acting_, way, rotation_between(orientation_, input.orientation), input.stored_j,
-                       input.dt_s);
+    reckon(input);
+  }
+  if (!same_hand) {
+    // where it was meanwhile nobody knows: what was charged stays
+    reckoned_ = {};
+    motion_ = {};
   }
   known_place_ = input.engaged;
   tip_ = input.tip;
   orientation_ = input.orientation;
+}
+
+// While nothing is heard the hand may go on as it did. The next pose puts it right.
+void ForceSafety::reckon(const SafetyInput& input) noexcept {
+  const ActingForce::Work ahead =
+      acting_.work(motion_.velocity * input.dt_s, motion_.turn_rate * input.dt_s, input.dt_s);
+  const ActingForce::Work given{std::max(0.0, ahead.soon_j), std::max(0.0, ahead.late_j)};
+  reckoned_.soon_j += given.soon_j;
+  reckoned_.late_j += given.late_j;
+  charge(given, input);
+}
+
+void ForceSafety::charge(const ActingForce::Work& given, const SafetyInput& input) noexcept {
+  // a pose's noise is in the answer to it and in the way that begins with it: work that no hand received
+  const double noise_j = std::clamp(soon_.given_j() - late_.given_j(), 0.0, kTrackerNoise_w * input.dt_s);
+  soon_.observe(given.soon_j - noise_j, input.stored_j, input.dt_s);
+  late_.observe(given.late_j, input.stored_j, input.dt_s);
 }
 
 void ForceSafety::fade_to(const SafetyInput& input, std::uint32_t& state) noexcept {
@@ -95,48 +128,63 @@ void ForceSafety::fade_to(const SafetyInput& input, std::uint32_t& state) noexce
   } else if (fresh && gain_ < 1) {
     state |= msg::FORCE_RAMP;
   }
-  // what comes after a pause is a new account
-  if (input.paused && gain_ == 0) passivity_.restart();
 }
 
 Wrench ForceSafety::filter(const SafetyInput& input, std::uint32_t& state) noexcept {
-  const double share = passivity_.model_share();
-  Wrench wrench{gain_ * share * input.model.force, gain_ * share * input.model.torque};
-  const Vec3 damping = passivity_.damping(velocity_, way_s_);
-  if (gain_ > 0 && (share < 1 || !damping.isZero(0))) {
-    wrench.force += gain_ * damping;
-    state |= msg::FORCE_PASSIVITY;
-  }
+  Wrench wrench{gain_ * input.model.force, gain_ * input.model.torque};
   limit(input, wrench, state);
+  // last of all: what falls by this falls at once
+  share_ = tank().share(
+      node::work_ahead_j(wrench.force, wrench.torque, motion_, kHorizonIntervals * interval_s(input)));
+  if (share_ < 1) state |= msg::FORCE_PASSIVITY;
+  wrench.force *= share_;
+  wrench.torque *= share_;
+  model_ = wrench;
+  damp(input, wrench, state);
   return wrench;
 }
 
 void ForceSafety::limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept {
   drop_unactuated(wrench, device_.actuated_axes, input.orientation);
-  const double max_force_n = std::min(device_.max_force_n, limits_.max_force_n);
-  const double max_torque_nm = std::min(device_.max_torque_nm, limits_.max_torque_nm);
-  if (clamp_wrench(wrench, max_force_n, max_torque_nm)) state |= msg::FORCE_CLAMPED;
-  const double slew_s = std::min(input.dt_s, kSlewPeriods * limits_.period_s);
-  if (slew_wrench(wrench, passed_, limits_, slew_s)) state |= msg::FORCE_SLEW;
+  if (clamp_wrench(wrench, max_force_n(), max_torque_nm())) state |= msg::FORCE_CLAMPED;
+  // a stall is no reason to step: it counts for one period
+  if (slew_wrench(wrench, model_, limits_, slew_s(input))) state |= msg::FORCE_SLEW;
   // the decay binds what leaves, the slew limit included
   if (state & (msg::FORCE_STALE | msg::FORCE_PAUSED))
-    clamp_wrench(wrench, gain_ * max_force_n, gain_ * max_torque_nm);
+    clamp_wrench(wrench, gain_ * max_force_n(), gain_ * max_torque_nm());
+}
+
+// A debt is taken out of the hand's own motion.
+void ForceSafety::damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) noexcept {
+  Wrench damper{gain_ * tank().damping(motion_, interval_s(input)), Vec3::Zero()};
+  drop_unactuated(damper, device_.actuated_axes, input.orientation);
+  slew_wrench(damper, {damping_, Vec3::Zero()}, limits_, slew_s(input));
+  damping_ = gain_ > 0 ? damper.force : Vec3::Zero();
+  if (damping_.isZero(0)) return;
+  state |= msg::FORCE_PASSIVITY;
+  wrench.force += damping_;
+  clamp_wrench(wrench, max_force_n(), max_torque_nm());
+}
+
+void ForceSafety::let_go() noexcept {
+  restart();
+  model_ = {};
+  damping_.setZero();
 }
 
 SafeForce ForceSafety::pass(const SafetyInput& input) noexcept {
   SafeForce out;
-  const bool readable = is_finite(input.model) && input.tip.allFinite() &&
-                        input.orientation.coeffs().allFinite() && std::isfinite(input.dt_s) &&
-                        input.dt_s >= 0 && std::isfinite(input.pose_age_s);
-  if (!readable) faulted_ = true;
-  if (readable) {
+  const bool in_place = input.tip.allFinite() && input.orientation.coeffs().allFinite() &&
+                        std::isfinite(input.dt_s) && input.dt_s >= 0 && std::isfinite(input.pose_age_s);
+  if (!in_place || !is_finite(input.model) || !std::isfinite(input.stored_j)) faulted_ = true;
+  if (in_place) {
     follow(input);
     fade_to(input, out.state);
   }
   if (!faulted_) out.wrench = filter(input, out.state);
   if (!is_finite(out.wrench)) faulted_ = true;
   if (faulted_) {
-    restart();
+    let_go();
     out = {Wrench{}, out.state | msg::FORCE_FAULT};
   }
   passed_ = out.wrench;

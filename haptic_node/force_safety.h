@@ -2,11 +2,13 @@
 // smooth, young and passive.
 #pragma once
 
+#include "haptic_node/acting_force.h"
 #include "haptic_node/device_limits.h"
-#include "haptic_node/passivity.h"
+#include "node/energy_tank.h"
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace omentum::haptic {
@@ -57,9 +59,9 @@ struct SafetyInput {
   double pose_interval_s = 0;  // how often this tool's poses come; 0: not known
   double way_s = 0;            // what the way from the last pose to a new one took; 0: no new pose
   double dt_s = 0;             // since the last tick
-  bool written = true;         // what the last pass() returned was sent
-  bool engaged = false;        // a pose was ever accepted
-  bool reconnected = false;    // the newest pose is a new connection
+  bool written = true;         // what the last pass() returned was written, as far as the writer knows
+  bool engaged = false;        // a tool is there
+  bool reconnected = false;    // it appears: a new connection, or after a silence
   bool paused = false;
 };
 
@@ -72,10 +74,12 @@ struct SafeForce {
 /// are given. One thread.
 class ForceSafety {
  public:
-  explicit ForceSafety(const ForceLimits& limits) : limits_(limits) {}
+  explicit ForceSafety(const ForceLimits& limits) : limits_(limits), acting_(limits.decay_s) {
+    set_device({});
+  }
 
   /// DeviceInfo: from now on the smaller of both limits, on the axes that the device drives.
-  void set_device(const DeviceLimits& device) noexcept { device_ = device; }
+  void set_device(const DeviceLimits& device) noexcept;
 
   /// Every tick. Pauses and stale poses let the force decay to zero within decay_s.
   SafeForce pass(const SafetyInput& input) noexcept;
@@ -83,28 +87,44 @@ class ForceSafety {
   /// A latched fault holds the force at zero until a person clears it; then it fades in.
   bool faulted() const noexcept { return faulted_; }
   void clear_fault() noexcept;
-  /// The next force fades in from zero.
-  void restart() noexcept;
+  /// The next force fades in from zero. The energy account goes on: a new one would be a new reserve.
+  void restart() noexcept { gain_ = 0; }
 
-  const PassivityObserver& passivity() const noexcept { return passivity_; }
+  /// What the hand was given as far as this node can know: the worse of what may be.
+  const node::EnergyTank& tank() const noexcept { return soon_.level_j() < late_.level_j() ? soon_ : late_; }
+  /// The share of the model's wrench that the tank let through in the last pass, 0..1.
+  double share() const noexcept { return share_; }
 
  private:
   void follow(const SafetyInput& input) noexcept;
+  void reckon(const SafetyInput& input) noexcept;
+  void charge(const ActingForce::Work& given, const SafetyInput& input) noexcept;
   void fade_to(const SafetyInput& input, std::uint32_t& state) noexcept;
   Wrench filter(const SafetyInput& input, std::uint32_t& state) noexcept;
   void limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept;
+  void damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) noexcept;
+  void let_go() noexcept;
+  double max_force_n() const noexcept { return std::min(device_.max_force_n, limits_.max_force_n); }
+  double max_torque_nm() const noexcept { return std::min(device_.max_torque_nm, limits_.max_torque_nm); }
+  double interval_s(const SafetyInput& input) const noexcept;
+  double slew_s(const SafetyInput& input) const noexcept { return std::min(input.dt_s, limits_.period_s); }
 
   ForceLimits limits_;
   DeviceLimits device_;
-  PassivityObserver passivity_;
-  Wrench passed_;  // what the last pass() returned
-  Wrench acting_;  // what was written last: the device exerts it
-  double gain_ = 0;
+  ActingForce acting_;
+  node::EnergyTank soon_, late_;  // for a device that turns to an answer at once, and in its next period
+  Wrench passed_;                 // what the last pass() returned: ...
+  Wrench model_;                  // ... the model's part of it ...
+  Vec3 damping_ = Vec3::Zero();   // ... and the damper's, N
+  double told_valid_s_ = 0;       // for how long it holds
+  double gain_ = 0, share_ = 1;
   bool faulted_ = false;
   bool known_place_ = false;
-  Vec3 tip_ = Vec3::Zero(), velocity_ = Vec3::Zero();
-  double way_s_ = 0;  // of the newest way
+  Vec3 tip_ = Vec3::Zero();
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
+  node::HandMotion motion_;     // on the newest way ...
+  double way_s_ = 0;            // ... which took so long
+  ActingForce::Work reckoned_;  // charged since the newest pose, as if the hand had gone on
 };
 
 }  // namespace omentum::haptic

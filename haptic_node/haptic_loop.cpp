@@ -164,8 +164,8 @@ void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
   const auto again_ns = static_cast<std::int64_t>(kAnswerAgainPeriods * 1e9 / options_.rate_hz);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const msg::ToolForce& force = lines_[i]->answer(outputs_[i], now_ns, dt_s, paused);
-    if (lines_[i]->engaged() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
-      force_writer_->write(lines_[i]->to_send(ticks_));
+    if (lines_[i]->is_told() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
+      lines_[i]->sent(force_writer_->write(lines_[i]->to_send(ticks_)));
       answered_ns_[i] = now_ns;
     }
     if (outputs_[i].touching == 0) continue;
@@ -240,7 +240,7 @@ nlohmann::json HapticLoop::report() const {
                      {"accepted", counts.accepted},
                      {"refused", counts.refused},
                      {"lost", counts.lost},
-                     {"energy_given_j", line->safety().passivity().given_j()}});
+                     {"energy_given_j", line->safety().tank().given_j()}});
   }
   const double samples = static_cast<double>(std::max<std::uint64_t>(1, force_samples_));
   const transport::EndpointStatus link = pose_reader_->status();

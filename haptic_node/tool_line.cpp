@@ -9,6 +9,15 @@ namespace omentum::haptic {
 using node::to_message;
 using node::to_vector;
 
+namespace {
+
+// Less of the model's force than this is a source that somebody should know of; a few per cent are what a
+// sampled contact gives.
+constexpr double kCutShare = 0.5;
+constexpr double kBelievedIntervals = 2;
+
+}  // namespace
+
 ToolFrame frame_of(const msg::ToolPose& pose) noexcept {
   const msg::Quat& q = pose.orientation;
   return {to_vector(pose.position), Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
@@ -63,20 +72,34 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
   }
   const bool fresh = poses_.fetch();
   const HeardPose& heard = poses_.value();
-  reconnected_ = heard.connection != connection_;
+  const std::int64_t silence = silence_ns(heard);
+  // a loop that stood still did not see the silence, but it was one
+  reconnected_ = heard.connection != connection_ || (fresh && heard.arrival_ns - taken_arrival_ns_ > silence);
   way_s_ = 0;
   if (fresh) take(heard);
-  engaged_ = heard.connection > 0 && now_ns - heard.arrival_ns < kLetGo_ns;
-  input = {engaged_, reconnected_, frame_of(heard.pose), heard.pose.grip, max_stiffness_n_m_};
+  const std::int64_t age_ns = now_ns - heard.arrival_ns;
+  engaged_ = heard.connection > 0 && age_ns < silence;
+  told_ = heard.connection > 0 && age_ns < kForget_ns;
+  // a tool that appears lets go first: in the dent of its own last force it would seem to be outside
+  input = {engaged_ && !reconnected_, reconnected_, frame_of(heard.pose), heard.pose.grip,
+           max_stiffness_n_m_};
   return fresh;
 }
 
-// How long the way from the pose before took: a burst arrives faster than it was measured, and stamps may be
-// in any unit; the longer one makes the hand slow rather than fast.
+// From when on nothing is left of a force: the pose was stale and the decay is over.
+std::int64_t ToolLine::silence_ns(const HeardPose& heard) const noexcept {
+  return static_cast<std::int64_t>(1e9 * (stale_after(heard.interval_s, limits_) + limits_.decay_s));
+}
+
+// How long the way from the pose before took: a burst arrives faster than it was measured; the longer one
+// makes the hand slow rather than fast. Stamps may be in any unit, so that they are believed up to twice the
+// usual.
 void ToolLine::take(const HeardPose& heard) noexcept {
   if (!reconnected_) {
-    way_s_ = 1e-9 * static_cast<double>(std::max(stamp_difference_ns(stamp_ns_, heard.pose.stamp_ns),
-                                                 heard.arrival_ns - taken_arrival_ns_));
+    const double arrived_s = 1e-9 * static_cast<double>(heard.arrival_ns - taken_arrival_ns_);
+    const double measured_s = 1e-9 * static_cast<double>(stamp_difference_ns(stamp_ns_, heard.pose.stamp_ns));
+    const double most_s = heard.interval_s > 0 ? kBelievedIntervals * heard.interval_s : measured_s;
+    way_s_ = std::max(arrived_s, std::min(measured_s, most_s));
   }
   connection_ = heard.connection;
   stamp_ns_ = heard.pose.stamp_ns;
@@ -121,18 +144,18 @@ SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, doubl
 
 // Through the exit; what changed for the worse is a fault, once for each time.
 SafeForce ToolLine::pass(const SafetyInput& input) noexcept {
-  const bool faulted_before = safety_.faulted(), cut_before = safety_.passivity().model_share() < 1;
+  const bool faulted_before = safety_.faulted();
   SafeForce safe = safety_.pass(input);
   written_ = false;
   if (safety_.faulted() && !faulted_before) faults_.raise(force_fault_);
-  if (safety_.passivity().model_share() < 1 && !cut_before) faults_.raise(source_fault_);
+  if (safety_.share() < kCutShare && !fed_) faults_.raise(source_fault_);
+  fed_ = safety_.share() < kCutShare || (fed_ && safety_.share() < 1);
   return safe;
 }
 
 const msg::ToolForce& ToolLine::to_send(std::uint64_t tick) noexcept {
   ++force_.seq;
   force_.tick = tick;
-  written_ = true;
   return force_;
 }
 

@@ -21,9 +21,8 @@ struct PoseCounts {
 /// All times are CLOCK_MONOTONIC of this process, ns, and are given: tests inject them.
 class ToolLine {
  public:
-  /// A pose older than this has no tool behind it, ns: it lets go of the tissue. Long after the force is
-  /// gone, so that a hiccup of the network does not leave the tip inside the organ without contact.
-  static constexpr std::int64_t kLetGo_ns = 1'000'000'000;
+  /// After so long a silence a device is told nothing more, ns.
+  static constexpr std::int64_t kForget_ns = 1'000'000'000;
 
   /// `id`: which tool of the scene. `faults` must outlive the line.
   ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults);
@@ -45,20 +44,27 @@ class ToolLine {
 
   // ---- the loop's thread
 
-  /// Takes the newest pose; what the step shall see of it. Returns whether it is a new one.
+  /// Takes the newest pose; what the step shall see of it. Returns whether it is a new one. A silent tool
+  /// holds its dent no longer than its force: when that has decayed it lets go of the tissue. If it is heard
+  /// again it is a tool that appears where it is.
   bool listen(std::int64_t now_ns, ToolInput& input) noexcept;
   /// The force that may leave, with the echo of the pose that `listen` took. Every tick: safety follows the
   /// hand.
   const msg::ToolForce& answer(const ToolOutput& output, std::int64_t now_ns, double dt_s,
                                bool paused) noexcept;
-  /// The newest answer as the next sample of the topic: only what is sent is counted.
+  /// The newest answer as the next sample of the topic: only what is sent is counted. Then say whether it
+  /// was.
   const msg::ToolForce& to_send(std::uint64_t tick) noexcept;
+  void sent(bool written) noexcept { written_ = written; }
 
-  /// After a reset: the next force fades in from zero, on a new energy account.
+  /// After a reset: the next force fades in from zero.
   void restart() noexcept;
   /// A person says that the latched fault is mended: the next force fades in from zero.
   void clear_fault() noexcept { safety_.clear_fault(); }
+  /// Whether a tool is in the scene.
   bool engaged() const noexcept { return engaged_; }
+  /// Whether its device is told forces: as long as that, and a while longer that there is none.
+  bool is_told() const noexcept { return told_; }
   /// The newest pose that counts; seq 0 and stamp 0 before the first.
   msg::Echo echo() const noexcept;
   const ForceSafety& safety() const noexcept { return safety_; }
@@ -72,6 +78,7 @@ class ToolLine {
   };
 
   void take(const HeardPose& heard) noexcept;
+  std::int64_t silence_ns(const HeardPose& heard) const noexcept;
   SafetyInput known(const ToolOutput& output, std::int64_t now_ns, double dt_s) const noexcept;
   SafeForce pass(const SafetyInput& input) noexcept;
 
@@ -93,11 +100,13 @@ class ToolLine {
   // the loop's thread
   ForceSafety safety_;
   double max_stiffness_n_m_ = kUsualStiffness_n_m;
-  bool engaged_ = false, reconnected_ = false;
-  std::uint64_t connection_ = 0;                      // of the newest pose taken ...
+  bool engaged_ = false, told_ = false;
+  bool reconnected_ = false;      // it appears where it is: a new connection, or after a silence
+  std::uint64_t connection_ = 0;  // of the newest pose taken ...
   std::int64_t stamp_ns_ = 0, taken_arrival_ns_ = 0;  // ... and when it was measured and came
   double way_s_ = 0;      // what the way to it took; 0: no pose was taken in this tick
-  bool written_ = false;  // the last answer was sent
+  bool written_ = false;  // the last answer was
+  bool fed_ = false;      // a source was cut off, and said so
   msg::ToolForce force_{};
 };
 

@@ -190,13 +190,14 @@ TEST_F(ToolChannelTest, ADeviceWithoutAMeasurementIsNoFault) {
 
 TEST_F(ToolChannelTest, EnergyIsTheForcesWorkOnTheHand) {
   fade_in({0, 0, 2});
-  tick(0);
-  answer({0, 0, 2}, kMs);
-  device->measurement.position = {0.1, 0, -0.03};  // against the force: the hand gives
-  tick(kMs);
+  const auto move_to = [this](double share, std::int64_t ms) {
+    device->measurement.position = share * Vec3(0.1, 0, -0.03);
+    tick(ms * kMs);
+    answer({0, 0, 2}, ms * kMs);
+  };
+  for (int ms = 0; ms <= 1000; ++ms) move_to(1e-3 * ms, ms);  // against the force: the hand gives
   EXPECT_NEAR(channel.energy_j(), -0.06, 1e-12);
-  device->measurement.position = {0, 0, 0};
-  tick(2 * kMs);
+  for (int ms = 1001; ms <= 2000; ++ms) move_to(2 - 1e-3 * ms, ms);
   EXPECT_NEAR(channel.energy_j(), 0, 1e-12);
 }
 

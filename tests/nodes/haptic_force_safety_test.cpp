@@ -12,6 +12,7 @@ using haptic::ForceSafety;
 using haptic::SafeForce;
 using haptic::SafetyInput;
 using haptic::Wrench;
+using node::EnergyTank;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTick_s = 1e-3;
@@ -111,22 +112,37 @@ TEST(ForceSafety, TheSmallerOfSceneAndDeviceLimitsCounts) {
 }
 
 TEST(ForceSafety, AxesWithoutAMotorGetNothing) {
-  ForceSafety safety = ramped_up();
+  ForceSafety safety{ForceLimits{}};
   safety.set_device({.actuated_axes = msg::AXIS_X | msg::AXIS_Z | msg::AXIS_ROLL});
   SafetyInput input = fresh({Vec3(1, 1, 1), Vec3(0.1, 0.1, 0.1)});
   input.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY()));  // the shaft is along x
+  for (int i = 0; i < 300; ++i) static_cast<void>(safety.pass(input));
   const SafeForce out = safety.pass(input);
   EXPECT_LE((out.wrench.force - Vec3(1, 0, 1)).norm(), kRounding_n);
   EXPECT_LE((out.wrench.torque - Vec3(0.1, 0, 0)).norm(), kRounding_n);
   safety.set_device({.actuated_axes = msg::AXIS_GRIP});
-  EXPECT_EQ(safety.pass(input).wrench.torque, Vec3::Zero());
+  EXPECT_LE(safety.pass(input).wrench.torque.norm(), kRounding_n);
 }
 
 TEST(ForceSafety, AStallIsNoReasonToStep) {
   ForceSafety safety = ramped_up();
   SafetyInput late = fresh(force_z(10));
   late.dt_s = 0.02;
-  EXPECT_LE(safety.pass(late).wrench.force.z(), 4 + kRounding_n) << "two nominal periods of 2 N";
+  EXPECT_LE(safety.pass(late).wrench.force.z(), 2 + kRounding_n) << "one nominal period of 2 N";
+}
+
+// At 300 Hz two nominal periods would have been the whole limit.
+TEST(ForceSafety, AfterAStallNoTickStepsFartherThanANominalOne) {
+  for (const double rate_hz : {300.0, 500.0, 1000.0, 4000.0}) {
+    const ForceLimits limits{.period_s = 1 / rate_hz};
+    for (const double stall_s : {0.003, 0.005, 0.02}) {
+      ForceSafety safety = ramped_up(limits);
+      SafetyInput late = fresh(force_z(limits.max_force_n));
+      late.dt_s = stall_s;
+      EXPECT_LE(safety.pass(late).wrench.force.z(), limits.max_slew_n_s / rate_hz + kRounding_n)
+          << rate_hz << " Hz, " << stall_s << " s";
+    }
+  }
 }
 
 TEST(DeviceLimits, WhatIsNoLimitIsIgnoredAndSaid) {
@@ -240,44 +256,23 @@ TEST(ForceSafety, ReconnectingFadesIn) {
 }
 
 // An active environment: a force along the motion, which feeds the hand without end.
-TEST(ForceSafety, AnActiveModelCannotFeedTheHand) {
-  ForceSafety safety = ramped_up();
-  Vec3 tip = Vec3::Zero();
-  std::uint32_t seen = 0;
-  for (int i = 0; i < 5000; ++i) {
-    const double t = i * kTick_s, omega = 2 * M_PI * 8;
-    const Vec3 velocity(0.05 * std::cos(omega * t), 0, 0);
-    tip += kTick_s * velocity;
-    SafetyInput input = fresh({12.0 * velocity, Vec3::Zero()});  // negative damping of 12 N s/m
-    input.tip = tip;
-    seen |= safety.pass(input).state;
-  }
-  EXPECT_TRUE(seen & msg::FORCE_PASSIVITY);
-  // without the controller the hand would have got 12 N s/m * (0.05 m/s)^2 / 2 * 5 s = 75 mJ
-  using Observer = haptic::PassivityObserver;
-  EXPECT_LE(safety.passivity().given_j(), Observer::kReserve_j + 5 * Observer::kRefill_w + 2e-3);
-}
-
-// Sources that no damper balances: the energy given stays bounded all the same, and the force comes back by
-// itself when the source ends.
-TEST(ForceSafety, ASourceBeyondTheDamperIsCutOff) {
-  using Observer = haptic::PassivityObserver;
-  for (const double source_n_s_m : {50.0, 500.0, 1e5}) {
+TEST(ForceSafety, ASourceGivesNoMoreThanTheBoundAndIsToldAsPassivity) {
+  for (const double source_n_s_m : {12.0, 50.0, 500.0, 1e5}) {
     for (const double speed_m_s : {0.05, 0.5}) {
       ForceSafety safety = ramped_up();
       Vec3 tip = Vec3::Zero();
       double most_j = 0;
+      std::uint32_t seen = 0;
       for (int i = 0; i < 20'000; ++i) {
         const Vec3 velocity(speed_m_s * std::cos(2 * M_PI * 8 * i * kTick_s), 0, 0);
         tip += kTick_s * velocity;
         SafetyInput input = fresh({source_n_s_m * velocity, Vec3::Zero()});
         input.tip = tip;
-        static_cast<void>(safety.pass(input));
-        most_j = std::max(most_j, safety.passivity().given_j());
-        ASSERT_GE(safety.passivity().energy_j(), Observer::kFloor_j);
+        seen |= safety.pass(input).state;
+        most_j = std::max(most_j, safety.tank().given_j());
       }
-      const double bound_j = Observer::kReserve_j - Observer::kFloor_j + 20 * Observer::kRefill_w;
-      EXPECT_LE(most_j, bound_j) << source_n_s_m << " N s/m at " << speed_m_s << " m/s";
+      EXPECT_LE(most_j, EnergyTank::kBound_j) << source_n_s_m << " N s/m at " << speed_m_s << " m/s";
+      EXPECT_TRUE(seen & msg::FORCE_PASSIVITY);
     }
   }
 }
@@ -289,7 +284,7 @@ TEST(ForceSafety, AfterASourceTheHandIsNotInMudForMinutes) {
     input.tip.z() += 1e-4;
     static_cast<void>(safety.pass(input));
   }
-  EXPECT_LT(safety.passivity().model_share(), 1);
+  EXPECT_LT(safety.share(), 1);
   SafeForce out;
   for (int i = 0; i < 3000; ++i) {  // a hand that moves at 5 cm/s
     input = fresh(force_z(0));
@@ -298,7 +293,7 @@ TEST(ForceSafety, AfterASourceTheHandIsNotInMudForMinutes) {
     out = safety.pass(input);
   }
   EXPECT_EQ(out.state, 0u);
-  EXPECT_EQ(safety.passivity().model_share(), 1);
+  EXPECT_EQ(safety.share(), 1);
 }
 
 // A device of 100 Hz in a loop of 1 kHz: the hand's speed is that of its poses, not of the ticks.
@@ -317,7 +312,7 @@ TEST(ForceSafety, ASlowDevicesHandIsDampedByItsOwnSpeed) {
     if (i >= 1000) largest_n = std::max(largest_n, out.wrench.force.norm());
   }
   EXPECT_GT(largest_n, 0);
-  EXPECT_LE(largest_n, haptic::PassivityObserver::kMaxDamping_n_s_m * kSpeed_m_s + kRounding_n);
+  EXPECT_LE(largest_n, EnergyTank::kMaxDamping_n_s_m * kSpeed_m_s + kRounding_n);
 }
 
 TEST(ForceSafety, AnAnswerThatWasNotWrittenDoesNoWork) {
@@ -328,7 +323,7 @@ TEST(ForceSafety, AnAnswerThatWasNotWrittenDoesNoWork) {
     input.tip.z() += 1e-4;
     static_cast<void>(safety.pass(input));
   }
-  EXPECT_EQ(safety.passivity().given_j(), 0);
+  EXPECT_EQ(safety.tank().given_j(), 0);
 }
 
 TEST(ForceSafety, ASpringIsPassiveAndStaysUntouched) {

@@ -4,6 +4,7 @@
 #include "haptic_fixtures.h"
 
 #include <limits>
+#include <optional>
 #include <random>
 
 namespace omentum::haptic_test {
@@ -22,6 +23,10 @@ constexpr double kRounding_n = 1e-9;
 constexpr double kSettled = 1e-4;
 
 constexpr std::int64_t kMs = 1'000'000;
+
+double newton(const msg::ToolForce& f) {
+  return std::hypot(f.force.x, f.force.y, f.force.z);
+}
 
 class LineBench {
  public:
@@ -44,7 +49,9 @@ class LineBench {
     line_.listen(now_ns_, bench_.input());
     bench_.step();
     line_.answer(bench_.output(), now_ns_, kTick_s, paused);
-    return line_.to_send(++ticks_);
+    const msg::ToolForce& force = line_.to_send(++ticks_);
+    line_.sent(true);
+    return force;
   }
   /// A device that sends every `ticks` ms, through one of its intervals: the last answer.
   const msg::ToolForce& press_slowly(const Vec3& tip, int ticks) {
@@ -66,6 +73,8 @@ class LineBench {
     for (int i = 0; i < 20; ++i) press({0.05, 0.05, 0.032});
     return press({0.05, 0.05, 0.032});
   }
+  /// The process is stopped for so long: no tick, no arrival.
+  void stand_still(int ms) { now_ns_ += ms * kMs; }
   std::uint64_t next_seq() { return ++seq_; }
   ToolLine& line() { return line_; }
   Bench& bench() { return bench_; }
@@ -79,9 +88,40 @@ class LineBench {
   std::uint64_t seq_ = 0, ticks_ = 0;
 };
 
-double newton(const msg::ToolForce& f) {
-  return std::hypot(f.force.x, f.force.y, f.force.z);
-}
+/// Two tools' lines and their common step. A tool without a place is silent.
+class TwoTools {
+ public:
+  TwoTools() : bench_(make_model(block(), {round_tool(), round_tool()})) {}
+
+  /// The force on the second tool, N.
+  double tick(const std::optional<Vec3>& first, const std::optional<Vec3>& second) {
+    now_ns_ += kMs;
+    if (first) hear(0, *first);
+    if (second) hear(1, *second);
+    for (std::size_t i = 0; i < 2; ++i) lines_[i].listen(now_ns_, bench_.input(i));
+    bench_.step();
+    double felt_n = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      lines_[i].answer(bench_.output(i), now_ns_, kTick_s, false);
+      felt_n = newton(lines_[i].to_send(++ticks_));
+      lines_[i].sent(true);
+    }
+    return felt_n;
+  }
+
+ private:
+  void hear(std::size_t tool, const Vec3& tip) {
+    msg::ToolPose pose = LineBench::pose_at(tip, ++seq_);
+    pose.stamp_ns = now_ns_;
+    lines_[tool].hear(pose, now_ns_);
+  }
+
+  Bench bench_;
+  runtime::FaultList faults_;
+  std::array<ToolLine, 2> lines_{ToolLine{0, {}, faults_}, ToolLine{1, {}, faults_}};
+  std::int64_t now_ns_ = 0;
+  std::uint64_t seq_ = 0, ticks_ = 0;
+};
 
 TEST(SafetyThroughTheStep, ThePressedForceIsTheModelsOwn) {
   LineBench line;
@@ -91,15 +131,72 @@ TEST(SafetyThroughTheStep, ThePressedForceIsTheModelsOwn) {
   EXPECT_GT(newton(force), 0.3);
 }
 
-TEST(SafetyThroughTheStep, ASilentDeviceLosesItsForceAndGetsItBackGently) {
+TEST(SafetyThroughTheStep, AHiccupLosesForceAndGetsItBackGently) {
   LineBench line;
   const double pressed = newton(line.press_deep());
-  for (int i = 0; i < 26; ++i) line.tick();
-  EXPECT_EQ(newton(line.tick()), 0);
+  for (int i = 0; i < 15; ++i) line.tick();
+  const double left = newton(line.tick());
+  EXPECT_GT(left, 0);
+  EXPECT_LT(left, pressed);
   const Vec3 tip(0.05, 0.05, 0.032);
-  EXPECT_LT(newton(line.press(tip)), 0.02 * pressed);
+  EXPECT_LT(newton(line.press(tip)), left + 0.02 * pressed);
   for (int i = 0; i < 250; ++i) line.press(tip);
   EXPECT_NEAR(newton(line.press(tip)), pressed, 0.02 * pressed);
+}
+
+TEST(SafetyThroughTheStep, AHiccupShorterThanStaleChangesNothing) {
+  LineBench line, steady;
+  line.press_deep();
+  steady.press_deep();
+  for (int i = 0; i < 4; ++i) line.tick();
+  const msg::ToolForce& after = line.press({0.05, 0.05, 0.032});
+  EXPECT_EQ(after.state, 0u);
+  for (int i = 0; i < 4; ++i) steady.press({0.05, 0.05, 0.032});
+  EXPECT_NEAR(newton(after), newton(steady.press({0.05, 0.05, 0.032})), kSettled);
+}
+
+// A loop that stood still saw no silence; poses that come after one are a tool that appears all the same.
+TEST(SafetyThroughTheStep, AfterASilenceTheToolAppearsWhereItIs) {
+  for (const bool loop_stood : {false, true}) {
+    LineBench line;
+    const double pressed = newton(line.press_deep());
+    if (loop_stood) line.stand_still(200);
+    for (int i = 0; i < 26 && !loop_stood; ++i) line.tick();
+    if (!loop_stood) {
+      EXPECT_EQ(newton(line.tick()), 0);
+      EXPECT_EQ(line.bench().state().contact_count, 0) << "its dent went with its force";
+      EXPECT_TRUE(line.line().is_told());
+    }
+    const Vec3 tip(0.05, 0.05, 0.032);
+    for (int i = 0; i < 300; ++i) {
+      ASSERT_LE(newton(line.press(tip)), kSettled * pressed) << "it is not pushed out, " << i;
+    }
+    for (int i = 0; i < 40; ++i) line.press(tip - Vec3(0, 0, 1e-4 * i));
+    EXPECT_GT(newton(line.press(tip - Vec3(0, 0, 4e-3))), 0.1 * pressed) << "it is held back";
+  }
+}
+
+// One tool presses and dies, and at once the other presses the same place: the dent must not be in its way.
+TEST(SafetyThroughTheStep, ADeadToolsDentIsGoneWithItsForce) {
+  const Vec3 above(0.05, 0.05, 0.045), below(0.05, 0.05, 0.032);
+  constexpr int kPress = 150, kSilence = 26;
+  const auto felt = [&](bool pressed_before) {
+    TwoTools tools;
+    for (int i = 0; i < 600; ++i) {
+      const double share = pressed_before ? std::clamp((i - 300) / 200.0, 0.0, 1.0) : 0;
+      tools.tick(above + share * (below - above), above);
+    }
+    for (int i = 0; i < kSilence; ++i) tools.tick(std::nullopt, above);
+    double felt_n = 0;
+    for (int i = 0; i <= kPress + 50; ++i) {
+      const double share = std::min(1.0, static_cast<double>(i) / kPress);
+      felt_n = tools.tick(std::nullopt, above + share * (below - above));
+    }
+    return felt_n;
+  };
+  const double free_n = felt(false);
+  ASSERT_GT(free_n, 0.3);
+  EXPECT_NEAR(felt(true), free_n, 0.01 * free_n);
 }
 
 // Energy is counted over the way: ten times longer steps, of 0.26 mm, show in the share that is felt.
@@ -305,7 +402,7 @@ HandRun run_hand(double rate_hz, double friction) {
     }
   }
   run.held_n /= held;
-  run.given_j = safety.passivity().given_j();
+  run.given_j = safety.tank().given_j();
   return run;
 }
 
@@ -319,7 +416,7 @@ TEST(HandInTheLoop, SafetyStaysOutOfAnOrdinaryPress) {
   for (const double friction : {0.0, 0.3}) {
     const HandRun run = run_hand(1000, friction);
     EXPECT_EQ(run.acted, 0u) << "friction " << friction;
-    EXPECT_LE(run.given_j, haptic::PassivityObserver::kReserve_j);
+    EXPECT_LE(run.given_j, node::EnergyTank::kReserve_j);
   }
 }
 
