@@ -46,7 +46,7 @@ def merge(scene_name, seconds, realtime, nodes, vendors):
         "link": {link: dict(NONE_US) for link in LINKS},
     }
     for node in nodes:
-        own = read_node(node.report, node.name)
+        own = read_node(node.report, node.name) if node.starts else {}
         report["link"].update(own.pop("link", {}))
         report["nodes"][node.name] = {**completed(FIELDS[node.name], own), "dds": vendors[node.name], "exit": node.exit,
                                       "restarts": node.restarts()}
@@ -98,7 +98,10 @@ FIGURES = {"haptic_node": loop_figures, "deform_node": loop_figures, "render_nod
 
 
 def node_row(name, node):
-    exit_code = str(node["exit"]) + (f" ({node['restarts']} restarts)" if node["restarts"] else "")
+    if node["exit"] is None:
+        exit_code = "-"
+    else:
+        exit_code = str(node["exit"]) + (f" ({node['restarts']} restarts)" if node["restarts"] else "")
     return [name, node["dds"], exit_code, *FIGURES[name](node)]
 
 
@@ -121,6 +124,8 @@ def summary(report):
         lines.append(f"deepest dent: {1e3 * picture['deepest_dent_m']:.1f} mm")
     for name, node in report["nodes"].items():
         lines += [f"{name}: {fault}" for fault in node["faults"]]
+        if node["exit"] is None:
+            lines.append(f"{name} was not started: the session ended before")
     if not report["machine"]["realtime"]:
         lines.append("real-time priority was not granted to haptic_node: missed ticks are likelier")
     return "\n".join(lines)

@@ -110,7 +110,7 @@ class Session:
         else:
             self.finish(seconds)
         self.folder.cleanup()
-        return code or (1 if any(node.exit != 0 for node in self.nodes) else 0)
+        return code or (1 if any(node.failed() for node in self.nodes) else 0)
 
     def start(self):
         """Paused, the hand comes last, when the force is known to be off; it is then told to stand still itself."""
