@@ -210,6 +210,7 @@ class RealOrgan(LauncherTest):
         done = self.run_it("--organ", REAL_LIVER, "--headless", "--seconds", "8", "--out", self.out)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("taken as millimetres", done.stdout)
+        self.assertEqual(self.report()["scene"], f"{REAL_LIVER.stem} pressed by a simulated hand")
         self.assertGreater(self.report()["nodes"]["haptic_node"]["force_n"]["max"], 0.1)
 
 
