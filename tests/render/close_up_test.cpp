@@ -39,9 +39,9 @@ struct Stage {
     skin.deform(test::dent(shape, kTop, kDepth_m, 0.006));
     dent = {kDepth_m, (kTop - Vec3(0, 0, kDepth_m)).cast<float>(), Vec3f::UnitZ()};
   }
-  Camera camera(const Camera& familiar = kFamiliar) const {
+  Camera camera(const Camera& familiar = kFamiliar, std::span<const Shaft> shafts = {}) const {
     const OrganSkin* const skins[] = {&skin};
-    return close_up_of(dent, skins, {}, familiar, kGround_m);
+    return close_up_of(dent, skins, shafts, familiar, kGround_m);
   }
   OrganSkin skin;
   Dent dent;
@@ -80,6 +80,20 @@ TEST(CloseUp, LooksIntoAWellFromAbove) {
   OrganShape shape = test::ball_organ(kRadius, 4);
   for (int k = 0; k < kWalls; ++k) add_wall(shape, 2 * std::numbers::pi * k / kWalls, 0.025, 0.02, 0.02);
   expect_seen(Stage(shape));
+}
+
+// The tip of the other hand's tool lies beside the sight, and its handle crosses it.
+TEST(CloseUp, LooksPastAnotherToolsHandle) {
+  const Stage stage(test::ball_organ(kRadius, 4));
+  const Vec3 sight = (stage.camera().eye - kTop).normalized();
+  const Shaft other{kTop + 0.05 * sight - 0.04 * Vec3::UnitX(), Vec3::UnitX()};
+  const Camera camera = stage.camera(kFamiliar, {&other, 1});
+  constexpr double kClear_m = 0.005;
+  for (double share = 0; share <= 1; share += 0.01) {
+    const Vec3 p = camera.target + share * (camera.eye - camera.target) - other.tip;
+    const double on_shaft = std::max(0.0, p.dot(other.towards_handle));
+    EXPECT_GT((p - on_shaft * other.towards_handle).norm(), kClear_m) << share;
+  }
 }
 
 TEST(CloseUp, IsAboveTheTableWhenTheOrgansSideIsPressed) {
