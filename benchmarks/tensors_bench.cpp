@@ -8,6 +8,7 @@
 //                        plain stream's bandwidth in this run
 // The organ: OMENTUM_BENCH_MESH (millimetres; by default the 7,185-tetrahedra liver beside the repository, or
 // a box).
+#include "organ_tools/fast_blas.h"
 #include "physics/blas_threads.h"
 #include "physics/direct_solve.h"
 #include "physics/force_tensors.h"
@@ -205,6 +206,7 @@ void superpose(benchmark::State& state, Bench& b) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  organ_tools::start_with_fast_blas(argv);  // as the programs do
   benchmark::Initialize(&argc, argv);
   Bench bench;
   const auto add = [&](const char* name, void (*run)(benchmark::State&, Bench&)) {
