@@ -15,6 +15,7 @@ FIELDS = {
     "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "closed": False, "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
+LEAST_STEAL = 0.001  # what is worth a line: a tick in a thousand
 LINKS = ("tool_to_force_us", "tool_to_organ_us", "tool_to_picture_us")
 
 
@@ -35,13 +36,13 @@ def read_node(file, name):
         return {"faults": [f"{name} left no report"]}
 
 
-def merge(scene_name, seconds, realtime, nodes, vendors):
-    """From what each node wrote itself, and what the launcher saw of it."""
+def merge(scene_name, seconds, machine, nodes, vendors):
+    """From what each node wrote itself, and what the launcher saw of it; `machine`: `realtime` and `steal_share`."""
     report = {
         "scene": scene_name,
         "seconds": round(seconds, 3),
         "protocol": PROTOCOL,
-        "machine": {"cores": len(os.sched_getaffinity(0)), "kernel": platform.release(), "realtime": realtime},
+        "machine": {"cores": len(os.sched_getaffinity(0)), "kernel": platform.release(), **machine},
         "nodes": {},
         "link": {link: dict(NONE_US) for link in LINKS},
     }
@@ -126,6 +127,8 @@ def summary(report):
         lines += [f"{name}: {fault}" for fault in node["faults"]]
         if node["exit"] is None:
             lines.append(f"{name} was not started: the session ended before")
+    if report["machine"]["steal_share"] >= LEAST_STEAL:
+        lines.append(f"the hypervisor took {100 * report['machine']['steal_share']:.1f} % of the processors' time")
     if not report["machine"]["realtime"]:
         lines.append("real-time priority was not granted to haptic_node: missed ticks are likelier")
     return "\n".join(lines)

@@ -21,7 +21,7 @@ from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
-from launcher import cache, domain, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
+from launcher import cache, domain, machine, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
@@ -34,7 +34,7 @@ LOOP = {"rate_hz": float, "ticks": int, "missed": int, "period_us": TIMES, "comp
 # DESIGN section 5, field by field
 SHAPE = {
     "scene": str, "seconds": float, "protocol": int,
-    "machine": {"cores": int, "kernel": str, "realtime": bool},
+    "machine": {"cores": int, "kernel": str, "realtime": bool, "steal_share": float},
     "nodes": {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
                         "contacts": {"ticks_in_contact": int, "nodes_max": int}, "faults": list},
@@ -490,6 +490,16 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertIn("deform_node", self.ended("deform_node", -11).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 0).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 2).restarts)
+
+    def test_stolen_time_is_a_share_of_the_time_since_the_watch_began(self):
+        stat = self.folder / "stat"
+        stat.write_text("cpu  900 0 50 8000 10 0 0 40 500 0\ncpu0 1 2 3\n")
+        watch = machine.StealWatch(stat)
+        self.assertEqual(watch.share(), 0)
+        stat.write_text("cpu  930 0 60 8050 10 0 0 50 530 0\ncpu0 1 2 3\n")
+        self.assertEqual(watch.share(), 0.1)
+        stat.write_text("cpu  1000 0 60 8050\n")  # a kernel that does not count it
+        self.assertEqual(machine.processor_times(stat.read_text())[0], 0)
 
     def test_table_shows_the_devices_round_trip_and_losses(self):
         times = {**report.NONE_US, "p50": 180.0, "p99": 2500.0, "max": 9000.0, "count": 7}
