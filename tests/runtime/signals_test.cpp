@@ -63,11 +63,13 @@ TEST(StopSignal, ASignalAfterItsEndDoesNotEndTheProgramEarlier) {
 TEST(StopSignal, ASignalWhileTheProgramEndsChangesNothing) {
   EXPECT_EXIT(
       {
-        std::promise<void> heard;
-        const StopSignal stop([&] { heard.set_value(); });
-        kill(getpid(), SIGTERM);
-        heard.get_future().wait();
-        kill(getpid(), SIGTERM);
+        {
+          std::promise<void> heard;
+          const StopSignal stop([&] { heard.set_value(); });
+          kill(getpid(), SIGTERM);
+          heard.get_future().wait();
+          kill(getpid(), SIGTERM);
+        }
         std::exit(0);
       },
       testing::ExitedWithCode(0), "");
