@@ -3,6 +3,7 @@
 // meet the same machine; who begins changes from one to the next, so that each is as often the first, on a
 // machine that slept, and the last, on one that is awake. Columns: microseconds at the median and the 99th
 // percentile, and the Bus as a multiple of the bare vendors at both. "a_b": a device on a, a node on b.
+#include "benchmarks/json_reporter.h"
 #include "runtime/clock.h"
 #include "runtime/histogram.h"
 #include "transport/yardstick/bare_link.h"
@@ -285,9 +286,17 @@ void round_trip(benchmark::State& state, Vendor device, Vendor node) {
   state.counters["bus_per_udp"] = ratio(udp, 0.5);
 }
 
+std::string name_of(Vendor device, Vendor node) {
+  return std::string("round_trip/") + word(device) + "_" + word(node);
+}
+
+void compare(bench::Results& results, const std::string& name) {
+  for (const char* share : {"_p50_us", "_p99_us"})
+    results.compare(name + "/bus" + share, name + "/bare" + share);
+}
+
 void add(Vendor device, Vendor node) {
-  const std::string name = std::string("round_trip/") + word(device) + "_" + word(node);
-  benchmark::RegisterBenchmark(name.c_str(),
+  benchmark::RegisterBenchmark(name_of(device, node).c_str(),
                                [=](benchmark::State& state) { round_trip(state, device, node); })
       ->Iterations(kTrips)
       ->UseRealTime();
@@ -298,9 +307,14 @@ void add(Vendor device, Vendor node) {
 int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--echo") == 0)
     return echo(transport::parse_vendor(argv[2]), std::stoi(argv[3]));
+  bench::Results results(argc, argv);
   benchmark::Initialize(&argc, argv);
   for (const Vendor device : {Vendor::kFast, Vendor::kCyclone})
     for (const Vendor node : {Vendor::kFast, Vendor::kCyclone}) add(device, node);
-  benchmark::RunSpecifiedBenchmarks();
+  bench::JsonReporter reporter(results);
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  for (const Vendor device : {Vendor::kFast, Vendor::kCyclone})
+    for (const Vendor node : {Vendor::kFast, Vendor::kCyclone}) compare(results, name_of(device, node));
+  results.write();
   return 0;
 }

@@ -8,6 +8,9 @@
 //                        plain stream's bandwidth in this run
 // The organ: OMENTUM_BENCH_MESH (millimetres; by default the 7,185-tetrahedra liver beside the repository, or
 // a box).
+#include "benchmarks/child_run.h"
+#include "benchmarks/json_reporter.h"
+#include "organ_tools/fast_blas.h"
 #include "physics/blas_threads.h"
 #include "physics/direct_solve.h"
 #include "physics/force_tensors.h"
@@ -16,7 +19,6 @@
 #include "tests/support/process.h"
 
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -63,27 +65,19 @@ struct OrganBuild {
   double idle_bytes = 0;  // of these, what the program and its libraries take before they do anything
 };
 
-/// The largest resident memory of any child so far. It counts what the parent held when it started the child,
-/// so children are measured while this process is small.
-double peak_of_children() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
+// While this process is small (bench::run_child).
 OrganBuild run_organ_build(const geometry::TetraMesh& mesh) {
   const test::ScratchFolder folder;
-  test::Process("organ_build", {"--help"}).wait();
-  const double idle = peak_of_children();
+  const std::string program = OMENTUM_BIN_DIR "/organ_build";
   geometry::write_mesh(mesh, folder / "organ.msh");
-  const auto start = Clock::now();
-  test::Process build(
-      "organ_build",
-      {folder / "organ.msh", "-o", folder / "organ.h5", "--scale", "1", "--young",
-       std::to_string(kLiver.young_pa), "--poisson", std::to_string(kLiver.poisson), "--density",
-       std::to_string(kLiver.density_kg_m3), "--fixed", "plane:x<" + std::to_string(support_plane(mesh))});
-  if (build.wait() != 0) throw std::runtime_error(build.messages());
-  return {seconds_since(start), peak_of_children(), idle};
+  const bench::ChildRun idle = bench::run_child(program, {"--help"});
+  const bench::ChildRun build =
+      bench::run_child(program, {folder / "organ.msh", "-o", folder / "organ.h5", "--scale", "1", "--young",
+                                 std::to_string(kLiver.young_pa), "--poisson", std::to_string(kLiver.poisson),
+                                 "--density", std::to_string(kLiver.density_kg_m3), "--fixed",
+                                 "plane:x<" + std::to_string(support_plane(mesh))});
+  if (build.exit != 0) throw std::runtime_error("organ_build ended with code " + std::to_string(build.exit));
+  return {build.seconds, build.peak_bytes, idle.peak_bytes};
 }
 
 struct Bench {
@@ -178,7 +172,7 @@ void stream(benchmark::State& state, Bench& b) {
   }
   b.stream_bytes_s =
       static_cast<double>(count * sizeof(float)) * static_cast<double>(state.iterations()) / seconds;
-  state.counters["GB/s"] = b.stream_bytes_s * 1e-9;
+  state.counters["GB_s"] = b.stream_bytes_s * 1e-9;
 }
 
 void superpose(benchmark::State& state, Bench& b) {
@@ -198,13 +192,22 @@ void superpose(benchmark::State& state, Bench& b) {
   }
   const double bytes = static_cast<double>(count * b.tiles.size() / b.tiles.mobile_count * sizeof(float));
   const double bytes_s = bytes * static_cast<double>(state.iterations()) / seconds;
-  state.counters["GB/s"] = bytes_s * 1e-9;
+  state.counters["GB_s"] = bytes_s * 1e-9;
   state.counters["of_stream"] = bytes_s / b.stream_bytes_s;
+}
+
+void compare(bench::Results& results) {
+  results.compare("organ_build/peak_MB", "organ_build/tensors_MB");
+  for (const char* name : {"columns/1", "columns/2"}) results.compare(name, "columns_reference");
+  for (const char* name : {"superpose/1", "superpose/3", "superpose/16", "superpose/24"})
+    results.compare(std::string(name) + "/GB_s", "stream/GB_s");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  organ_tools::start_with_fast_blas(argv);  // as the programs do
+  bench::Results results(argc, argv);
   benchmark::Initialize(&argc, argv);
   Bench bench;
   const auto add = [&](const char* name, void (*run)(benchmark::State&, Bench&)) {
@@ -221,5 +224,8 @@ int main(int argc, char** argv) {
       ->UseRealTime();
   add("stream", stream)->Unit(benchmark::kMicrosecond);
   add("superpose", superpose)->Arg(1)->Arg(3)->Arg(16)->Arg(24)->Unit(benchmark::kMicrosecond);
-  benchmark::RunSpecifiedBenchmarks();
+  bench::JsonReporter reporter(results);
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  compare(results);
+  results.write();
 }

@@ -119,7 +119,7 @@ void HapticLoop::hear(const msg::NodeStatus& other) {
 void HapticLoop::run() {
   const std::jthread warm([this](const std::stop_token& stop) { warm_up(setup_.model.compliance, stop); });
   watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
-  grant_ = runtime::request_realtime(runtime::kHandLoopPriority);
+  grant_ = runtime::request_realtime(runtime::kHandLoopPriority, tensor_bytes(setup_.model.compliance));
   if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
   serve_from_ns_ = runtime::steady_now_ns() + kListen_ns;
   while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {

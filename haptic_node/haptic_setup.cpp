@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_setup.h"
 
+#include "runtime/memory_limit.h"
 #include "transport/messages.h"
 
 #include <unistd.h>
@@ -72,14 +73,17 @@ HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
   return setup;
 }
 
+std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
+  return std::uint64_t{sizeof(float)} * static_cast<std::uint64_t>(compliance.mobile_count()) *
+         static_cast<std::uint64_t>(compliance.cluster_count()) * physics::SurfaceCompliance::kTileFloats;
+}
+
 void warm_up(const physics::SurfaceCompliance& compliance, const std::stop_token& stop) {
-  const std::size_t floats = static_cast<std::size_t>(compliance.mobile_count()) *
-                             compliance.cluster_count() * physics::SurfaceCompliance::kTileFloats;
-  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * page;
-  if (floats == 0 || floats * sizeof(float) > memory / 2) return;
+  const std::uint64_t bytes = tensor_bytes(compliance);
+  if (bytes == 0 || !runtime::may_stay_in_memory(bytes, runtime::memory_limit_bytes())) return;
+  const auto page_floats = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / sizeof(float);
   const volatile float* begin = compliance.tile(physics::SurfaceId(0), 0);
-  for (std::size_t i = 0; i < floats && !stop.stop_requested(); i += page / sizeof(float))
+  for (std::uint64_t i = 0; i < bytes / sizeof(float) && !stop.stop_requested(); i += page_floats)
     static_cast<void>(begin[i]);
 }
 

@@ -22,9 +22,12 @@ struct HapticSetup {
 /// geometry::InputError (organ file). `rate_hz`: the loop's nominal rate.
 HapticSetup make_setup(const runtime::Scene& scene, double rate_hz);
 
-/// Reads every page of the tensors once, where they fit into half of the memory, so that the loop meets none
-/// for the first time on the disk. An ordinary thread's work: it takes as long as the disk does, or until
-/// `stop`.
+/// Of the mapped tensors, bytes.
+std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance);
+
+/// Reads every page of the tensors once, where they may stay in memory (runtime/memory_limit.h), so that the
+/// loop meets none for the first time on the disk. An ordinary thread's work: it takes as long as the disk
+/// does, or until `stop`.
 void warm_up(const physics::SurfaceCompliance& compliance, const std::stop_token& stop = {});
 
 }  // namespace omentum::haptic

@@ -40,7 +40,10 @@ def run(arguments):
 
     on_end(end)
     signal.signal(signal.SIGINT, end)
-    return session.run()
+    code = session.run()
+    on_end(signal.SIG_IGN)  # the interpreter gives its own handlers up before it is gone
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    return code
 
 
 def main():

@@ -12,10 +12,11 @@ struct Shaft {
   Vec3 towards_handle = Vec3::UnitZ();
 };
 
-/// Looks at the dent from the side that hides it least: neither behind a bulge of the organ nor behind a
-/// shaft, and otherwise as near as can be to where `familiar` looks from. Upright along the surface's normal.
-/// `shafts`: of all tools that are drawn.
-Camera close_up_of(const Dent& dent, const OrganSkin& skin, std::span<const Shaft> shafts,
-                   const Camera& familiar);
+/// Looks at the dent from a side from which it is seen: neither through tissue nor from under the table (the
+/// plane z = `ground_m`), if there is such a side; as flat as can be, past the shafts, and otherwise as near
+/// as can be to where `familiar` looks from. Upright along the surface's normal. `skins`: of all organs, as
+/// they are deformed now; `shafts`: of all tools that are drawn. Costs some passes over the drawn triangles.
+Camera close_up_of(const Dent& dent, std::span<const OrganSkin* const> skins, std::span<const Shaft> shafts,
+                   const Camera& familiar, double ground_m);
 
 }  // namespace omentum::render

@@ -11,6 +11,7 @@ namespace omentum::render {
 namespace {
 
 constexpr float kCurveHeight = 74, kCurveThickness = 1.8f;  // pixels
+constexpr float kAxisWidth = 40;                            // pixels: "100 N"
 const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
 const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
 
@@ -39,14 +40,21 @@ std::string duration(double us) {
   return us < 1000 ? format("%.0f us", us) : format("%.1f ms", us / 1000);
 }
 
+// The text, or as much of it as fits beside what stands at the right.
+std::string beside(const std::string& right, std::string text) {
+  const float space = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x -
+                      ImGui::CalcTextSize(right.c_str()).x;
+  if (ImGui::CalcTextSize(text.c_str()).x <= space) return text;
+  constexpr const char* kCut = "...";
+  while (!text.empty() && ImGui::CalcTextSize((text + kCut).c_str()).x > space) text.pop_back();
+  return text + kCut;
+}
+
 void header(const PanelView& view) {
-  ImGui::TextUnformatted(view.scene.c_str());
+  const std::string right = view.paused ? "paused" : format("%.1f s", view.time_s);
+  ImGui::TextUnformatted(beside(right, view.scene).c_str());
   ImGui::SameLine();
-  if (view.paused) {
-    right_aligned("paused", &kAmber);
-  } else {
-    right_aligned(format("%.1f s", view.time_s).c_str());
-  }
+  right_aligned(right.c_str(), view.paused ? &kAmber : nullptr);
   ImGui::Separator();
 }
 
@@ -111,14 +119,27 @@ void draw_curve(const ToolRow& tool, double now_s, double top_n, const ImVec2& c
   finish_line();
 }
 
+// The axis beside the curves, not on them: two numbers on the left, two times below.
+void label_axes(double top_n, const ImVec2& corner, const ImVec2& size) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  const float left = ImGui::GetCursorScreenPos().x, line = ImGui::GetFontSize();
+  draw.AddText({left, corner.y}, dim, format("%g N", top_n).c_str());
+  draw.AddText({left, corner.y + size.y - line}, dim, "0 N");
+  ImGui::SetCursorScreenPos({corner.x, corner.y + size.y + 1});
+  ImGui::TextDisabled("%.0f s ago", ForceHistory::kSpanS);
+  ImGui::SameLine();
+  right_aligned("now", &ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
+}
+
 void draw_curves(const PanelView& view) {
   float largest = 0;
   for (const ToolRow& tool : view.tools) largest = std::max(largest, tool.largest_n);
   const double top = force_axis_n(largest);
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 size{ImGui::GetContentRegionAvail().x, kCurveHeight};
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 corner{at.x + kAxisWidth, at.y};
+  const ImVec2 size{ImGui::GetContentRegionAvail().x - kAxisWidth, kCurveHeight};
   const ImVec2 end{corner.x + size.x, corner.y + size.y};
-  ImGui::Dummy(size);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
   for (const float share : {0.25f, 0.5f, 0.75f}) {
@@ -128,9 +149,7 @@ void draw_curves(const PanelView& view) {
   draw.PushClipRect(corner, end, true);
   for (const ToolRow& tool : view.tools) draw_curve(tool, view.time_s, top, corner, size);
   draw.PopClipRect();
-  const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  draw.AddText({corner.x + 5, corner.y + 2}, dim, format("%g N", top).c_str());
-  draw.AddText({corner.x + 5, corner.y + size.y - 18}, dim, "10 s");
+  label_axes(top, corner, size);
 }
 
 void swatch(const Vec3f& colour) {

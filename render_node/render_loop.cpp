@@ -85,12 +85,12 @@ void RenderLoop::frame(bool last) {
   const std::int64_t begin_ns = runtime::steady_now_ns();
   account_.start(begin_ns);
   watch_.listen(*inbox_, view_, faults_, begin_ns);
-  const auto dent = watch_.deepest_dent();
+  const std::optional<Dent>& dent = watch_.deepest_dent();
   PicturesDue due;
   if (last) {
     due.numbered = "final.png";
   } else if (writer_) {
-    due = schedule_.due(seconds_since_begin(begin_ns), dent ? dent->dent.depth_m : 0);
+    due = schedule_.due(seconds_since_begin(begin_ns), dent ? dent->depth_m : 0);
   }
   const Input input = renderer_.begin_frame();
   closed_ = closed_ || input.close;
@@ -101,8 +101,8 @@ void RenderLoop::frame(bool last) {
   finish_frame(begin_ns, due.indent || !due.numbered.empty());
 }
 
-void RenderLoop::take_close_up(const DeepestDent& deepest) {
-  renderer_.draw(view_.close_up(deepest.dent, deepest.organ, choices_, watch_.tools()));
+void RenderLoop::take_close_up(const Dent& deepest) {
+  renderer_.draw(view_.close_up(deepest, choices_, watch_.tools()));
   writer_->write(renderer_.read_back(), "indent.png");
 }
 

@@ -51,7 +51,7 @@ class RenderLoop {
   static Loaded load(const RenderOptions& options);
   RenderLoop(const RenderOptions& options, const Loaded& loaded, Renderer& renderer, runtime::RateLoop& pace);
   void frame(bool last);
-  void take_close_up(const DeepestDent& deepest);
+  void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
   void finish_frame(std::int64_t begin_ns, bool for_disk);
   void steer(const Input& input);

@@ -87,7 +87,9 @@ SceneView::SceneView(const runtime::Scene& scene, const std::vector<OrganShape>&
       parts.push_back({std::move(part), mesh});
     }
   }
-  ground_ = renderer.add_mesh(ground_under(all, normals, ball_, area));
+  const MeshData ground = ground_under(all, normals, ball_, area);
+  ground_m_ = ground.vertices.front().position.z();
+  ground_ = renderer.add_mesh(ground);
   arrow_shaft_ = renderer.add_mesh(unit_shaft());
   arrow_head_ = renderer.add_mesh(unit_head());
   marker_ = renderer.add_mesh(unit_ball());
@@ -120,7 +122,7 @@ Frame SceneView::frame(const ViewChoices& choices, std::span<const ToolNow> tool
   return frame;
 }
 
-Frame SceneView::close_up(const Dent& dent, std::size_t organ, const ViewChoices& choices,
+Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
                           std::span<const ToolNow> tools) const {
   std::vector<Shaft> shafts;
   for (const ToolNow& tool : tools) {
@@ -128,7 +130,9 @@ Frame SceneView::close_up(const Dent& dent, std::size_t organ, const ViewChoices
   }
   ViewChoices near = choices;
   near.markers = near.arrows = false;  // they would cover the dent
-  const Camera camera = close_up_of(dent, organs_[organ].skin, shafts, choices.orbit);
+  std::vector<const OrganSkin*> skins;
+  for (const DrawnOrgan& organ : organs_) skins.push_back(&organ.skin);
+  const Camera camera = close_up_of(dent, skins, shafts, choices.orbit, ground_m_);
   Frame frame = frame_from(camera, near, tools, 0);
   frame.lighting = rake_light(camera, shadow_ball());
   frame.with_panel = false;

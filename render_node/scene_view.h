@@ -53,8 +53,7 @@ class SceneView {
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
 
   /// What a picture of a dent shows: the same scene from nearby, without the panel.
-  Frame close_up(const Dent& dent, std::size_t organ, const ViewChoices& choices,
-                 std::span<const ToolNow> tools) const;
+  Frame close_up(const Dent& dent, const ViewChoices& choices, std::span<const ToolNow> tools) const;
 
   /// The dent that a tool presses; none where it touches nothing.
   std::optional<Dent> dent_of(const ToolNow& tool) const;
@@ -93,6 +92,7 @@ class SceneView {
   std::vector<DrawnOrgan> organs_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
+  double ground_m_ = 0;  // height of the table
   MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{};
 };
 

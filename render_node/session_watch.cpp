@@ -111,9 +111,9 @@ void SessionWatch::find_deepest_dent(const SceneView& view, std::int64_t now_ns)
         now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleStateNs)
       continue;
     const auto dent = view.dent_of(tool);
-    if (dent && (!dent_ || dent->depth_m > dent_->dent.depth_m)) dent_ = {*dent, tool.contact_organ};
+    if (dent && (!dent_ || dent->depth_m > dent_->depth_m)) dent_ = dent;
   }
-  if (dent_) largest_dent_m_ = std::max(largest_dent_m_, dent_->dent.depth_m);
+  if (dent_) largest_dent_m_ = std::max(largest_dent_m_, dent_->depth_m);
 }
 
 void SessionWatch::shown(const Inbox& inbox, std::int64_t now_ns) {
@@ -145,7 +145,7 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   panel.hand_to_force_p99_us = round_trip.p99;
   panel.hand_to_picture_us = hand_to_picture_.percentile_us(0.5);
   panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
-  panel.dent_mm = dent_ ? 1e3 * dent_->dent.depth_m : 0;
+  panel.dent_mm = dent_ ? 1e3 * dent_->depth_m : 0;
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
     const OrganSkin& skin = view.skin(i);
     panel.organs.push_back({1e3 * skin.largest_displacement_m(), 1e3 * kLinearShare * skin.extent_m(),

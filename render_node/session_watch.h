@@ -9,12 +9,6 @@
 
 namespace omentum::render {
 
-/// The deepest dent of this moment, and in which organ.
-struct DeepestDent {
-  Dent dent;
-  std::size_t organ = 0;
-};
-
 /// Takes from the inbox what came, moves the drawn organs, and says what the panel shows. Reads no clock:
 /// times are given (steady clock, ns). One thread, the drawing one.
 class SessionWatch {
@@ -31,7 +25,8 @@ class SessionWatch {
   std::vector<msg::Echo> echoes() const { return merge_echoes(echoes_); }
   /// What haptic_node says of itself; where none speaks, what was commanded last.
   bool paused(std::int64_t now_ns) const;
-  std::optional<DeepestDent> deepest_dent() const { return dent_; }
+  /// Of this moment, in any organ.
+  const std::optional<Dent>& deepest_dent() const { return dent_; }
   /// Of the whole session, m.
   double largest_dent_m() const { return largest_dent_m_; }
 
@@ -57,7 +52,7 @@ class SessionWatch {
   std::vector<std::vector<msg::Echo>> echoes_;  // per organ, of the state that is drawn
   std::vector<std::int64_t> state_arrived_ns_;  // per organ; 0: none came
   bool fresh_echoes_ = false;                   // since the last frame
-  std::optional<DeepestDent> dent_;
+  std::optional<Dent> dent_;
   double largest_dent_m_ = 0;
   std::vector<HeardStatus> statuses_;
   SessionState session_;

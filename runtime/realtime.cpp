@@ -1,5 +1,7 @@
 #include "runtime/realtime.h"
 
+#include "runtime/memory_limit.h"
+
 #include <cerrno>
 #include <cstring>
 
@@ -37,20 +39,35 @@ bool request_fifo(int priority, std::string& warning) {
   return false;
 }
 
-bool request_locked_memory(std::string& warning) {
+void add(std::string& warning, const std::string& what) {
+  warning += (warning.empty() ? "" : "; ") + what;
+}
+
+// A container that is full ends a process; one whose pages are locked cannot give any back.
+bool fits(std::uint64_t touched_bytes, std::string& warning) {
+  const std::uint64_t limit = memory_limit_bytes();
+  if (may_stay_in_memory(touched_bytes, limit)) return true;
+  add(warning, "memory is not locked: the organ's " + std::to_string(touched_bytes >> 20) +
+                   " MiB are more than half of the " + std::to_string(limit >> 20) +
+                   " MiB that there are (of a container: its memory limit)");
+  return false;
+}
+
+bool request_locked_memory(std::uint64_t touched_bytes, std::string& warning) {
+  if (!fits(touched_bytes, warning)) return false;
   // MCL_ONFAULT: locked once touched; locking a mapped organ file as a whole could take all memory
   if (may_lock_everything() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) return true;
-  warning += std::string(warning.empty() ? "" : "; ") +
-             "memory is not locked: set 'ulimit -l unlimited' (memlock in limits.conf) or grant CAP_IPC_LOCK";
+  add(warning,
+      "memory is not locked: set 'ulimit -l unlimited' (memlock in limits.conf) or grant CAP_IPC_LOCK");
   return false;
 }
 
 }  // namespace
 
-RealtimeGrant request_realtime(int priority) {
+RealtimeGrant request_realtime(int priority, std::uint64_t touched_bytes) {
   RealtimeGrant grant;
   grant.fifo = request_fifo(priority, grant.warning);
-  grant.locked = request_locked_memory(grant.warning);
+  grant.locked = request_locked_memory(touched_bytes, grant.warning);
   return grant;
 }
 

@@ -1,6 +1,7 @@
 // Real-time priority and locked memory, where they are permitted.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <sched.h>
@@ -21,8 +22,10 @@ struct RealtimeGrant {
   std::string warning;  // empty when everything was granted; else what was refused and what to set
 };
 
-/// Asks for SCHED_FIFO for the calling thread, and for locked memory for the process. Never throws.
-RealtimeGrant request_realtime(int priority);
+/// Asks for SCHED_FIFO for the calling thread, and for locked memory for the process, which will touch
+/// `touched_bytes` of mapped files: everything that it touches stays in memory then. Not asked for where that
+/// would be more than half of what the machine or its container allows (memory_limit.h). Never throws.
+RealtimeGrant request_realtime(int priority, std::uint64_t touched_bytes = 0);
 
 /// While it lives, the calling thread runs under SCHED_FIFO, and so do the threads that it starts, for good:
 /// wrapped around the start of a library whose threads are links of a real-time loop. Where that is not

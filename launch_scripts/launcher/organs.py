@@ -46,8 +46,8 @@ def run_tool(options, arguments, doing):
     return out
 
 
-def describe(options):
-    return json.loads(run_tool(options, ["scene_prepare", options.scene, "--describe"], "reading the scene"))
+def describe(options, scene):
+    return json.loads(run_tool(options, ["scene_prepare", scene, "--describe"], "reading the scene"))
 
 
 def phantom_mesh(options, cache, kind):
@@ -128,7 +128,7 @@ def organ_file(options, cache, spec):
 
 def prepare(options):
     """Makes what is missing; returns the fitted scene and its name. Raises Refusal."""
-    described = describe(options)
+    described = describe(options, options.scene)
     if len(described["organs"]) > 1:
         raise Refusal(f"{options.scene}: {len(described['organs'])} organs; this version's launcher prepares one")
     file = organ_file(options, Cache(), described["organs"][0])
@@ -141,4 +141,4 @@ def prepare(options):
     notes = run_tool(options, ["scene_prepare", options.scene, "--organ", file, "-o", scene, *keep], "fitting the scene")
     for line in notes.strip().splitlines():
         print(f"run: {line}", flush=True)
-    return scene, described["name"]
+    return scene, describe(options, scene)["name"]

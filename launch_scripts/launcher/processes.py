@@ -20,9 +20,10 @@ class Node:
     def __init__(self, name, command, report, processors=None):
         self.name, self.command, self.report, self.processors = name, command, report, processors
         self.process, self.exit, self.starts = None, None, 0
+        self.told_to_end = False
 
     def start(self):
-        self.exit = None
+        self.exit, self.told_to_end = None, False
         self.starts += 1
         self.report.unlink(missing_ok=True)  # of the run before: this one may end without one
         try:
@@ -34,6 +35,8 @@ class Node:
     def prepare_child(self):
         # whatever ends the launcher ends its nodes
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+        # a node that does not listen yet is told when it does (runtime/signals.h)
+        signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
         if self.processors:
             os.sched_setaffinity(0, self.processors)
 
@@ -48,8 +51,14 @@ class Node:
         return True
 
     def terminate(self):
-        if self.running() and self.process.poll() is None:
+        """Once: a second signal would meet a process that has ended all but its libraries' threads."""
+        if self.running() and not self.told_to_end and self.process.poll() is None:
+            self.told_to_end = True
             self.process.terminate()
+
+    def failed(self):
+        """A node that was never started, in a session that ended before its turn, did not fail."""
+        return self.starts > 0 and self.exit != 0
 
     def restarts(self):
         return max(0, self.starts - 1)

@@ -15,6 +15,7 @@ FIELDS = {
     "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "closed": False, "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
+LEAST_STEAL = 0.001  # what is worth a line: a tick in a thousand
 LINKS = ("tool_to_force_us", "tool_to_organ_us", "tool_to_picture_us")
 
 
@@ -35,18 +36,18 @@ def read_node(file, name):
         return {"faults": [f"{name} left no report"]}
 
 
-def merge(scene_name, seconds, realtime, nodes, vendors):
-    """From what each node wrote itself, and what the launcher saw of it."""
+def merge(scene_name, seconds, machine, nodes, vendors):
+    """From what each node wrote itself, and what the launcher saw of it; `machine`: `realtime` and `steal_share`."""
     report = {
         "scene": scene_name,
         "seconds": round(seconds, 3),
         "protocol": PROTOCOL,
-        "machine": {"cores": len(os.sched_getaffinity(0)), "kernel": platform.release(), "realtime": realtime},
+        "machine": {"cores": len(os.sched_getaffinity(0)), "kernel": platform.release(), **machine},
         "nodes": {},
         "link": {link: dict(NONE_US) for link in LINKS},
     }
     for node in nodes:
-        own = read_node(node.report, node.name)
+        own = read_node(node.report, node.name) if node.starts else {}
         report["link"].update(own.pop("link", {}))
         report["nodes"][node.name] = {**completed(FIELDS[node.name], own), "dds": vendors[node.name], "exit": node.exit,
                                       "restarts": node.restarts()}
@@ -98,7 +99,10 @@ FIGURES = {"haptic_node": loop_figures, "deform_node": loop_figures, "render_nod
 
 
 def node_row(name, node):
-    exit_code = str(node["exit"]) + (f" ({node['restarts']} restarts)" if node["restarts"] else "")
+    if node["exit"] is None:
+        exit_code = "-"
+    else:
+        exit_code = str(node["exit"]) + (f" ({node['restarts']} restarts)" if node["restarts"] else "")
     return [name, node["dds"], exit_code, *FIGURES[name](node)]
 
 
@@ -121,6 +125,10 @@ def summary(report):
         lines.append(f"deepest dent: {1e3 * picture['deepest_dent_m']:.1f} mm")
     for name, node in report["nodes"].items():
         lines += [f"{name}: {fault}" for fault in node["faults"]]
+        if node["exit"] is None:
+            lines.append(f"{name} was not started: the session ended before")
+    if report["machine"]["steal_share"] >= LEAST_STEAL:
+        lines.append(f"the hypervisor took {100 * report['machine']['steal_share']:.1f} % of the processors' time")
     if not report["machine"]["realtime"]:
         lines.append("real-time priority was not granted to haptic_node: missed ticks are likelier")
     return "\n".join(lines)

@@ -7,6 +7,7 @@ import time
 from . import processes, report
 from .domain import Domain
 from .keys import Keys
+from .machine import StealWatch
 from .messenger import Messenger
 
 POLL_S = 0.1
@@ -96,21 +97,21 @@ class Session:
         """The exit code: 0; 1 when a node crashed; 2 when one refused to start, which then said why."""
         self.announce()
         self.clear_out()
-        begin = time.monotonic()
+        begin, steal = time.monotonic(), StealWatch()
         with Keys() as keys:
             try:
                 self.start()
                 code = self.watch(keys, begin)
             finally:
-                seconds = time.monotonic() - begin
+                seconds, steal_share = time.monotonic() - begin, steal.share()
                 processes.stop_all(self.nodes)
                 self.messenger.stop()
         if code == processes.REFUSED:
             self.clear_out()  # a picture of a session that never was
         else:
-            self.finish(seconds)
+            self.finish(seconds, steal_share)
         self.folder.cleanup()
-        return code or (1 if any(node.exit != 0 for node in self.nodes) else 0)
+        return code or (1 if any(node.failed() for node in self.nodes) else 0)
 
     def start(self):
         """Paused, the hand comes last, when the force is known to be off; it is then told to stand still itself."""
@@ -179,8 +180,9 @@ class Session:
         self.messenger.send(command, sum(node.running() for node in self.nodes))
 
     # the end
-    def finish(self, seconds):
-        merged = report.merge(self.name, seconds, self.realtime, self.nodes, self.options.dds)
+    def finish(self, seconds, steal_share):
+        machine = {"realtime": self.realtime, "steal_share": round(steal_share, 5)}
+        merged = report.merge(self.name, seconds, machine, self.nodes, self.options.dds)
         report.write(merged, self.options.out / "report.json")
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)

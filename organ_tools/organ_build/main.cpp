@@ -1,6 +1,7 @@
 // organ_build: a tetrahedral mesh, a material and supports become an organ file with its force tensors.
 #include "organ/build_organ.h"
 #include "organ/support_spec.h"
+#include "organ_tools/fast_blas.h"
 #include "organ_tools/organ_build/build_options.h"
 #include "organ_tools/organ_build/interruption.h"
 #include "organ_tools/organ_build/progress_line.h"
@@ -52,6 +53,8 @@ void build(const organ_tools::BuildCommand& command) {
   if (const std::string warning = physics::blas_warning(); !warning.empty()) warn(warning);
   organ_tools::ProgressLine progress("organ_build");
   const organ::Organ organ = read_organ(command);
+  if (const std::string note = organ_tools::fast_blas_note(); !note.empty())
+    std::cerr << "organ_build: " << note << std::endl;
 
   organ::BuildOptions options;
   options.force = command.force;
@@ -64,6 +67,7 @@ void build(const organ_tools::BuildCommand& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  organ_tools::start_with_fast_blas(argv);
   organ_tools::watch_for_interruption();
   runtime::CommandLine line("organ_build",
                             "Computes the force tensors of an organ from its mesh, material and supports.");

@@ -1,5 +1,6 @@
 // organ_solve: imposed displacements in, displacements of every node and holding forces out.
 #include "organ/csv.h"
+#include "organ_tools/fast_blas.h"
 #include "organ_tools/organ_solve/imposed_csv.h"
 #include "organ_tools/organ_solve/solution_csv.h"
 #include "organ_tools/organ_solve/solve_models.h"
@@ -64,6 +65,8 @@ void solve(const SolveCommand& command) {
   const organ::Organ organ = organ::load_organ(command.organ, organ::Load::kMeshOnly);
   std::vector<physics::ImposedDisplacement> imposed;
   if (!command.imposed.empty()) imposed = organ_tools::read_imposed(command.imposed, organ);
+  if (const std::string note = organ_tools::fast_blas_note(); !note.empty())
+    std::cerr << "organ_solve: " << note << std::endl;
   std::string warning;
   const physics::StaticSolution solution =
       command.model == "direct"
@@ -76,6 +79,7 @@ void solve(const SolveCommand& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  organ_tools::start_with_fast_blas(argv);
   runtime::CommandLine line("organ_solve", "Solves an organ for imposed displacements and gravity.");
   SolveCommand command;
   add_options(line, command);

@@ -48,6 +48,7 @@ void prepare(const Options& options) {
     scene_prepare::project_hands(skin, scene);
   } else {
     scene.organs.front().mesh = options.organ;
+    scene_prepare::name_after(organ.name, scene);
     for (const std::string& note : scene_prepare::place_hands(skin, scene)) std::cout << note << '\n';
   }
   write_whole(scene_prepare::resolved_toml(scene), options.output);

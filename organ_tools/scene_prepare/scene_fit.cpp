@@ -104,4 +104,9 @@ std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scen
   return notes;
 }
 
+void name_after(const std::string& organ, runtime::Scene& scene) {
+  scene.organs.front().name = organ;
+  scene.name = scene.hands.empty() ? organ : organ + " pressed by a simulated hand";
+}
+
 }  // namespace omentum::scene_prepare

@@ -17,4 +17,7 @@ void project_hands(const OrganSkin& skin, runtime::Scene& scene);
 /// slide shrink where the organ is thin or small. Returns a line for everything that shrank.
 std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scene);
 
+/// For another organ: the scene and its first organ are called after it.
+void name_after(const std::string& organ, runtime::Scene& scene);
+
 }  // namespace omentum::scene_prepare

@@ -19,6 +19,7 @@ toml::table& entry(toml::table& root, const char* list, std::size_t index) {
 }
 
 void write_organ(const runtime::OrganSpec& organ, toml::table& table) {
+  table.insert_or_assign("name", organ.name);
   if (!organ.mesh.starts_with("phantom:"))
     table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
   if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
@@ -37,6 +38,7 @@ void write_hand(const runtime::HandSpec& hand, toml::table& table) {
 std::string resolved_toml(const runtime::Scene& scene) {
   // load_scene has accepted this file: every list below has the scene's length
   toml::table root = toml::parse_file(scene.file.string());
+  root.insert_or_assign("name", scene.name);
   for (std::size_t i = 0; i < scene.organs.size(); ++i)
     write_organ(scene.organs[i], entry(root, "organs", i));
   for (std::size_t i = 0; i < scene.hands.size(); ++i) write_hand(scene.hands[i], entry(root, "hands", i));

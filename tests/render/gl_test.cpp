@@ -119,7 +119,7 @@ TEST_F(Drawing, DentIsSeenAroundTheToolInItsCloseUp) {
   tool.contact_nodes = {static_cast<std::uint32_t>(pressed) + test::kFirstFileNode};
   tool.contact_forces_n = {1};
   view_->deform(0, dent(shape_, kFront, kDepthM, 0.009));
-  const Frame frame = view_->close_up(*view_->dent_of(tool), 0, choices_, std::vector<ToolNow>{tool, {}});
+  const Frame frame = view_->close_up(*view_->dent_of(tool), choices_, std::vector<ToolNow>{tool, {}});
   const auto shot = [&] {
     renderer_->begin_frame();
     renderer_->draw(frame);

@@ -229,15 +229,20 @@ class PanelLayout : public testing::Test {
     }
     EXPECT_FALSE(actions.pause || actions.reset || actions.clear_fault) << "nobody pressed anything";
     float top = 600, bottom = 0;
-    const ImDrawData* data = ImGui::GetDrawData();
-    for (int list = 0; list < data->CmdListsCount; ++list) {
-      for (const ImDrawVert& v : data->CmdLists[list]->VtxBuffer) {
-        top = std::min(top, v.pos.y);
-        bottom = std::max(bottom, v.pos.y);
-        EXPECT_LT(v.pos.x, kPanelMargin + kPanelWidth + 1);
-      }
-    }
+    for_each_corner([&](const ImDrawVert& v) {
+      top = std::min(top, v.pos.y);
+      bottom = std::max(bottom, v.pos.y);
+      EXPECT_LT(v.pos.x, kPanelMargin + kPanelWidth + 1);
+    });
     return bottom - top;
+  }
+
+  // Of what was laid out last.
+  template <class Visit>
+  static void for_each_corner(Visit&& visit) {
+    const ImDrawData* data = ImGui::GetDrawData();
+    for (int list = 0; list < data->CmdListsCount; ++list)
+      for (const ImDrawVert& v : data->CmdLists[list]->VtxBuffer) visit(v);
   }
 
   static PanelView busy() {
@@ -248,6 +253,7 @@ class PanelLayout : public testing::Test {
     for (int t = 0; t < 2; ++t) {
       ToolRow& tool = view.tools.emplace_back();
       tool.name = "left hand, grasper";
+      tool.colour = Vec3f(0.1f, 0.5f, 0.9f);
       tool.state = {"clamped"};
       for (int k = 0; k < 300; ++k) tool.curve.push_back({k / 30.0, 2.0f});
     }
@@ -277,6 +283,40 @@ TEST_F(PanelLayout, StaleOrganIsTold) {
   const float told = height_of(view);
   view.organs[0].age_ns = 0;
   EXPECT_LT(height_of(view), told);
+}
+
+TEST_F(PanelLayout, ALongSceneNameLeavesRoomForWhatStandsBesideIt) {
+  const auto amber = [&](const std::string& name) {  // corners of "paused"
+    PanelView view;
+    view.paused = true;
+    view.scene = name;
+    height_of(view);
+    const ImU32 colour = ImGui::ColorConvertFloat4ToU32({1.0f, 0.74f, 0.28f, 1});
+    int count = 0;
+    for_each_corner([&](const ImDrawVert& v) { count += v.col == colour; });
+    return count;
+  };
+  ASSERT_GT(amber("liver"), 0);
+  EXPECT_EQ(amber("openhelp_kidney_left_22k pressed by a simulated hand"), amber("liver"));
+}
+
+TEST_F(PanelLayout, NoLabelLiesOnTheForceCurve) {
+  height_of(busy());
+  // the curves alone are clipped to their own field
+  ImVec4 field{0, 0, 960, 600};
+  const ImDrawData* data = ImGui::GetDrawData();
+  for (int list = 0; list < data->CmdListsCount; ++list) {
+    for (const ImDrawCmd& command : data->CmdLists[list]->CmdBuffer) {
+      if (command.ElemCount > 0 && command.ClipRect.w - command.ClipRect.y < field.w - field.y)
+        field = command.ClipRect;
+    }
+  }
+  ASSERT_LT(field.w - field.y, 100);
+  const ImU32 label = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  for_each_corner([&](const ImDrawVert& v) {
+    const bool inside = v.pos.x > field.x && v.pos.x < field.z && v.pos.y > field.y && v.pos.y < field.w;
+    EXPECT_FALSE(inside && v.col == label) << "at " << v.pos.x << ", " << v.pos.y;
+  });
 }
 
 TEST_F(PanelLayout, EmptyPanelIsLaidOutToo) {

@@ -199,7 +199,7 @@ TEST(SceneView, CloseUpLooksFlatlyAtTheDentWithoutPanelAndSignals) {
   Stage stage;
   const ToolNow tool = pressing(stage, 0.008);
   const auto dent = stage.view.dent_of(tool);
-  const Frame frame = stage.view.close_up(*dent, 0, stage.choices, std::vector<ToolNow>{tool, {}});
+  const Frame frame = stage.view.close_up(*dent, stage.choices, std::vector<ToolNow>{tool, {}});
   EXPECT_FALSE(frame.with_panel);
   EXPECT_EQ(frame.quality, Quality::kFine);
   EXPECT_TRUE(with_look(frame, Look::kSignal).empty()) << "nothing covers the dent";
@@ -219,7 +219,7 @@ TEST(SceneView, CloseUpAvoidsAShaftThatLeansTowardsTheViewer) {
   const Vec3 lean = (Vec3(familiar.x(), familiar.y(), 0).normalized() + Vec3::UnitZ()).normalized();
   tool.q_WT = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), lean);
   const auto dent = stage.view.dent_of(tool);
-  const Frame frame = stage.view.close_up(*dent, 0, stage.choices, std::vector<ToolNow>{tool, {}});
+  const Frame frame = stage.view.close_up(*dent, stage.choices, std::vector<ToolNow>{tool, {}});
   const Vec3 sight = (frame.view.eye - dent->bottom).cast<double>().normalized();
   EXPECT_LT(sight.dot(lean), std::cos(0.5)) << "not along the shaft";
 }

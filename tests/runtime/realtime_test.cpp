@@ -1,4 +1,5 @@
 #include "runtime/realtime.h"
+#include "runtime/memory_limit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,6 +57,17 @@ TEST(Realtime, WhatIsGrantedIsNotWarnedOf) {
     EXPECT_EQ(grant.fifo, grant.warning.find("priority") == std::string::npos);
     EXPECT_EQ(grant.locked, grant.warning.find("memory") == std::string::npos);
     EXPECT_EQ((sched_getscheduler(0) & ~SCHED_RESET_ON_FORK) == SCHED_FIFO, grant.fifo);
+  }).join();
+  munlockall();
+}
+
+TEST(Realtime, WhatWouldFillTheMemoryIsNotLocked) {
+  std::thread([] {
+    const std::uint64_t most = memory_limit_bytes();
+    const RealtimeGrant grant = request_realtime(kPriority, most - most / 4);
+    EXPECT_FALSE(grant.locked);
+    EXPECT_THAT(grant.warning, HasSubstr("memory is not locked"));
+    EXPECT_THAT(grant.warning, HasSubstr("more than half of the " + std::to_string(most >> 20) + " MiB"));
   }).join();
   munlockall();
 }

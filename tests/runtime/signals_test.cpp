@@ -6,11 +6,14 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <future>
 #include <thread>
 
 namespace omentum::runtime {
 namespace {
+
+constexpr unsigned kHangs_s = 20;  // a child that should have ended long ago
 
 // OpenBLAS starts threads before main: they take signals like any other.
 TEST(StopSignal, HearsASignalThatAnEarlierThreadTakes) {
@@ -42,15 +45,72 @@ TEST(StopSignal, CallsOnceForManySignals) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(StopSignal, GivesTheHandlersBack) {
-  struct sigaction before {
-  }, after{};
-  sigaction(SIGTERM, nullptr, &before);
-  {
-    const StopSignal stop([] {});
+// A launcher may ask more than once, and the last time when main has returned: statics are still being
+// destroyed.
+TEST(StopSignal, ASignalAfterItsEndDoesNotEndTheProgramEarlier) {
+  EXPECT_EXIT(
+      {
+        std::atexit([] { kill(getpid(), SIGTERM); });
+        {
+          const StopSignal stop([] {});
+        }
+        kill(getpid(), SIGINT);
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+TEST(StopSignal, ASignalWhileTheProgramEndsChangesNothing) {
+  EXPECT_EXIT(
+      {
+        {
+          std::promise<void> heard;
+          const StopSignal stop([&] { heard.set_value(); });
+          kill(getpid(), SIGTERM);
+          heard.get_future().wait();
+          kill(getpid(), SIGTERM);
+        }
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+// A person whose program hangs while it ends presses Ctrl-C again.
+TEST(StopSignal, PatienceWithAProgramThatHangsHasAnEnd) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    EXPECT_EXIT(
+        {
+          std::promise<void> heard;
+          const StopSignal stop([&] { heard.set_value(); }, std::chrono::seconds(0));
+          kill(getpid(), signal);
+          heard.get_future().wait();
+          kill(getpid(), signal);
+          for (alarm(kHangs_s);;) pause();
+        },
+        testing::KilledBySignal(signal), "");
   }
-  sigaction(SIGTERM, nullptr, &after);
-  EXPECT_EQ(before.sa_handler, after.sa_handler);
+}
+
+TEST(StopSignal, HearsWhatWasHeldBackUntilItLived) {
+  std::promise<void> heard;
+  std::thread([&] {
+    sigset_t stop_signals;
+    sigemptyset(&stop_signals);
+    sigaddset(&stop_signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &stop_signals, nullptr);
+    pthread_kill(pthread_self(), SIGTERM);
+    const StopSignal stop([&] { heard.set_value(); });
+    heard.get_future().wait();
+  }).join();
+}
+
+TEST(StopSignal, ANewOneHearsAgain) {
+  for (int i = 0; i < 2; ++i) {
+    std::promise<void> heard;
+    const StopSignal stop([&] { heard.set_value(); });
+    kill(getpid(), SIGTERM);
+    heard.get_future().wait();
+  }
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
-from launcher import cache, domain, organs, report, session  # noqa: E402 (the launcher is no installed package)
+from launcher import cache, domain, machine, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
@@ -34,7 +34,7 @@ LOOP = {"rate_hz": float, "ticks": int, "missed": int, "period_us": TIMES, "comp
 # DESIGN section 5, field by field
 SHAPE = {
     "scene": str, "seconds": float, "protocol": int,
-    "machine": {"cores": int, "kernel": str, "realtime": bool},
+    "machine": {"cores": int, "kernel": str, "realtime": bool, "steal_share": float},
     "nodes": {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
                         "contacts": {"ticks_in_contact": int, "nodes_max": int}, "faults": list},
@@ -82,8 +82,8 @@ class LauncherTest(unittest.TestCase):
         self.addCleanup(lambda: process.poll() is None and process.kill())
         return process
 
-    def nodes_of(self, process):
-        """Name -> process id, once all four run."""
+    def nodes_of(self, process, names=NODES):
+        """Name -> process id, once all of them run."""
         deadline = time.monotonic() + PATIENCE_S
         while time.monotonic() < deadline:
             found = {}
@@ -92,9 +92,9 @@ class LauncherTest(unittest.TestCase):
                     name = pathlib.Path(f"/proc/{child}/exe").resolve().name
                 except OSError:
                     continue
-                if name in NODES:
+                if name in names:
                     found[name] = child
-            if len(found) == len(NODES):
+            if len(found) == len(names):
                 return found
             time.sleep(0.05)
         self.fail("the nodes did not start")
@@ -210,6 +210,7 @@ class RealOrgan(LauncherTest):
         done = self.run_it("--organ", REAL_LIVER, "--headless", "--seconds", "8", "--out", self.out)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("taken as millimetres", done.stdout)
+        self.assertEqual(self.report()["scene"], f"{REAL_LIVER.stem} pressed by a simulated hand")
         self.assertGreater(self.report()["nodes"]["haptic_node"]["force_n"]["max"], 0.1)
 
 
@@ -242,16 +243,21 @@ class Endings(LauncherTest):
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
         self.check_shape(self.report(), SHAPE)
 
-    def test_keys_in_a_terminal_pause_reset_and_end_it(self):
+    def start_in_terminal(self, *arguments):
+        """The process, and our end of its terminal. What it says is in `log`."""
         ours, theirs = pty.openpty()
         self.addCleanup(os.close, ours)
         log = open(self.folder / "log", "w+", encoding="utf-8")
         self.addCleanup(log.close)
         process = subprocess.Popen(
-            [RUN, HOLD, "--headless", "--out", self.out], cwd=self.folder, stdin=theirs, stdout=log, stderr=log,
-            start_new_session=True, preexec_fn=lambda: fcntl.ioctl(theirs, termios.TIOCSCTTY, 0))
+            [RUN, HOLD, "--headless", "--out", self.out, *arguments], cwd=self.folder, stdin=theirs, stdout=log,
+            stderr=log, start_new_session=True, preexec_fn=lambda: fcntl.ioctl(theirs, termios.TIOCSCTTY, 0))
         os.close(theirs)
         self.addCleanup(lambda: process.poll() is None and process.kill())
+        return process, ours
+
+    def test_keys_in_a_terminal_pause_reset_and_end_it(self):
+        process, ours = self.start_in_terminal()
         self.nodes_of(process)
         for key, said in ((b"p", "run: paused"), (b"p", "run: goes on"), (b"r", "run: reset"), (b"c", "run: fault cleared")):
             os.write(ours, key)
@@ -259,6 +265,22 @@ class Endings(LauncherTest):
         os.write(ours, b"q")
         self.assertEqual(process.wait(PATIENCE_S), 0)
         self.check_shape(self.report(), SHAPE)
+
+    def test_ended_before_its_hand_starts_it_ends_well_and_says_that_there_was_none(self):
+        process, ours = self.start_in_terminal("--paused")
+        self.nodes_of(process, [name for name in NODES if name != "virtual_device"])
+        os.write(ours, b"q")
+        said = (self.folder / "log").read_text
+        self.assertEqual(process.wait(PATIENCE_S), 0, said())
+        hand = self.report()["nodes"]["virtual_device"]
+        self.assertIsNone(hand["exit"])
+        self.assertEqual(hand["faults"], [])
+        self.assertIn("virtual_device was not started", said())
+
+    def test_sessions_in_a_row_end_well(self):
+        for vendor in ("fast", "cyclone", "fast", "cyclone"):
+            done = self.run_it("--headless", "--seconds", "3", "--out", self.out, "--dds", vendor)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_a_killed_node_leaves_the_others_running_and_is_reported(self):
         process = self.start(HOLD, "--headless", "--out", self.out)
@@ -411,6 +433,42 @@ class Parts(unittest.TestCase):
         self.assertNotEqual(other.number, number)
         self.assertEqual(domain.Domain(number).number, number, "a person may join it")
 
+    def stopped(self, once, program):
+        """How a node ends whose session ends once it wrote the file `once`. `program` is its Python, with two words."""
+        node = processes.Node("virtual_device", [sys.executable, "-c", f"""
+import pathlib, signal, sys, time
+def say(word):
+    pathlib.Path({str(self.folder)!r}, word).touch()
+def hear(on_signal):
+    signal.signal(signal.SIGTERM, on_signal)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTERM])
+{program}
+"""], self.folder / "report.json")
+        node.start()
+        deadline = time.monotonic() + PATIENCE_S
+        while not (self.folder / once).exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        processes.stop_all([node])
+        return node.exit
+
+    def test_a_node_is_told_once_to_end(self):
+        # as after main: the handler is gone while libraries still end their threads
+        self.assertEqual(self.stopped("listens", f"""
+def end(*_):
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    time.sleep({3 * processes.LEAD_S})
+    sys.exit(0)
+hear(end)
+say("listens")
+time.sleep({PATIENCE_S})"""), 0)
+
+    def test_a_node_that_does_not_listen_yet_ends_when_it_does(self):
+        self.assertEqual(self.stopped("begins", f"""
+say("begins")
+time.sleep({3 * processes.LEAD_S})
+hear(lambda *_: sys.exit(0))
+time.sleep({PATIENCE_S})"""), 0)
+
     def ended(self, name, code, own_report="{}", starts=2):
         """What a session that restarts nodes makes of one's end."""
         file = self.folder / f"{name}.json"
@@ -432,6 +490,16 @@ class Parts(unittest.TestCase):
         self.assertIn("deform_node", self.ended("deform_node", -11).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 0).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 2).restarts)
+
+    def test_stolen_time_is_a_share_of_the_time_since_the_watch_began(self):
+        stat = self.folder / "stat"
+        stat.write_text("cpu  900 0 50 8000 10 0 0 40 500 0\ncpu0 1 2 3\n")
+        watch = machine.StealWatch(stat)
+        self.assertEqual(watch.share(), 0)
+        stat.write_text("cpu  930 0 60 8050 10 0 0 50 530 0\ncpu0 1 2 3\n")
+        self.assertEqual(watch.share(), 0.1)
+        stat.write_text("cpu  1000 0 60 8050\n")  # a kernel that does not count it
+        self.assertEqual(machine.processor_times(stat.read_text())[0], 0)
 
     def test_table_shows_the_devices_round_trip_and_losses(self):
         times = {**report.NONE_US, "p50": 180.0, "p99": 2500.0, "max": 9000.0, "count": 7}

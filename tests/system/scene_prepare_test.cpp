@@ -135,6 +135,21 @@ TEST(BoxTest, AwkwardSupportsStillGiveBothHandsAPlace) {
   }
 }
 
+TEST(BoxTest, AForeignOrganGivesTheSceneItsName) {
+  const ScratchFolder folder;
+  const std::filesystem::path mesh = folder / "box.msh";
+  const std::string organ = folder / "kidney.h5", fitted = folder / "scene.toml";
+  geometry::write_mesh(make_box_mesh(4, 3, 3, {0.12, 0.09, 0.06}), mesh);
+  Process build("organ_build", {mesh, "-o", organ, "--young", "12000", "--poisson", "0.45", "--density",
+                                "1060", "--scale", "1", "--fixed", "plane:z<0.01"});
+  ASSERT_EQ(build.wait(), 0) << build.messages();
+  Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
+  ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
+  const runtime::Scene scene = runtime::load_scene(fitted);
+  EXPECT_EQ(scene.name, "kidney pressed by a simulated hand");
+  EXPECT_EQ(scene.organs.front().name, "kidney");
+}
+
 TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
   const runtime::Scene held = runtime::load_scene(OMENTUM_HELD_SCENE);
   const ScratchFolder folder;
@@ -144,6 +159,7 @@ TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
   ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
   const runtime::Scene before = runtime::load_scene(kOwnScene), after = runtime::load_scene(fitted);
   const Skin skin(held.organs.front().file);
+  EXPECT_EQ(after.name, before.name);
   ASSERT_EQ(after.hands.size(), before.hands.size());
   for (std::size_t i = 0; i < after.hands.size(); ++i) {
     expect_hand_fits(skin, after.hands[i]);

@@ -1,0 +1,33 @@
+#include "organ_tools/fast_blas.h"
+
+#include "physics/blas_kernels.h"
+#include "runtime/restart.h"
+
+#include <cstdlib>
+
+namespace omentum::organ_tools {
+namespace {
+
+constexpr const char* kAsked = "OPENBLAS_CORETYPE";
+constexpr const char* kChose = "OMENTUM_BLAS_CHOSE";  // from the program to itself, started anew
+
+}  // namespace
+
+void start_with_fast_blas(char** argv) {
+  if (std::getenv(kAsked) != nullptr) return;
+  const std::string chose = physics::blas_core();
+  const auto better = physics::better_blas_core(physics::vector_unit(), chose);
+  if (!better) return;
+  setenv(kChose, chose.c_str(), 1);
+  runtime::restart_with(kAsked, *better, argv);
+  unsetenv(kChose);  // still here
+}
+
+std::string fast_blas_note() {
+  const char* const chose = std::getenv(kChose);
+  if (chose == nullptr) return {};
+  return std::string("OpenBLAS does not know this processor and chose its ") + chose +
+         " kernels: started anew with " + kAsked + "=" + std::getenv(kAsked);
+}
+
+}  // namespace omentum::organ_tools
