@@ -42,7 +42,7 @@ class Writer {
   virtual ~Writer() = default;
   /// Sends on the calling thread (Fast DDS hands samples above one message's size to a thread of its
   /// own). False: a sequence or string is over its bound in the IDL, a string contains a zero byte, or
-  /// the vendor refused. Never throws.
+  /// the vendor refused, or it is joining the domain anew after a standstill of the process. Never throws.
   virtual bool write(const M& sample) noexcept = 0;
   virtual EndpointStatus status() const = 0;
 };
@@ -58,7 +58,10 @@ class Reader {
 };
 
 /// One participant in one domain. Topic names and QoS come from transport/topics.h, by message type.
-/// Destroy readers and writers before the bus. All methods may be called by any thread.
+/// Destroy readers and writers before the bus. All methods may be called by any thread, none from a callback.
+///
+/// A process that was stopped for a while finds its partners again, if need be as a new participant: readers
+/// and writers live on, and durable samples are said again.
 ///
 /// "Matched" is not "ready" in DDS: the first samples of a volatile topic (ToolPose, SessionCommand...)
 /// may be lost while two endpoints find each other; durable topics arrive whole.

@@ -79,6 +79,12 @@ class PeerProcess {
     pid_ = 0;
     return exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
+  /// Stops it for a while, as a debugger or a laptop's lid does.
+  void freeze(std::chrono::milliseconds time) {
+    kill(pid_, SIGSTOP);
+    std::this_thread::sleep_for(time);
+    kill(pid_, SIGCONT);
+  }
   void kill_it() {
     kill(pid_, SIGKILL);
     end();

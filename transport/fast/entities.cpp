@@ -70,7 +70,7 @@ dds::DomainParticipantQos participant_qos(const BusOptions& options) {
   dds::DomainParticipantQos qos;
   qos.name(options.name);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  discovery.leaseDuration = duration(kParticipantLeaseMs);
+  discovery.leaseDuration = duration(kFastLeaseMs);
   discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriodMs);
   discovery.initial_announcements.count = kFirstAnnouncements;
   set_transports(qos, options.profile);

@@ -1,11 +1,15 @@
 #include "transport/fast/participant.h"
 
 #include "transport/arrivals.h"
-#include "transport/fast/entities.h"
+#include "transport/fast/membership.h"
 #include "transport/fast/message_type.h"
+#include "transport/fast/newest_by_key.h"
 #include "transport/reader_counters.h"
+#include "transport/settings.h"
+#include "transport/standstill.h"
 
 #include <atomic>
+#include <shared_mutex>
 #include <stdexcept>
 
 namespace omentum::transport::fast {
@@ -14,17 +18,14 @@ namespace {
 
 using eprosima::fastrtps::types::ReturnCode_t;
 
+// A process that stood still for so long may have been forgotten by some and not by others.
+constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastLeaseMs) / 2;
+
 template <class M>
-class FastWriter final : public Writer<M> {
+class FastWriter final : public Writer<M>, private Endpoint {
  public:
-  explicit FastWriter(Entities& entities) : entities_(entities) {
-    const TopicSpec& spec = kTopicSpec<M>;
-    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    const auto qos = writer_qos(spec, entities.profile, kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes);
-    writer_ = entities.publisher->create_datawriter(topic, qos, nullptr, dds::StatusMask::none());
-    if (!writer_) throw std::runtime_error(std::string("Fast DDS refused a writer of ") + spec.name);
-  }
-  ~FastWriter() override { entities_.publisher->delete_datawriter(writer_); }
+  explicit FastWriter(Membership& membership) : membership_(membership) { membership.add(*this); }
+  ~FastWriter() override { membership_.remove(*this); }
 
   bool write(const M& sample) noexcept override {
     if (within_bounds(sample) && send(sample)) {
@@ -36,54 +37,98 @@ class FastWriter final : public Writer<M> {
   }
 
   EndpointStatus status() const override {
-    EndpointStatus status = status_of(*writer_);
+    const std::shared_lock lock(mutex_);
+    EndpointStatus status = writer_ ? status_of(*writer_) : EndpointStatus{};
     status.samples = samples_;
     status.rejected = rejected_;
     return status;
   }
 
  private:
+  void join(Entities& entities) override {
+    const TopicSpec& spec = kTopicSpec<M>;
+    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
+    const auto qos = writer_qos(spec, entities.profile, kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes);
+    const std::lock_guard lock(mutex_);
+    writer_ = entities.publisher->create_datawriter(topic, qos, nullptr, dds::StatusMask::none());
+    if (!writer_) throw std::runtime_error(std::string("Fast DDS refused a writer of ") + spec.name);
+    // a new writer's history is empty
+    newest_.for_each([this](const M& sample) { hand_over(sample); });
+  }
+
+  void leave(Entities& entities) override {
+    const std::lock_guard lock(mutex_);
+    if (writer_) entities.publisher->delete_datawriter(writer_);
+    writer_ = nullptr;
+  }
+
   bool send(const M& sample) noexcept {
-    // serialize() and getKey() only read it
-    SampleRef<M> data{const_cast<M*>(&sample)};
     try {
-      return writer_->write(&data);
+      std::shared_lock lock(mutex_, std::defer_lock);
+      if constexpr (kDurable<M>) {
+        lock.lock();
+        newest_.keep(sample);
+        return !writer_ || hand_over(sample);  // without a participant: said by the next one
+      } else {
+        // a participant that is being renewed is not waited for
+        return lock.try_lock() && writer_ && hand_over(sample);
+      }
     } catch (const std::exception&) {
       return false;
     }
   }
 
-  Entities& entities_;
+  bool hand_over(const M& sample) {
+    // serialize() and getKey() only read it
+    SampleRef<M> data{const_cast<M*>(&sample)};
+    return writer_->write(&data);
+  }
+
+  Membership& membership_;
+  mutable std::shared_mutex mutex_;  // exclusive: writer_ changes
   dds::DataWriter* writer_ = nullptr;
+  NewestByKey<M> newest_;  // of durable topics only
   std::atomic<std::uint64_t> samples_{0};
   std::atomic<std::uint64_t> rejected_{0};
 };
 
 template <class M>
-class FastReader final : public Reader<M>, private dds::DataReaderListener {
+class FastReader final : public Reader<M>, private Endpoint, private dds::DataReaderListener {
  public:
-  FastReader(Entities& entities, std::function<void(const M&)> on_sample)
-      : entities_(entities), on_sample_(std::move(on_sample)) {
-    const TopicSpec& spec = kTopicSpec<M>;
-    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    const auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
-    reader_ = entities.subscriber->create_datareader(topic, reader_qos(spec), this, mask);
-    if (!reader_) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
+  FastReader(Membership& membership, std::function<void(const M&)> on_sample)
+      : membership_(membership), on_sample_(std::move(on_sample)) {
+    membership.add(*this);
   }
-
-  ~FastReader() override {
-    reader_->set_listener(nullptr);
-    arrivals_.close();
-    entities_.subscriber->delete_datareader(reader_);
-  }
+  ~FastReader() override { membership_.remove(*this); }
 
   EndpointStatus status() const override {
-    EndpointStatus status = status_of(*reader_);
+    const std::shared_lock lock(mutex_);
+    EndpointStatus status = reader_ ? status_of(*reader_) : EndpointStatus{};
     counters_.add_to(status);
     return status;
   }
 
  private:
+  void join(Entities& entities) override {
+    const TopicSpec& spec = kTopicSpec<M>;
+    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
+    const auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
+    arrivals_.open();
+    dds::DataReader* reader = entities.subscriber->create_datareader(topic, reader_qos(spec), this, mask);
+    if (!reader) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
+    const std::lock_guard lock(mutex_);
+    reader_ = reader;
+  }
+
+  void leave(Entities& entities) override {
+    if (!reader_) return;
+    reader_->set_listener(nullptr);
+    arrivals_.close();
+    const std::lock_guard lock(mutex_);
+    entities.subscriber->delete_datareader(reader_);
+    reader_ = nullptr;
+  }
+
   void on_data_available(dds::DataReader* reader) override {
     arrivals_.announce([&] { take_all(*reader); });
   }
@@ -107,27 +152,35 @@ class FastReader final : public Reader<M>, private dds::DataReaderListener {
     }
   }
 
-  Entities& entities_;
+  Membership& membership_;
   std::function<void(const M&)> on_sample_;
   M message_;  // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
+  mutable std::shared_mutex mutex_;  // exclusive: reader_ changes
   dds::DataReader* reader_ = nullptr;
 };
 
 }  // namespace
 
-Participant::Participant(const BusOptions& options) : entities_(std::make_unique<Entities>(options)) {}
+Participant::Participant(const BusOptions& options)
+    : membership_(std::make_unique<Membership>(options)),
+      watch_(std::make_unique<StandstillWatch>(kForgottenAfter, [this] { return membership_->renew(); })) {}
+
 Participant::~Participant() = default;
+
+bool Participant::renew() noexcept {
+  return membership_->renew();
+}
 
 template <class M>
 std::unique_ptr<Writer<M>> Participant::writer() {
-  return std::make_unique<FastWriter<M>>(*entities_);
+  return std::make_unique<FastWriter<M>>(*membership_);
 }
 
 template <class M>
 std::unique_ptr<Reader<M>> Participant::reader(std::function<void(const M&)> on_sample) {
-  return std::make_unique<FastReader<M>>(*entities_, std::move(on_sample));
+  return std::make_unique<FastReader<M>>(*membership_, std::move(on_sample));
 }
 
 #define OMENTUM_INSTANTIATE(M)                                            \
