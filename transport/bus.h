@@ -3,6 +3,7 @@
 
 #include "transport/messages.h"  // generated from idl/ by idl/generate.py
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -57,6 +58,20 @@ class Reader {
   virtual EndpointStatus status() const = 0;
 };
 
+/// Names a writer: no two that a reader hears at the same time have the same name.
+using WriterId = std::array<std::uint8_t, 16>;
+
+/// For a reader that tells writers apart. Both are called as its callback is (see Reader), never at the same
+/// time.
+template <class M>
+struct ByWriter {
+  std::function<void(const M&, const WriterId&)> on_sample;
+  /// The writer left, in whatever way: a killed one is noticed when its participant's lease is over.
+  /// Everything of it came before; maybe nothing did. Who was only out of sight comes back with its durable
+  /// samples.
+  std::function<void(const WriterId&)> on_gone;
+};
+
 /// One participant in one domain. Topic names and QoS come from transport/topics.h, by message type.
 /// Destroy readers and writers before the bus. All methods may be called by any thread, none from a callback.
 ///
@@ -73,11 +88,13 @@ class Bus {
   static std::unique_ptr<Bus> open(const BusOptions& options);
   virtual ~Bus() = default;
 
-  /// Both throw std::runtime_error when the vendor refuses. M is one of msg::AllTopics.
+  /// All throw std::runtime_error when the vendor refuses. M is one of msg::AllTopics.
   template <class M>
   std::unique_ptr<Writer<M>> writer();
   template <class M>
   std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample);
+  template <class M>
+  std::unique_ptr<Reader<M>> reader(ByWriter<M> callbacks);
 
   /// What in this machine's settings will cost samples, and what to set; empty when nothing does.
   virtual std::string warning() const = 0;

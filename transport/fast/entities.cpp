@@ -153,6 +153,7 @@ dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_
 dds::DataReaderQos reader_qos(const TopicSpec& spec) {
   dds::DataReaderQos qos;
   set_common(qos, spec);
+  qos.history().depth = spec.depth * spec.writers;
   return qos;
 }
 

@@ -1,6 +1,7 @@
 #include "transport/fast/participant.h"
 
 #include "transport/arrivals.h"
+#include "transport/departures.h"
 #include "transport/fast/membership.h"
 #include "transport/fast/message_type.h"
 #include "transport/fast/newest_by_key.h"
@@ -17,6 +18,12 @@ namespace omentum::transport::fast {
 namespace {
 
 using eprosima::fastrtps::types::ReturnCode_t;
+
+WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) {
+  WriterId id{};
+  for (std::size_t i = 0; i < id.size(); ++i) id[i] = publication.value[i];
+  return id;
+}
 
 // A process that stood still for so long may have been forgotten by some and not by others.
 constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastLeaseMs) / 2;
@@ -95,8 +102,8 @@ class FastWriter final : public Writer<M>, private Endpoint {
 template <class M>
 class FastReader final : public Reader<M>, private Endpoint, private dds::DataReaderListener {
  public:
-  FastReader(Membership& membership, std::function<void(const M&)> on_sample)
-      : membership_(membership), on_sample_(std::move(on_sample)) {
+  FastReader(Membership& membership, ByWriter<M> callbacks)
+      : membership_(membership), callbacks_(std::move(callbacks)) {
     membership.add(*this);
   }
   ~FastReader() override { membership_.remove(*this); }
@@ -112,7 +119,8 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
   void join(Entities& entities) override {
     const TopicSpec& spec = kTopicSpec<M>;
     dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    const auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
+    auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
+    if (callbacks_.on_gone) mask << dds::StatusMask::subscription_matched();
     arrivals_.open();
     dds::DataReader* reader = entities.subscriber->create_datareader(topic, reader_qos(spec), this, mask);
     if (!reader) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
@@ -124,6 +132,7 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     if (!reader_) return;
     reader_->set_listener(nullptr);
     arrivals_.close();
+    departures_.all_left();
     const std::lock_guard lock(mutex_);
     entities.subscriber->delete_datareader(reader_);
     reader_ = nullptr;
@@ -133,12 +142,20 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     arrivals_.announce([&] { take_all(*reader); });
   }
 
+  void on_subscription_matched(dds::DataReader* reader,
+                               const dds::SubscriptionMatchedStatus& status) override {
+    if (status.current_count_change >= 0) return;
+    departures_.left(writer_id(status.last_publication_handle));
+    arrivals_.announce([&] { take_all(*reader); });
+  }
+
   void on_liveliness_changed(dds::DataReader*,
                              const eprosima::fastrtps::LivelinessChangedStatus& status) override {
     counters_.liveliness_changed(status.not_alive_count_change);
   }
 
   void take_all(dds::DataReader& reader) {
+    const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
     SampleRef<M> data{&message_};
     dds::SampleInfo info;
     while (reader.take_next_sample(&data, &info) == ReturnCode_t::RETCODE_OK) {
@@ -148,13 +165,17 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
         continue;
       }
       counters_.delivered(message_);
-      on_sample_(message_);
+      const WriterId writer = writer_id(info.publication_handle);
+      if (callbacks_.on_gone) departures_.delivered(writer);
+      callbacks_.on_sample(message_, writer);
     }
+    for (const WriterId& writer : gone) callbacks_.on_gone(writer);
   }
 
   Membership& membership_;
-  std::function<void(const M&)> on_sample_;
-  M message_;  // its sequences keep their memory from sample to sample
+  ByWriter<M> callbacks_;
+  Departures departures_;  // where somebody asks for them
+  M message_;              // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
   mutable std::shared_mutex mutex_;  // exclusive: reader_ changes
@@ -179,13 +200,13 @@ std::unique_ptr<Writer<M>> Participant::writer() {
 }
 
 template <class M>
-std::unique_ptr<Reader<M>> Participant::reader(std::function<void(const M&)> on_sample) {
-  return std::make_unique<FastReader<M>>(*membership_, std::move(on_sample));
+std::unique_ptr<Reader<M>> Participant::reader(ByWriter<M> callbacks) {
+  return std::make_unique<FastReader<M>>(*membership_, std::move(callbacks));
 }
 
 #define OMENTUM_INSTANTIATE(M)                                            \
   template std::unique_ptr<Writer<msg::M>> Participant::writer<msg::M>(); \
-  template std::unique_ptr<Reader<msg::M>> Participant::reader<msg::M>(std::function<void(const msg::M&)>);
+  template std::unique_ptr<Reader<msg::M>> Participant::reader<msg::M>(ByWriter<msg::M>);
 OMENTUM_FOR_EACH_TOPIC(OMENTUM_INSTANTIATE)
 #undef OMENTUM_INSTANTIATE
 

@@ -26,7 +26,7 @@ class Participant {
   template <class M>
   std::unique_ptr<Writer<M>> writer();
   template <class M>
-  std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample);
+  std::unique_ptr<Reader<M>> reader(ByWriter<M> callbacks);
 
   /// Leaves and joins the domain at once, as after a standstill. False when Fast DDS refused. Any thread, but
   /// not from a reader's callback.
