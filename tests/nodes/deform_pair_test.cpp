@@ -78,6 +78,22 @@ TEST_P(DeformPairTest, TheSecondStandsByAndTakesOverFromAKilledOne) {
   EXPECT_EQ(second.terminate(), 0) << second.messages();
 }
 
+// A laptop's lid: the other one has served meanwhile, and both think that the scene is theirs.
+TEST_P(DeformPairTest, WhoWasFrozenAndWhoTookOverAreOneThatServes) {
+  test::Process first("deform_node", arguments());
+  const std::uint64_t served = who_serves_alone();
+  ASSERT_NE(served, 0u) << first.messages();
+  test::Process second("deform_node", arguments());
+  ASSERT_TRUE(test::comes_true([&] { return second.messages().find("stands by") != std::string::npos; }));
+  first.send(SIGSTOP);
+  EXPECT_TRUE(test::comes_true([&] { return who_serves_alone() != served; })) << second.messages();
+  first.send(SIGCONT);
+  // which one depends on how long each had run; the second question comes when they have met for certain
+  ASSERT_NE(who_serves_alone(), 0u);
+  EXPECT_NE(who_serves_alone(), 0u) << first.messages() << second.messages();
+  EXPECT_TRUE(first.running() && second.running());
+}
+
 TEST_P(DeformPairTest, OfTwoThatStartTogetherOneServes) {
   test::Process first("deform_node", arguments()), second("deform_node", arguments());
   EXPECT_NE(who_serves_alone(), 0u) << first.messages() << second.messages();
