@@ -1,9 +1,10 @@
 #include "deform_node/contact_book.h"
 
+#include "deform_node/contact_reach.h"
+#include "node/contact_bounds.h"
 #include "node/vectors.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace omentum::deform {
 
@@ -18,7 +19,7 @@ const char* describe(Rejection rejection) noexcept {
     case Rejection::kNone:
       return "contact accepted";
     case Rejection::kTool:
-      return "contact dropped: tool number out of range";
+      return "contact dropped: tool that the scene does not have";
     case Rejection::kOrgan:
       return "contact dropped: no such organ in this scene";
     case Rejection::kTopologyVersion:
@@ -27,46 +28,79 @@ const char* describe(Rejection rejection) noexcept {
       return "contact dropped: nodes, displacements and forces differ in number";
     case Rejection::kNode:
       return "contact dropped: node that is not on the surface";
-    case Rejection::kNotFinite:
-      return "contact dropped: a force or displacement is not finite";
+    case Rejection::kForce:
+      return "contact dropped: forces beyond what the scene's tools exert, or not finite";
+    case Rejection::kReach:
+      return "contact dropped: moves the organ farther than its own size, or not finite";
   }
   return "contact dropped";
 }
 
-Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
-                        HeldContact& held) noexcept {
-  if (contact.tool >= static_cast<std::uint32_t>(kMaxTools)) return Rejection::kTool;
+ContactBounds bounds_of(const runtime::Scene& scene) {
+  ContactBounds bounds{.tools = 0, .max_force_n = scene.haptics.max_force_n};
+  for (const runtime::ToolSpec& tool : scene.tools)
+    if (tool.id < msg::MAX_TOOLS) bounds.tools |= 1u << tool.id;
+  return bounds;
+}
+
+namespace {
+
+// What the contact says of itself, without a look at its nodes.
+Rejection check_claims(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
+                       const ContactBounds& bounds) noexcept {
+  if (contact.tool >= static_cast<std::uint32_t>(kMaxTools) || !(bounds.tools >> contact.tool & 1u) ||
+      contact.cause.tool != contact.tool)
+    return Rejection::kTool;
   if (contact.organ >= organs.size()) return Rejection::kOrgan;
-  const OrganNumbers& organ = organs[contact.organ];
-  if (contact.topology_version != organ.topology_version) return Rejection::kTopologyVersion;
+  if (contact.topology_version != organs[contact.organ].topology_version) return Rejection::kTopologyVersion;
   const std::size_t count = contact.nodes.size();
   if (count > static_cast<std::size_t>(kMaxNodesPerTool) || contact.displacements.size() != count ||
       contact.forces.size() != count)
     return Rejection::kLengths;
+  if (!node::within_scene(node::total_force_n(contact), bounds.max_force_n)) return Rejection::kForce;
+  for (const msg::Vec3& u : contact.displacements)
+    if (!(to_vector(u).norm() <= organs[contact.organ].reach_m)) return Rejection::kReach;
+  return Rejection::kNone;
+}
+
+Rejection translate(const msg::Contact& contact, const OrganNumbers& organ, HeldContact& held) noexcept {
   held.organ = contact.organ;
   held.cause = contact.cause;
   held.count = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     if (contact.nodes[i] >= organ.surface_of_file_node.size()) return Rejection::kNode;
     const SurfaceId node = organ.surface_of_file_node[contact.nodes[i]];
     if (!node.valid()) return Rejection::kNode;
-    const Vec3 force = to_vector(contact.forces[i]);
-    const Vec3 displacement = to_vector(contact.displacements[i]);
-    if (!force.allFinite() || !displacement.allFinite()) return Rejection::kNotFinite;
     if (node >= organ.mobile_count) continue;
     held.nodes[held.count] = node;
-    held.forces[held.count] = force;
-    held.displacements[held.count] = displacement;
+    held.forces[held.count] = to_vector(contact.forces[i]);
+    held.displacements[held.count] = to_vector(contact.displacements[i]);
     ++held.count;
   }
   return Rejection::kNone;
 }
 
-ContactBook::ContactBook(std::vector<OrganNumbers> organs, runtime::FaultList& faults)
-    : organs_(std::move(organs)), faults_(faults) {}
+}  // namespace
+
+Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
+                        const ContactBounds& bounds, HeldContact& held) noexcept {
+  Rejection rejection = check_claims(contact, organs, bounds);
+  if (rejection != Rejection::kNone) return rejection;
+  const OrganNumbers& organ = organs[contact.organ];
+  rejection = translate(contact, organ, held);
+  if (rejection != Rejection::kNone || organ.compliance == nullptr) return rejection;
+  const auto count = static_cast<std::size_t>(held.count);
+  const double moved_m =
+      largest_displacement_m(*organ.compliance, {held.nodes.data(), count}, {held.forces.data(), count});
+  return moved_m <= organ.reach_m ? Rejection::kNone : Rejection::kReach;
+}
+
+ContactBook::ContactBook(std::vector<OrganNumbers> organs, const ContactBounds& bounds,
+                         runtime::FaultList& faults)
+    : organs_(std::move(organs)), bounds_(bounds), faults_(faults) {}
 
 void ContactBook::take(const msg::Contact& contact, std::int64_t now_ns) noexcept {
-  const Rejection rejection = check_contact(contact, organs_, draft_);
+  const Rejection rejection = check_contact(contact, organs_, bounds_, draft_);
   if (rejection != Rejection::kNone) {
     faults_.raise(describe(rejection));
     return;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "deform_node/organ_models.h"
+#include "physics/surface_compliance.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
+#include "runtime/scene.h"
 #include "transport/messages.h"
 
 #include <array>
@@ -29,10 +31,19 @@ struct OrganNumbers {
   std::vector<SurfaceId> surface_of_file_node;  // invalid where the node is not on the surface
   std::int32_t mobile_count = 0;                // SurfaceIds below carry tensors
   std::uint64_t topology_version = 0;
+  double reach_m = 0;  // farther no contact moves a node (contact_reach.h)
+  const physics::SurfaceCompliance* compliance = nullptr;  // not owned; none: only what is claimed is checked
 };
 
+/// What a scene lets its contacts claim.
+struct ContactBounds {
+  std::uint32_t tools = 0;  // bit t: the scene has tool t
+  double max_force_n = 0;   // on a hand; for the tissue see node/contact_bounds.h
+};
+ContactBounds bounds_of(const runtime::Scene& scene);
+
 /// Why a Contact is dropped.
-enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kNotFinite };
+enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kForce, kReach };
 const char* describe(Rejection rejection) noexcept;
 
 /// A checked Contact with SurfaceIds, of fixed size: it crosses threads without memory being taken.
@@ -49,14 +60,14 @@ struct HeldContact {
 /// Translates `contact` into `held`, whose received_ns is set by the caller. Nodes that are held fixed are
 /// left out: they cannot move, and a triangle at a support has some. Pure.
 [[nodiscard]] Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
-                                      HeldContact& held) noexcept;
+                                      const ContactBounds& bounds, HeldContact& held) noexcept;
 
 /// Contacts on their way from the receiving thread to the loop. take() and the loop's methods may run at the
 /// same time on one thread each; neither waits or allocates.
 class ContactBook {
  public:
   /// Dropped contacts are raised in `faults`, which must outlive the book.
-  ContactBook(std::vector<OrganNumbers> organs, runtime::FaultList& faults);
+  ContactBook(std::vector<OrganNumbers> organs, const ContactBounds& bounds, runtime::FaultList& faults);
 
   /// Receiving thread.
   void take(const msg::Contact& contact, std::int64_t now_ns) noexcept;
@@ -74,6 +85,7 @@ class ContactBook {
 
  private:
   std::vector<OrganNumbers> organs_;
+  ContactBounds bounds_;
   runtime::FaultList& faults_;
   HeldContact draft_;  // receiving thread
   std::array<runtime::Mailbox<HeldContact>, kMaxTools> newest_;

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
+#include <utility>
 
 namespace omentum::deform {
 
@@ -18,8 +20,12 @@ constexpr double kStatusRateHz = 10;  // DESIGN 2: 1-10 Hz
 // How long to listen for a scene that is served already, ns: haptic_node listens as long, so that this delays
 // no force, and the first picture by a second.
 constexpr std::int64_t kListen_ns = 1'000'000'000;
-// A scene that is met after this is the newcomer's, ns: two Fast participants find each other within 2.9 s.
-constexpr std::int64_t kSettled_ns = 5'000'000'000;
+constexpr auto kSettled_ns = static_cast<std::int64_t>(1e9 * node::kSettled_s);
+
+// whoever writes statuses must not fill a terminal
+void say_once(bool& said, const char* what) {
+  if (!std::exchange(said, true)) std::cerr << "deform_node: " << what << std::endl;
+}
 
 std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs) {
   std::vector<OrganNumbers> numbers;
@@ -34,13 +40,15 @@ DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
     : options_(options),
       scene_(node::load_scene(options.node)),
       organs_(load_organs(scene_, transport::parse_profile(options.node.profile))),
-      book_(numbers_of_all(organs_), faults_),
+      book_(numbers_of_all(organs_), bounds_of(scene_), faults_),
       loop_(loop),
       start_ns_(runtime::steady_now_ns()),
       scene_info_(describe_scene(scene_, organs_)),
+      loaded_{organs_.size(), scene_info_.organs},
       orders_(start_ns_),
       refusal_(loop),
       status_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
+      standby_(status_.instance),
       bus_(node::open_bus(options.node, "deform_node")) {
   if (!options.node.log.empty()) {
     log_ = std::make_unique<runtime::LoopLog>(options.node.log);
@@ -52,37 +60,52 @@ DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
   status_writer_ = bus_->writer<msg::NodeStatus>();
   contact_reader_ = bus_->reader<msg::Contact>(
       [this](const msg::Contact& contact) { book_.take(contact, runtime::steady_now_ns()); });
-  command_reader_ =
-      bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { orders_.hear(c); });
+  command_reader_ = bus_->reader<msg::SessionCommand>(
+      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
   scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& other) { hear(other); });
-  node_reader_ = bus_->reader<msg::NodeStatus>(
-      [this](const msg::NodeStatus& other) { orders_.hear(other, runtime::steady_now_ns()); });
+  node_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& other) {
+    const std::int64_t now_ns = runtime::steady_now_ns();
+    orders_.hear(other, now_ns);
+    standby_.hear(other, now_ns);
+  });
 }
 
 void DeformLoop::run() {
-  bool joined = false;
   while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {
-    if (!joined && runtime::steady_now_ns() - start_ns_ >= kListen_ns) {
-      introduce();
-      joined = true;
-    }
-    if (joined) tick();
+    if (runtime::steady_now_ns() - start_ns_ >= kListen_ns) serve_or_stand_by();
     loop_.finish_tick();
   }
   refusal_.throw_if_any();
 }
 
-void DeformLoop::introduce() {
+void DeformLoop::serve_or_stand_by() {
+  const bool other_serves = standby_.other_serves(runtime::steady_now_ns());
+  if (other_serves && role_ != Role::kStandingBy) stand_by();
+  if (!other_serves && role_ != Role::kServing) take_up();
+  if (role_ == Role::kServing) tick();
+}
+
+void DeformLoop::take_up() {
+  if (role_ == Role::kStandingBy) say_once(told_serving_, "the other one fell silent, this one serves");
+  role_ = Role::kServing;
+  if (std::exchange(introduced_, true)) return;
   scene_writer_->write(scene_info_);
   for (std::size_t i = 0; i < organs_.size(); ++i)
     topology_writer_->write(uncut_topology(static_cast<std::uint32_t>(i), organs_[i].organ));
 }
 
+void DeformLoop::stand_by() {
+  say_once(told_standing_by_, "another deform_node serves this scene, this one stands by");
+  if (role_ == Role::kServing) faults_.raise("scene: another deform_node serves it as well, left to it");
+  role_ = Role::kStandingBy;
+  standby_.stepped_back();
+}
+
 void DeformLoop::hear(const msg::SceneInfo& other) {
-  auto why = contradicts(scene_info_, other);
+  auto why = node::contradicts(loaded_, other);
   if (!why) return;
   if (runtime::steady_now_ns() - start_ns_ > kSettled_ns) {
-    faults_.raise("scene: a deform_node with other organs or another protocol appeared, ignored");
+    faults_.raise(node::kForeignScene);
   } else {
     refusal_.because(*std::move(why));
   }
@@ -121,6 +144,7 @@ void DeformLoop::publish_status() noexcept {
   status_.paused = orders_.paused();
   status_.echoes.assign(book_.echoes().begin(), book_.echoes().end());
   node::fill_status(loop_.record(), faults_, status_);
+  standby_.serving(status_);
   status_writer_->write(status_);
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "deform_node/served_organ.h"
+#include "deform_node/standby.h"
+#include "node/loaded_scene.h"
 #include "node/refusal.h"
 #include "node/session_orders.h"
 #include "runtime/loop_log.h"
@@ -19,8 +21,9 @@ struct DeformOptions {
 };
 
 /// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo and
-/// NodeStatus. Listens first: who finds a scene with other organs does not join it. Another scene that
-/// appears after kSettled_s is the newcomer's fault, and is ignored.
+/// NodeStatus. Listens first: who finds a scene with other organs does not join it, and who finds one that is
+/// served stands by, silent but for Contact, until it is not. Another scene that appears after
+/// node::kSettled_s is the newcomer's fault, and is ignored.
 class DeformLoop {
  public:
   /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace and must outlive this.
@@ -32,7 +35,9 @@ class DeformLoop {
   nlohmann::json report() const;
 
  private:
-  void introduce();
+  void serve_or_stand_by();
+  void take_up();
+  void stand_by();
   void hear(const msg::SceneInfo& other);
   void tick() noexcept;
   void obey() noexcept;
@@ -48,12 +53,18 @@ class DeformLoop {
   std::unique_ptr<runtime::LoopLog> log_;
   std::int64_t start_ns_;
   msg::SceneInfo scene_info_;
+  node::LoadedScene loaded_;
   node::SessionOrders orders_;
   node::Refusal refusal_;
   std::uint64_t steps_ = 0;
   std::uint64_t states_ = 0;
   std::uint64_t ticks_ = 0;
+  enum class Role { kListening, kServing, kStandingBy };
+  Role role_ = Role::kListening;
+  bool introduced_ = false;                               // its durable samples are out
+  bool told_standing_by_ = false, told_serving_ = false;  // on stderr
   msg::NodeStatus status_{};
+  Standby standby_;
 
   // declared last: callbacks end before what they touch
   std::unique_ptr<transport::Bus> bus_;

@@ -1,5 +1,6 @@
 #include "deform_node/served_organ.h"
 
+#include "deform_node/contact_reach.h"
 #include "deform_node/quasi_static_model.h"
 
 #include <algorithm>
@@ -56,7 +57,9 @@ std::vector<ServedOrgan> load_organs(const runtime::Scene& scene, transport::Pro
 OrganNumbers numbers_of(const organ::Organ& organ) {
   return {.surface_of_file_node = organ.surface_of_file_node(),
           .mobile_count = organ.surface.mobile_count,
-          .topology_version = 0};
+          .topology_version = 0,
+          .reach_m = reach_of(geometry::surface_positions(organ.mesh, organ.surface)),
+          .compliance = &*organ.compliance};
 }
 
 msg::Topology uncut_topology(std::uint32_t organ, const organ::Organ& source) {
@@ -74,22 +77,6 @@ msg::SceneInfo describe_scene(const runtime::Scene& scene, const std::vector<Ser
   for (const ServedOrgan& served : organs)
     info.organs.push_back({.name = bounded(served.organ.name), .hash = bounded(served.organ.hash)});
   return info;
-}
-
-std::optional<std::string> contradicts(const msg::SceneInfo& own, const msg::SceneInfo& other) {
-  if (other.protocol != own.protocol) {
-    return "the scene's deform_node speaks protocol " + std::to_string(other.protocol) +
-           ", this node speaks " + std::to_string(own.protocol);
-  }
-  const auto hash = [](const msg::SceneInfo& scene, std::size_t i) {
-    return i < scene.organs.size() ? scene.organs[i].hash : std::string("none");
-  };
-  const std::size_t count = std::max(own.organs.size(), other.organs.size());
-  std::size_t i = 0;
-  while (i < count && hash(own, i) == hash(other, i)) ++i;
-  if (i == count) return std::nullopt;
-  return "the scene's deform_node loaded another organ file: its hash is " + hash(other, i) +
-         ", this node's is " + hash(own, i);
 }
 
 void fill_blocks(ServedOrgan& organ, std::uint64_t seq, std::int64_t stamp_ns,

@@ -7,8 +7,6 @@
 #include "runtime/scene.h"
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace omentum::deform {
@@ -23,15 +21,12 @@ struct ServedOrgan {
 /// std::runtime_error (a scene whose organ has no file).
 std::vector<ServedOrgan> load_organs(const runtime::Scene& scene, transport::Profile profile);
 
+/// Refers to the organ's tensors.
 OrganNumbers numbers_of(const organ::Organ& organ);
 
 /// Durable messages: topology version 0 (nothing removed) and who is in the scene.
 msg::Topology uncut_topology(std::uint32_t organ, const organ::Organ& source);
 msg::SceneInfo describe_scene(const runtime::Scene& scene, const std::vector<ServedOrgan>& organs);
-
-/// Why this node must not join a scene that another one serves: another protocol, or other organ files (both
-/// hashes are named).
-std::optional<std::string> contradicts(const msg::SceneInfo& own, const msg::SceneInfo& other);
 
 /// Fills `organ`'s blocks with the state of this moment; allocates nothing.
 void fill_blocks(ServedOrgan& organ, std::uint64_t seq, std::int64_t stamp_ns,

@@ -50,7 +50,7 @@ void DeviceBridge::connect() {
     orders_.hear(status, runtime::steady_now_ns());
   });
   command_reader_ = bus_->reader<msg::SessionCommand>(
-      [this](const msg::SessionCommand& command) { orders_.hear(command); });
+      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
   for (const auto& channel : channels_) info_writer_->write(channel->info());
 }
 

@@ -1,6 +1,6 @@
 #include "haptic_node/device_limits.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace omentum::haptic {
 namespace {
@@ -16,20 +16,16 @@ Vec3 along_axes(const Vec3& v, std::uint32_t axes, std::uint32_t first) {
 
 }  // namespace
 
-ReadLimits read_limits(const msg::DeviceInfo& info) noexcept {
-  ReadLimits read;
-  const auto take = [&read](double given, bool possible, double& limit) {
-    if (std::isfinite(given) && possible) {
-      limit = given;
-    } else {
-      read.sound = false;
-    }
-  };
-  take(info.max_force_n, info.max_force_n >= 0, read.limits.max_force_n);
-  take(info.max_torque_nm, info.max_torque_nm >= 0, read.limits.max_torque_nm);
-  take(info.max_stiffness_n_m, info.max_stiffness_n_m > 0, read.limits.max_stiffness_n_m);
-  read.limits.actuated_axes = info.actuated_axes;
-  return read;
+DeviceLimits stricter(const DeviceLimits& one, const DeviceLimits& other) noexcept {
+  DeviceLimits both{std::min(one.max_force_n, other.max_force_n),
+                    std::min(one.max_torque_nm, other.max_torque_nm),
+                    std::min(one.max_stiffness_n_m, other.max_stiffness_n_m), 0};
+  const bool both_name_axes = one.actuated_axes != 0 && other.actuated_axes != 0;
+  both.actuated_axes =
+      both_name_axes ? one.actuated_axes & other.actuated_axes : one.actuated_axes | other.actuated_axes;
+  // no axis at all would mean the whole wrench
+  if (both_name_axes && both.actuated_axes == 0) both.max_force_n = both.max_torque_nm = 0;
+  return both;
 }
 
 void drop_unactuated(Wrench& wrench, std::uint32_t axes, const Eigen::Quaterniond& q_WT) noexcept {

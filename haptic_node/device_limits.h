@@ -23,13 +23,21 @@ struct DeviceLimits {
   std::uint32_t actuated_axes = 0;  // msg::AXIS_* bits
 };
 
-/// A limit of 0 N or 0 N m is meant: nothing may be asked for. What is no limit (NaN, infinite, negative; a
-/// stiffness of 0, which nothing can be felt with) is left at its default, and `sound` is false.
-struct ReadLimits {
-  DeviceLimits limits;
-  bool sound = true;
+/// Between which numbers a device's limit is one.
+struct LimitBounds {
+  double least = 0, most = 0;
+  /// False for NaN.
+  bool contain(double limit) const noexcept { return limit >= least && limit <= most; }
 };
-ReadLimits read_limits(const msg::DeviceInfo& info) noexcept;
+/// 0 N and 0 N m are meant: nothing may be asked for. At most what a robot arm that holds an instrument
+/// exerts.
+inline constexpr LimitBounds kForceBounds_n{0, 1000}, kTorqueBounds_nm{0, 100};
+/// From a spring that a metre's way makes a newton of, below which nothing can be felt and the contact
+/// problem's numbers part too far, to stiffer than any drive.
+inline constexpr LimitBounds kStiffnessBounds_n_m{1, 1e6};
+
+/// What both allow. Where both name axes and have none in common, nothing may be asked for.
+DeviceLimits stricter(const DeviceLimits& one, const DeviceLimits& other) noexcept;
 
 /// Takes out of the wrench what the device has no motor for: forces along W's axes, torques about the tool's
 /// own (pitch: T's x, yaw: T's y, roll: T's z, the shaft). A device that names no axis at all gets the whole

@@ -44,8 +44,9 @@ HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
       work_(setup_.model),
       orders_(runtime::steady_now_ns()),
       refusal_(loop),
-      status_(node::introduce(msg::NODE_HAPTIC, options.rate_hz)) {
-  status_.tools_served = bits_of(setup_.tool_ids);
+      status_(node::introduce(msg::NODE_HAPTIC, options.rate_hz)),
+      rivals_(msg::NODE_HAPTIC, status_.instance),
+      served_(bits_of(setup_.tool_ids)) {
   if (!options.node.log.empty()) {
     log_ = std::make_unique<runtime::LoopLog>(options.node.log);
     loop_.log_to(*log_);
@@ -72,9 +73,13 @@ void HapticLoop::connect() {
   contact_writer_ = bus_->writer<msg::Contact>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   pose_reader_ = bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { hear(pose); });
-  device_reader_ = bus_->reader<msg::DeviceInfo>([this](const msg::DeviceInfo& info) { hear(info); });
-  command_reader_ =
-      bus_->reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { orders_.hear(c); });
+  device_reader_ = bus_->reader<msg::DeviceInfo>(transport::ByWriter<msg::DeviceInfo>{
+      [this](const msg::DeviceInfo& info, const transport::WriterId& writer) { hear(info, writer); },
+      [this](const transport::WriterId& writer) {
+        for (const auto& line : lines_) line->gone(writer);
+      }});
+  command_reader_ = bus_->reader<msg::SessionCommand>(
+      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
   scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& scene) { hear(scene); });
   node_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& other) { hear(other); });
 }
@@ -82,36 +87,47 @@ void HapticLoop::connect() {
 // ---- the vendor's threads
 
 void HapticLoop::hear(const msg::ToolPose& pose) noexcept {
-  for (const auto& line : lines_) {
-    if (line->id() == pose.tool && line->hear(pose, runtime::steady_now_ns())) loop_.wake();
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (lines_[i]->id() != pose.tool || !serves(i)) continue;
+    if (lines_[i]->hear(pose, runtime::steady_now_ns())) loop_.wake();
   }
 }
 
-void HapticLoop::hear(const msg::DeviceInfo& info) noexcept {
+void HapticLoop::hear(const msg::DeviceInfo& info, const transport::WriterId& writer) noexcept {
   for (const auto& line : lines_) {
-    if (line->id() == info.tool) line->hear(info);
+    if (line->id() == info.tool) line->hear(info, writer);
   }
-}
-
-ServingClaim HapticLoop::claim() const {
-  return {status_.instance, status_.tools_served, setup_.organ_hash,
-          standing_.load(std::memory_order_relaxed)};
 }
 
 void HapticLoop::hear(const msg::SceneInfo& scene) {
-  const ServingClaim own = claim();
-  auto why = contradicts(own, scene);
+  auto why = node::contradicts(setup_.scene, scene);
   if (!why) return;
-  if (own.standing == Standing::kSettled) {
-    faults_.raise("scene: a deform_node with another organ file or protocol appeared, ignored");
+  if (standing_.load(std::memory_order_relaxed) == node::Standing::kSettled) {
+    faults_.raise(node::kForeignScene);
   } else {
     refusal_.because(*std::move(why));
   }
 }
 
 void HapticLoop::hear(const msg::NodeStatus& other) {
-  orders_.hear(other, runtime::steady_now_ns());
-  if (auto why = yields_to(claim(), other)) refusal_.because(*std::move(why));
+  const std::int64_t now_ns = runtime::steady_now_ns();
+  orders_.hear(other, now_ns);
+  if (!rivals_.proven(other, now_ns)) return;
+  const ServingClaim own{{status_.instance, standing_.load(std::memory_order_relaxed)},
+                         served_.load(std::memory_order_relaxed)};
+  const Dispute dispute = judge(own, other);
+  tell(dispute);
+  served_.store(own.tools_served & ~dispute.given_up, std::memory_order_relaxed);
+  if (dispute.given_up != 0 && dispute.given_up == own.tools_served)
+    refusal_.because(nothing_left(dispute, other));
+}
+
+void HapticLoop::tell(const Dispute& dispute) {
+  for (const auto& line : lines_) {
+    const std::string tool = "tool " + std::to_string(line->id());
+    if (dispute.given_up >> line->id() & 1u) faults_.raise(tool + ": left to another haptic_node");
+    if (dispute.kept >> line->id() & 1u) faults_.raise(tool + ": another haptic_node claims it too, kept");
+  }
 }
 
 // ---- the loop's thread
@@ -135,7 +151,10 @@ void HapticLoop::tick(std::int64_t now_ns) noexcept {
   const double elapsed_s = last_tick_ns_ == 0 ? 0 : 1e-9 * static_cast<double>(now_ns - last_tick_ns_);
   last_tick_ns_ = now_ns;
   ++ticks_;
-  for (std::size_t i = 0; i < lines_.size(); ++i) fresh_[i] = lines_[i]->listen(now_ns, inputs_[i]);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    fresh_[i] = lines_[i]->listen(now_ns, inputs_[i]);
+    inputs_[i].engaged &= serves(i);  // a tool that was given up lets go of the tissue
+  }
   obey();
   result_ = haptic_step(setup_.model, inputs_, state_, work_, outputs_);
   if (result_.status != physics::ContactStatus::kConverged)
@@ -163,6 +182,7 @@ void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
   const bool paused = orders_.paused();
   const auto again_ns = static_cast<std::int64_t>(kAnswerAgainPeriods * 1e9 / options_.rate_hz);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (!serves(i)) continue;
     const msg::ToolForce& force = lines_[i]->answer(outputs_[i], now_ns, dt_s, paused);
     if (lines_[i]->is_told() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
       lines_[i]->sent(force_writer_->write(lines_[i]->to_send(ticks_)));
@@ -184,6 +204,7 @@ void HapticLoop::publish_contacts(std::int64_t now_ns) noexcept {
   if (!changed && now_ns < contacts_due_ns_) return;
   contacts_due_ns_ = now_ns + kContactPeriod_ns;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!serves(i)) continue;
     msg::Contact& contact = contacts_[i];
     ++contact.seq;
     contact.tick = ticks_;
@@ -225,10 +246,11 @@ void HapticLoop::publish_status() {
   snapshots_.fetch();
   const Snapshot& snapshot = snapshots_.value();
   status_.paused = orders_.paused();
+  status_.tools_served = served_.load(std::memory_order_relaxed);
   status_.echoes.assign(snapshot.echoes.begin(),
                         snapshot.echoes.begin() + static_cast<std::ptrdiff_t>(lines_.size()));
   node::fill_status(snapshot.record, faults_, status_);
-  standing_.store(standing_of(status_.ticks, status_.rate_hz), std::memory_order_relaxed);
+  standing_.store(node::standing_of(status_.ticks, status_.rate_hz), std::memory_order_relaxed);
   status_writer_->write(status_);
 }
 

@@ -5,6 +5,7 @@
 #include "haptic_node/haptic_setup.h"
 #include "haptic_node/serving_claim.h"
 #include "haptic_node/tool_line.h"
+#include "node/loaded_scene.h"
 #include "node/refusal.h"
 #include "node/session_orders.h"
 #include "runtime/loop_log.h"
@@ -29,9 +30,9 @@ struct HapticOptions {
 ///
 /// Three kinds of threads. The vendor's put poses through the guard into mailboxes and wake the loop. The
 /// loop (run(), real-time where permitted) steps and writes forces at once; it waits for nobody. An ordinary
-/// one tells the node's status. Another node or scene with the better claim ends the loop; a scene that
-/// appears beside a settled node is a fault and changes nothing: nobody loses a tool in the middle of a
-/// press.
+/// one tells the node's status. While the node is young, a tool goes to another node with the better claim,
+/// and the loop ends when none is left or the scene is another. Once it is settled, whatever others say is a
+/// fault and changes nothing: nobody loses a tool in the middle of a press.
 class HapticLoop {
  public:
   /// Loads scene and organ and joins the domain. Throws what and where. `loop` sets the pace and must outlive
@@ -60,10 +61,13 @@ class HapticLoop {
   void account() noexcept;
 
   void hear(const msg::ToolPose& pose) noexcept;
-  void hear(const msg::DeviceInfo& info) noexcept;
+  void hear(const msg::DeviceInfo& info, const transport::WriterId& writer) noexcept;
   void hear(const msg::SceneInfo& scene);
   void hear(const msg::NodeStatus& other);
-  ServingClaim claim() const;
+  void tell(const Dispute& dispute);
+  bool serves(std::size_t line) const noexcept {
+    return served_.load(std::memory_order_relaxed) >> lines_[line]->id() & 1u;
+  }
   void watch(const std::stop_token& stop);
   void publish_status();
 
@@ -95,11 +99,13 @@ class HapticLoop {
   runtime::Mailbox<Snapshot> snapshots_;
 
   node::Refusal refusal_;
-  std::atomic<Standing> standing_{Standing::kListening};  // as the last status told
+  msg::NodeStatus status_;
+  node::Rivals rivals_;                                               // the status reader's thread
+  std::atomic<node::Standing> standing_{node::Standing::kListening};  // as the last status told
+  std::atomic<std::uint32_t> served_;                                 // bit t: answers for tool t
 
   // declared last: callbacks and threads end before what they touch
   std::unique_ptr<transport::Bus> bus_;
-  msg::NodeStatus status_;
   std::unique_ptr<transport::Writer<msg::ToolForce>> force_writer_;
   std::unique_ptr<transport::Writer<msg::Contact>> contact_writer_;
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;

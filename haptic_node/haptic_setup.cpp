@@ -62,13 +62,13 @@ HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
     refuse(scene, "organ '" + scene.organs.front().name +
                       "' has no organ file: build one with organ_build and give it with --organ");
   organ::Organ organ = organ::load_organ(file, organ::Load::kWithTensors);
-  const std::string hash = organ.hash;
+  const node::LoadedScene loaded{scene.organs.size(), {{organ.name, organ.hash}}};
   const runtime::HapticsSpec& h = scene.haptics;
   HapticSetup setup{
       make_model(scene, std::move(organ)),
       {},
       {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s, h.stale_s, h.decay_s, 1 / rate_hz},
-      hash};
+      loaded};
   for (const runtime::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
   return setup;
 }

@@ -3,6 +3,7 @@
 
 #include "haptic_node/force_safety.h"
 #include "haptic_node/haptic_model.h"
+#include "node/loaded_scene.h"
 #include "organ/organ.h"
 #include "runtime/scene.h"
 
@@ -14,7 +15,7 @@ struct HapticSetup {
   HapticModel model;
   std::vector<std::uint32_t> tool_ids;  // one per tool of the model
   ForceLimits limits;
-  std::string organ_hash;
+  node::LoadedScene scene;
 };
 
 /// The first organ of the scene, which is the one that tools touch, with all its tools. Throws

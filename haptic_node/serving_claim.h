@@ -1,42 +1,32 @@
-// Two haptic nodes must not answer for one tool, and no node may join a scene with another organ.
+// Two haptic nodes must not answer for one tool.
 #pragma once
 
-#include "transport/messages.h"
+#include "node/rivals.h"
 
-#include <optional>
 #include <string>
 
 namespace omentum::haptic {
 
-/// How long a node that answers must have run before a newcomer cannot move it, s: two Fast participants find
-/// each other within 2.9 s, so that a settled node never is the one that came later.
-inline constexpr double kSettled_s = 5;
-
-enum class Standing {
-  kListening,  // serves nobody yet
-  kYoung,      // serves, but may not have met everyone
-  kSettled,
-};
-
-/// The standing of a node that serves, from its own count of ticks: both sides of a dispute judge by the same
-/// numbers, and no two machines' clocks are compared.
-Standing standing_of(std::uint64_t ticks, double rate_hz);
-
 /// What this node claims to be and to serve.
 struct ServingClaim {
-  std::uint64_t instance = 0;      // start time, ns, wall clock
+  node::Claim claim;
   std::uint32_t tools_served = 0;  // bit t: answers for tool t
-  std::string organ_hash;
-  Standing standing = Standing::kListening;
 };
 
-/// Why the other node's claim is the better one; nothing when both can live. Of two haptic nodes with a tool
-/// in common, the one with the lower standing yields; of two of equal standing, which started together or
-/// whose networks met late, the one with the larger instance. A haptic node tells its status only when it
-/// serves: who still listens always yields.
-std::optional<std::string> yields_to(const ServingClaim& own, const msg::NodeStatus& other);
+/// Tools that both nodes claim, bit t for tool t.
+struct Dispute {
+  std::uint32_t given_up = 0;  // the other node answers for them from now on
+  std::uint32_t kept = 0;
+};
 
-/// Why this node must not take part: another protocol, or another organ file (both hashes are named).
-std::optional<std::string> contradicts(const ServingClaim& own, const msg::SceneInfo& scene);
+/// What becomes of the tools that another haptic node claims as well (node::Rivals says that its claim
+/// counts). Who is settled keeps them, whatever the other one says: a status can be forged, and no hand loses
+/// its force in the middle of a press. Before that, node::goes_before decides. A haptic node tells its status
+/// only when it serves: who still listens gives up what another one serves. Tools that are not in dispute
+/// stay.
+Dispute judge(const ServingClaim& own, const msg::NodeStatus& other) noexcept;
+
+/// Why a node to which no tool is left ends.
+std::string nothing_left(const Dispute& dispute, const msg::NodeStatus& other);
 
 }  // namespace omentum::haptic

@@ -3,6 +3,7 @@
 #include "node/vectors.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace omentum::haptic {
 
@@ -31,7 +32,6 @@ ToolLine::ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultLi
   }
   force_fault_ = tool + "force is not finite, held at zero until the fault is cleared";
   source_fault_ = tool + "contact feeds the hand, its force is cut";
-  device_fault_ = tool + "DeviceInfo has a limit that is none, ignored";
 }
 
 bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
@@ -54,10 +54,24 @@ bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
   return true;
 }
 
-void ToolLine::hear(const msg::DeviceInfo& info) noexcept {
-  const ReadLimits read = read_limits(info);
-  if (!read.sound) faults_.raise(device_fault_);
-  device_.post(read.limits);
+void ToolLine::hear(const msg::DeviceInfo& info, const transport::WriterId& writer) noexcept {
+  for (const RefusedLimit& refused : devices_.hear(info, writer)) tell(refused);
+  device_.post(devices_.limits());
+}
+
+void ToolLine::gone(const transport::WriterId& writer) noexcept {
+  devices_.gone(writer);
+  device_.post(devices_.limits());
+}
+
+void ToolLine::tell(const RefusedLimit& refused) noexcept {
+  DeviceFault& text = device_faults_[refused.field];
+  if (text[0] == 0) {
+    std::snprintf(text.data(), text.size(),
+                  "tool %u: DeviceInfo.%s = %g, expected %g to %g; the last one holds", id_,
+                  describe(refused.field), refused.value, refused.expected.least, refused.expected.most);
+  }
+  faults_.raise(text.data());
 }
 
 PoseCounts ToolLine::counts() const noexcept {

@@ -1,6 +1,7 @@
 // One tool's line to its device: poses in through the guard, forces out through the safety's exit.
 #pragma once
 
+#include "haptic_node/device_book.h"
 #include "haptic_node/force_safety.h"
 #include "haptic_node/haptic_step.h"
 #include "haptic_node/pose_guard.h"
@@ -34,7 +35,9 @@ class ToolLine {
   /// Whether the pose was accepted: then the loop has something to do. A sample that says itself that it is
   /// none (`valid` down) is counted with the refused ones; any other refused one is a fault as well.
   bool hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept;
-  void hear(const msg::DeviceInfo& info) noexcept;
+  void hear(const msg::DeviceInfo& info, const transport::WriterId& writer = {}) noexcept;
+  /// A writer of DeviceInfo left, in whatever way. On the thread of its samples.
+  void gone(const transport::WriterId& writer) noexcept;
 
   // ---- any thread
 
@@ -77,6 +80,10 @@ class ToolLine {
     double interval_s = 0;         // how often they come; 0: not known
   };
 
+  /// The text for a field of DeviceInfo, with the first value that was refused: one text however many come.
+  using DeviceFault = std::array<char, runtime::FaultList::kTextSize + 1>;
+
+  void tell(const RefusedLimit& refused) noexcept;
   void take(const HeardPose& heard) noexcept;
   std::int64_t silence_ns(const HeardPose& heard) const noexcept;
   SafetyInput known(const ToolOutput& output, std::int64_t now_ns, double dt_s) const noexcept;
@@ -86,7 +93,7 @@ class ToolLine {
   ForceLimits limits_;
   runtime::FaultList& faults_;
   std::array<std::string, kPoseVerdicts> refusals_;  // texts, made beforehand
-  std::string force_fault_, source_fault_, device_fault_;
+  std::string force_fault_, source_fault_;
 
   // the vendor's threads
   PoseGuard guard_;
@@ -95,6 +102,8 @@ class ToolLine {
   std::atomic<bool> forget_{false};
   std::atomic<std::uint64_t> accepted_{0}, refused_{0}, lost_{0};
   runtime::Mailbox<HeardPose> poses_;
+  DeviceBook devices_;
+  std::array<DeviceFault, kLimitFields> device_faults_{};
   runtime::Mailbox<DeviceLimits> device_;
 
   // the loop's thread

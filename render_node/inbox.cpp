@@ -3,34 +3,11 @@
 #include "runtime/clock.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace omentum::render {
 namespace {
 
 constexpr std::int64_t kForgottenNs = 10'000'000'000;  // a node silent for so long leaves the panel
-
-}  // namespace
-
-void check_scene_info(const msg::SceneInfo& info, const std::vector<LoadedOrgan>& organs) {
-  if (info.protocol != msg::PROTOCOL_VERSION) {
-    throw std::runtime_error("deform_node speaks protocol " + std::to_string(info.protocol) + "; expected " +
-                             std::to_string(msg::PROTOCOL_VERSION));
-  }
-  if (info.organs.size() != organs.size()) {
-    throw std::runtime_error("deform_node serves " + std::to_string(info.organs.size()) +
-                             " organs of scene " + info.scene + "; expected " +
-                             std::to_string(organs.size()));
-  }
-  for (std::size_t i = 0; i < organs.size(); ++i) {
-    if (info.organs[i].hash != organs[i].hash) {
-      throw std::runtime_error("organ " + organs[i].name + ": deform_node serves hash " +
-                               info.organs[i].hash + ", this process loaded " + organs[i].hash);
-    }
-  }
-}
-
-namespace {
 
 bool forgotten(const HeardStatus& heard, std::int64_t now_ns) {
   const bool needed = heard.status.kind == msg::NODE_HAPTIC || heard.status.kind == msg::NODE_DEFORM;
@@ -54,42 +31,37 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
   if (place == heard.end())
     place = std::find_if(heard.begin(), heard.end(),
                          [&](const HeardStatus& h) { return succeeds(status, h, now_ns); });
-  if (place == heard.end()) {
-    heard.push_back({status, now_ns});
-  } else if (status.instance >= place->status.instance) {  // else a late sample of the old run
+  if (place == heard.end() && heard.size() == kMostHeard) {
+    place = std::min_element(heard.begin(), heard.end(),
+                             [](const auto& a, const auto& b) { return a.arrived_ns < b.arrived_ns; });
     *place = {status, now_ns};
-  }
+  } else if (place == heard.end()) {
+    heard.push_back({status, now_ns});
+  } else if (status.instance >= place->status.instance || now_ns - place->arrived_ns > kSilentNs) {
+    *place = {status, now_ns};
+  }  // else a late sample of the old run
   std::sort(heard.begin(), heard.end(), [](const HeardStatus& a, const HeardStatus& b) {
     return std::pair(a.status.kind, a.status.instance) < std::pair(b.status.kind, b.status.instance);
   });
 }
 
-void obey(const msg::SessionCommand& command, SessionState& session) {
-  if (command.seq == session.last_seq) return;
-  session.last_seq = command.seq;
-  if (command.command == msg::COMMAND_START) session.paused = false;
-  if (command.command == msg::COMMAND_PAUSE) session.paused = true;
-  if (command.command == msg::COMMAND_RESET) ++session.resets;
-}
-
-Inbox::OrganBox::OrganBox(std::size_t node_count) : assembly(node_count) {}
-
 Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, runtime::FaultList& faults)
     : faults_(faults),
       poses_(bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, runtime::steady_now_ns()); }),
-      forces_(bus) {
-  for (const LoadedOrgan& organ : organs) organs_.push_back(std::make_unique<OrganBox>(organ.node_count));
+      forces_(bus),
+      orders_(runtime::steady_now_ns()) {
+  for (const LoadedOrgan& organ : organs) organs_.push_back(std::make_unique<OrganBox>(organ));
   contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) {
     if (contact.tool < contacts_.size()) contacts_[contact.tool].post(contact);
   });
   state_reader_ = bus.reader<msg::OrganState>([this](const msg::OrganState& block) { take_state(block); });
   status_reader_ =
       bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) { take_status(status); });
-  command_reader_ =
-      bus.reader<msg::SessionCommand>([this](const msg::SessionCommand& c) { take_command(c); });
+  command_reader_ = bus.reader<msg::SessionCommand>(
+      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
   scene_reader_ = bus.reader<msg::SceneInfo>([this](const msg::SceneInfo& info) { scene_info_.post(info); });
   topology_reader_ =
-      bus.reader<msg::Topology>([this](const msg::Topology& topology) { topology_.post(topology); });
+      bus.reader<msg::Topology>([this](const msg::Topology& topology) { take_topology(topology); });
 }
 
 void Inbox::take_state(const msg::OrganState& block) {
@@ -104,14 +76,17 @@ void Inbox::take_state(const msg::OrganState& block) {
     faults_.raise("organ state that does not fit the organ's surface");
 }
 
-void Inbox::take_status(const msg::NodeStatus& status) {
-  remember_status(status, runtime::steady_now_ns(), heard_);
-  statuses_.post(heard_);
+void Inbox::take_topology(const msg::Topology& topology) {
+  if (topology.organ >= organs_.size())
+    return faults_.raise("topology of an organ that the scene does not have");
+  organs_[topology.organ]->topology.post(topology);
 }
 
-void Inbox::take_command(const msg::SessionCommand& command) {
-  obey(command, session_);
-  sessions_.post(session_);
+void Inbox::take_status(const msg::NodeStatus& status) {
+  const std::int64_t now_ns = runtime::steady_now_ns();
+  orders_.hear(status, now_ns);
+  remember_status(status, now_ns, heard_);
+  statuses_.post(heard_);
 }
 
 const msg::Contact& Inbox::contact(std::uint32_t tool) {
@@ -129,16 +104,12 @@ const std::vector<HeardStatus>& Inbox::statuses() {
   return statuses_.value();
 }
 
-const SessionState& Inbox::session() {
-  sessions_.fetch();
-  return sessions_.value();
-}
-
 const msg::SceneInfo* Inbox::fetch_scene_info() {
   return scene_info_.fetch() ? &scene_info_.value() : nullptr;
 }
-const msg::Topology* Inbox::fetch_topology() {
-  return topology_.fetch() ? &topology_.value() : nullptr;
+const msg::Topology* Inbox::fetch_topology(std::size_t organ) {
+  auto& topology = organs_[organ]->topology;
+  return topology.fetch() ? &topology.value() : nullptr;
 }
 
 }  // namespace omentum::render

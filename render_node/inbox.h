@@ -1,6 +1,7 @@
 // Everything that render_node hears, handed from the vendor's threads to the one that draws.
 #pragma once
 
+#include "node/session_orders.h"
 #include "render_node/pose_arrivals.h"
 #include "render_node/state_assembly.h"
 #include "runtime/faults.h"
@@ -16,10 +17,8 @@ struct LoadedOrgan {
   std::string name;
   std::string hash;
   std::size_t node_count = 0;  // of its surface
+  double reach_m = 0;          // a state that moves a node farther is none (plausible.h)
 };
-
-/// Throws std::runtime_error with both sides when deform_node serves another protocol or other organs.
-void check_scene_info(const msg::SceneInfo& info, const std::vector<LoadedOrgan>& organs);
 
 /// A node's newest status and when it came (steady clock of this process).
 struct HeardStatus {
@@ -30,17 +29,10 @@ inline constexpr std::int64_t kSilentNs =
     2'500'000'000;  // a node that says nothing for so long; they speak at 1 Hz
 /// Keeps the newest run of deform_node and the picture, and of haptic and device nodes one per instance. Who
 /// falls silent is forgotten after a while, but never haptic_node and deform_node: without them the session
-/// is not whole, so they stay until they return. `now_ns`: when `status` came.
+/// is not whole, so they stay until they return. At most kMostHeard: then who is silent longest makes room.
+/// `now_ns`: when `status` came.
+inline constexpr std::size_t kMostHeard = 24;  // eight hands, their haptic_nodes, and some to spare
 void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::vector<HeardStatus>& heard);
-
-/// What commands amount to.
-struct SessionState {
-  bool paused = false;
-  std::uint64_t resets = 0;
-  std::uint64_t last_seq = 0;
-};
-/// A command that was already obeyed (it is sent twice) changes nothing.
-void obey(const msg::SessionCommand& command, SessionState& session);
 
 /// Subscriptions. Callbacks only copy into mailboxes; all public calls are for the drawing thread, none
 /// waits.
@@ -62,20 +54,22 @@ class Inbox {
   /// The newest state of an organ if one came since the last call.
   const AssembledState* fetch_state(std::size_t organ);
   const std::vector<HeardStatus>& statuses();
-  const SessionState& session();
+  node::SessionOrders& orders() { return orders_; }
   const msg::SceneInfo* fetch_scene_info();
-  const msg::Topology* fetch_topology();
+  /// The newest topology of an organ if one came since the last call.
+  const msg::Topology* fetch_topology(std::size_t organ);
   std::uint64_t incomplete_states() const { return incomplete_states_.load(std::memory_order_relaxed); }
 
  private:
   struct OrganBox {
-    explicit OrganBox(std::size_t node_count);
+    explicit OrganBox(const LoadedOrgan& organ) : assembly(organ.node_count, organ.reach_m) {}
     StateAssembly assembly;
     runtime::Mailbox<AssembledState> newest;
+    runtime::Mailbox<msg::Topology> topology;
   };
   void take_state(const msg::OrganState& block);
+  void take_topology(const msg::Topology& topology);
   void take_status(const msg::NodeStatus& status);
-  void take_command(const msg::SessionCommand& command);
 
   runtime::FaultList& faults_;
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
@@ -84,11 +78,9 @@ class Inbox {
   std::array<runtime::Mailbox<msg::Contact>, msg::MAX_TOOLS> contacts_;
   std::vector<std::unique_ptr<OrganBox>> organs_;
   std::vector<HeardStatus> heard_;  // the status callback's own
-  SessionState session_;            // the command callback's own
+  node::SessionOrders orders_;
   runtime::Mailbox<std::vector<HeardStatus>> statuses_;
-  runtime::Mailbox<SessionState> sessions_;
   runtime::Mailbox<msg::SceneInfo> scene_info_;
-  runtime::Mailbox<msg::Topology> topology_;
   std::atomic<std::uint64_t> incomplete_states_{0};
 
   // last: their callbacks use what is above

@@ -1,7 +1,9 @@
 #include "render_node/render_loop.h"
 
 #include "node/node_identity.h"
+#include "node/session_orders.h"
 #include "organ/organ.h"
+#include "render_node/plausible.h"
 #include "runtime/clock.h"
 #include "runtime/report.h"
 
@@ -41,7 +43,8 @@ RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
     }
     const organ::Organ organ = organ::load_organ(spec.file, organ::Load::kMeshOnly);
     loaded.shapes.push_back(shape_of(organ));
-    loaded.organs.push_back({organ.name, organ.hash, loaded.shapes.back().rest.size()});
+    const std::vector<Vec3>& rest = loaded.shapes.back().rest;
+    loaded.organs.push_back({organ.name, organ.hash, rest.size(), reach_of(rest)});
   }
   return loaded;
 }
@@ -152,10 +155,7 @@ void RenderLoop::obey(const PanelActions& actions) {
 }
 
 void RenderLoop::command(std::uint32_t command) {
-  // the stamp orders commands of different senders
-  const msg::SessionCommand message{
-      .seq = static_cast<std::uint64_t>(runtime::steady_now_ns()), .command = command, .argument = {}};
-  if (!command_writer_->write(message)) faults_.raise("a command could not be sent");
+  if (!command_writer_->write(node::make_command(command))) faults_.raise("a command could not be sent");
 }
 
 PanelView RenderLoop::panel_view(std::int64_t now_ns) const {

@@ -1,7 +1,10 @@
 #include "render_node/session_watch.h"
 
+#include "node/rivals.h"
+#include "render_node/plausible.h"
+
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
 
 namespace omentum::render {
 namespace {
@@ -14,23 +17,20 @@ Vec3 to_eigen(const msg::Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-bool finite(const msg::ToolPose& pose) {
-  return to_eigen(pose.position).allFinite() && std::isfinite(pose.grip) &&
-         std::isfinite(pose.orientation.w + pose.orientation.x + pose.orientation.y + pose.orientation.z);
-}
-
 }  // namespace
 
-SessionWatch::SessionWatch(const runtime::Scene& scene, std::vector<LoadedOrgan> organs,
+SessionWatch::SessionWatch(const runtime::Scene& scene, const std::vector<LoadedOrgan>& organs,
                            std::int64_t begin_ns)
     : scene_name_(scene.name),
-      organs_(std::move(organs)),
+      max_force_n_(scene.haptics.max_force_n),
+      loaded_{organs.size(), {}},
       begin_ns_(begin_ns),
       tools_(scene.tools.size()),
       rows_(scene.tools.size()),
       histories_(scene.tools.size()),
-      echoes_(organs_.size()),
-      state_arrived_ns_(organs_.size(), 0) {
+      echoes_(organs.size()),
+      state_arrived_ns_(organs.size(), 0) {
+  for (const LoadedOrgan& organ : organs) loaded_.organs.push_back({organ.name, organ.hash});
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     ids_.push_back(scene.tools[t].id);
     rows_[t].name = scene.tools[t].name;
@@ -39,19 +39,27 @@ SessionWatch::SessionWatch(const runtime::Scene& scene, std::vector<LoadedOrgan>
 }
 
 void SessionWatch::listen(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns) {
-  if (const msg::SceneInfo* info = inbox.fetch_scene_info()) check_scene_info(*info, organs_);
-  if (const msg::Topology* topology = inbox.fetch_topology(); topology && topology->version > 0) {
-    faults.raise("an organ was cut, but this render_node draws whole organs only");
-  }
+  listen_to_scene(inbox, faults, now_ns);
   listen_to_organs(inbox, view, now_ns);
   for (std::size_t t = 0; t < tools_.size(); ++t) listen_to_tool(inbox, t, now_ns);
   find_deepest_dent(view, now_ns);
   statuses_ = inbox.statuses();
   incomplete_states_ = inbox.incomplete_states();
-  const std::uint64_t resets = session_.resets;
-  session_ = inbox.session();
-  if (session_.resets != resets) {
+  ordered_to_pause_ = inbox.orders().paused();
+  if (inbox.orders().take_reset()) {
     for (ForceHistory& history : histories_) history.clear();
+  }
+}
+
+void SessionWatch::listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std::int64_t now_ns) const {
+  if (const msg::SceneInfo* info = inbox.fetch_scene_info()) {
+    const auto why = node::contradicts(loaded_, *info);
+    if (why && seconds_since_begin(now_ns) <= node::kSettled_s) throw std::runtime_error(*why);
+    if (why) faults.raise(node::kForeignScene);
+  }
+  for (std::size_t i = 0; i < loaded_.organ_count; ++i) {
+    if (const msg::Topology* topology = inbox.fetch_topology(i); topology && topology->version > 0)
+      faults.raise("an organ was cut, but this render_node draws whole organs only");
   }
 }
 
@@ -70,7 +78,7 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
   ToolNow& now = tools_[tool];
   transport::Arrived<msg::ToolPose> pose;
   now.seen = inbox.pose(ids_[tool], pose) && pose.age_ns(now_ns) < kToolGoneNs && pose.sample.valid &&
-             finite(pose.sample);
+             is_plausible(pose.sample);
   if (now.seen) {
     const auto& q = pose.sample.orientation;
     now.p_WT = to_eigen(pose.sample.position);
@@ -78,7 +86,8 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
     now.grip_rad = pose.sample.grip;
   }
   transport::Arrived<msg::ToolForce> force;
-  const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGoneNs;
+  const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGoneNs &&
+                    is_plausible(force.sample, max_force_n_);
   now.force_n = felt ? to_eigen(force.sample.force) : Vec3::Zero();
   now.contact_nodes.clear();
   now.contact_forces_n.clear();
@@ -96,6 +105,7 @@ void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_
   ToolNow& now = tools_[tool];
   histories_[tool].add(seconds_since_begin(now_ns), now.force_n.norm());
   const msg::Contact& contact = inbox.contact(ids_[tool]);
+  if (!is_plausible(contact, max_force_n_)) return;
   now.contact_organ = contact.organ;
   now.contact_nodes = contact.nodes;
   for (const msg::Vec3& on_node : contact.forces) {
@@ -107,7 +117,7 @@ void SessionWatch::find_deepest_dent(const SceneView& view, std::int64_t now_ns)
   dent_.reset();
   for (const ToolNow& tool : tools_) {
     // a tool of now and an organ of then make no dent
-    if (tool.contact_organ >= organs_.size() ||
+    if (tool.contact_organ >= loaded_.organ_count ||
         now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleStateNs)
       continue;
     const auto dent = view.dent_of(tool);
@@ -126,7 +136,7 @@ void SessionWatch::shown(const Inbox& inbox, std::int64_t now_ns) {
 }
 
 bool SessionWatch::paused(std::int64_t now_ns) const {
-  return haptic_paused(statuses_, now_ns).value_or(session_.paused);
+  return haptic_paused(statuses_, now_ns).value_or(ordered_to_pause_);
 }
 
 void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelView& panel) const {

@@ -1,6 +1,7 @@
 // What render_node knows of its session at this moment.
 #pragma once
 
+#include "node/loaded_scene.h"
 #include "render_node/force_history.h"
 #include "render_node/inbox.h"
 #include "render_node/panel_view.h"
@@ -13,9 +14,10 @@ namespace omentum::render {
 /// times are given (steady clock, ns). One thread, the drawing one.
 class SessionWatch {
  public:
-  SessionWatch(const runtime::Scene& scene, std::vector<LoadedOrgan> organs, std::int64_t begin_ns);
+  SessionWatch(const runtime::Scene& scene, const std::vector<LoadedOrgan>& organs, std::int64_t begin_ns);
 
-  /// What came since the last call. Throws std::runtime_error when deform_node serves another organ.
+  /// What came since the last call. Throws std::runtime_error when deform_node serves another organ, within
+  /// node::kSettled_s of the beginning; later such a scene is a fault.
   void listen(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns);
   /// The state of the last listen() is on the screen.
   void shown(const Inbox& inbox, std::int64_t now_ns);
@@ -34,6 +36,7 @@ class SessionWatch {
   void describe(const SceneView& view, std::int64_t now_ns, PanelView& panel) const;
 
  private:
+  void listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std::int64_t now_ns) const;
   void listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t now_ns);
   void listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
   void listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
@@ -44,7 +47,8 @@ class SessionWatch {
 
   std::string scene_name_;
   std::vector<std::uint32_t> ids_;  // of the scene's tools
-  std::vector<LoadedOrgan> organs_;
+  double max_force_n_;              // of the scene
+  node::LoadedScene loaded_;
   std::int64_t begin_ns_;
   std::vector<ToolNow> tools_;
   std::vector<ToolRow> rows_;
@@ -55,7 +59,7 @@ class SessionWatch {
   std::optional<Dent> dent_;
   double largest_dent_m_ = 0;
   std::vector<HeardStatus> statuses_;
-  SessionState session_;
+  bool ordered_to_pause_ = false;
   std::uint64_t incomplete_states_ = 0;
   runtime::Histogram hand_to_picture_;
 };

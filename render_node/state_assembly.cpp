@@ -5,7 +5,7 @@
 
 namespace omentum::render {
 
-StateAssembly::StateAssembly(std::size_t node_count) {
+StateAssembly::StateAssembly(std::size_t node_count, double reach_m) : reach_m_(static_cast<float>(reach_m)) {
   state_.displacements.assign(3 * node_count, 0.0f);
 }
 
@@ -31,7 +31,8 @@ bool StateAssembly::fits(const msg::OrganState& block) const {
          3 * std::size_t{block.node_count} == state_.displacements.size() &&
          block.block < block.block_count && block.block_count <= std::max(block.node_count, 1u) &&
          3 * std::size_t{block.first} + block.values.size() <= state_.displacements.size() &&
-         std::all_of(block.values.begin(), block.values.end(), [](float x) { return std::isfinite(x); });
+         std::all_of(block.values.begin(), block.values.end(),
+                     [this](float x) { return std::abs(x) <= reach_m_; });
 }
 
 bool StateAssembly::newer(const msg::OrganState& block) {
@@ -51,6 +52,7 @@ std::vector<msg::Echo> merge_echoes(const std::vector<std::vector<msg::Echo>>& o
   std::vector<msg::Echo> merged;
   for (const auto& echoes : of_organs) {
     for (const msg::Echo& echo : echoes) {
+      if (echo.tool >= msg::MAX_TOOLS) continue;  // NodeStatus has room for no more
       const auto same =
           std::find_if(merged.begin(), merged.end(), [&](const auto& m) { return m.tool == echo.tool; });
       if (same == merged.end()) {

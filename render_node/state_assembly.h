@@ -24,12 +24,14 @@ class StateAssembly {
  public:
   static constexpr int kPatience = 100;  // blocks: a reordering network delays a few, never so many
 
-  explicit StateAssembly(std::size_t node_count);
+  /// `reach_m`: a value beyond it is no displacement of this organ.
+  StateAssembly(std::size_t node_count, double reach_m);
 
   enum class Outcome {
     kTaken,
     kLate,
-    kMisfit,  // other kind, other number of nodes, out of range, or not finite: nothing was changed
+    kMisfit,  // other kind, other number of nodes, out of range, not finite or beyond reach: nothing was
+              // changed
   };
   /// Calls show(state) when a state is complete, or when the first block of the next one came before it was.
   Outcome take(const msg::OrganState& block, const std::function<void(const AssembledState&)>& show);
@@ -39,6 +41,7 @@ class StateAssembly {
   bool newer(const msg::OrganState& block);
   void begin(const msg::OrganState& block);
 
+  float reach_m_;
   AssembledState state_;
   std::vector<bool> arrived_;  // blocks of the current state
   int late_in_a_row_ = 0;

@@ -1,5 +1,6 @@
 // omentum_session: sends one command (start, pause, reset, ...) to every node of a session. Of a pause it
 // says what haptic_node made of it.
+#include "node/session_orders.h"
 #include "runtime/clock.h"
 #include "runtime/command_line.h"
 #include "transport/bus.h"
@@ -91,9 +92,7 @@ void send(transport::Bus& bus, const transport::BusOptions& options, std::uint32
   if (matched == 0)
     throw std::runtime_error("no node found in domain " + std::to_string(options.domain) +
                              " (expected a running session)");
-  // the stamp orders commands of different senders
-  const msg::SessionCommand message{
-      .seq = static_cast<std::uint64_t>(runtime::steady_now_ns()), .command = command, .argument = {}};
+  const msg::SessionCommand message = node::make_command(command);
   for (int copy = 0; copy < 2; ++copy) {
     if (!writer->write(message)) throw std::runtime_error("the command could not be written");
     sleep_s(kDeliveryS);

@@ -28,6 +28,9 @@ class Arrivals {
     for (int pending = pending_.load(); pending != 0; pending = pending_.load()) pending_.wait(pending);
   }
 
+  /// After close(), when the reader that announced is gone: for the next one.
+  void open() { closed_.store(false); }
+
  private:
   std::atomic<int> pending_{0};
   std::atomic<bool> closed_{false};

@@ -52,13 +52,20 @@ std::unique_ptr<Writer<M>> Bus::writer() {
 }
 
 template <class M>
-std::unique_ptr<Reader<M>> Bus::reader(std::function<void(const M&)> on_sample) {
-  return std::visit([&](auto& participant) { return participant->template reader<M>(std::move(on_sample)); },
+std::unique_ptr<Reader<M>> Bus::reader(ByWriter<M> callbacks) {
+  return std::visit([&](auto& participant) { return participant->template reader<M>(std::move(callbacks)); },
                     participant_of(*this));
 }
 
-#define OMENTUM_INSTANTIATE(M)                                    \
-  template std::unique_ptr<Writer<msg::M>> Bus::writer<msg::M>(); \
+template <class M>
+std::unique_ptr<Reader<M>> Bus::reader(std::function<void(const M&)> on_sample) {
+  return reader<M>(ByWriter<M>{
+      [callback = std::move(on_sample)](const M& sample, const WriterId&) { callback(sample); }, {}});
+}
+
+#define OMENTUM_INSTANTIATE(M)                                                    \
+  template std::unique_ptr<Writer<msg::M>> Bus::writer<msg::M>();                 \
+  template std::unique_ptr<Reader<msg::M>> Bus::reader<msg::M>(ByWriter<msg::M>); \
   template std::unique_ptr<Reader<msg::M>> Bus::reader<msg::M>(std::function<void(const msg::M&)>);
 OMENTUM_FOR_EACH_TOPIC(OMENTUM_INSTANTIATE)
 #undef OMENTUM_INSTANTIATE

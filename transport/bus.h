@@ -3,6 +3,7 @@
 
 #include "transport/messages.h"  // generated from idl/ by idl/generate.py
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -42,7 +43,7 @@ class Writer {
   virtual ~Writer() = default;
   /// Sends on the calling thread (Fast DDS hands samples above one message's size to a thread of its
   /// own). False: a sequence or string is over its bound in the IDL, a string contains a zero byte, or
-  /// the vendor refused. Never throws.
+  /// the vendor refused, or it is joining the domain anew after a standstill of the process. Never throws.
   virtual bool write(const M& sample) noexcept = 0;
   virtual EndpointStatus status() const = 0;
 };
@@ -57,8 +58,25 @@ class Reader {
   virtual EndpointStatus status() const = 0;
 };
 
+/// Names a writer: no two that a reader hears at the same time have the same name.
+using WriterId = std::array<std::uint8_t, 16>;
+
+/// For a reader that tells writers apart. Both are called as its callback is (see Reader), never at the same
+/// time.
+template <class M>
+struct ByWriter {
+  std::function<void(const M&, const WriterId&)> on_sample;
+  /// The writer left, in whatever way: a killed one is noticed when its participant's lease is over.
+  /// Everything of it came before; maybe nothing did. Who was only out of sight comes back with its durable
+  /// samples.
+  std::function<void(const WriterId&)> on_gone;
+};
+
 /// One participant in one domain. Topic names and QoS come from transport/topics.h, by message type.
-/// Destroy readers and writers before the bus. All methods may be called by any thread.
+/// Destroy readers and writers before the bus. All methods may be called by any thread, none from a callback.
+///
+/// A process that was stopped for a while finds its partners again, if need be as a new participant: readers
+/// and writers live on, and durable samples are said again.
 ///
 /// "Matched" is not "ready" in DDS: the first samples of a volatile topic (ToolPose, SessionCommand...)
 /// may be lost while two endpoints find each other; durable topics arrive whole.
@@ -70,11 +88,13 @@ class Bus {
   static std::unique_ptr<Bus> open(const BusOptions& options);
   virtual ~Bus() = default;
 
-  /// Both throw std::runtime_error when the vendor refuses. M is one of msg::AllTopics.
+  /// All throw std::runtime_error when the vendor refuses. M is one of msg::AllTopics.
   template <class M>
   std::unique_ptr<Writer<M>> writer();
   template <class M>
   std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample);
+  template <class M>
+  std::unique_ptr<Reader<M>> reader(ByWriter<M> callbacks);
 
   /// What in this machine's settings will cost samples, and what to set; empty when nothing does.
   virtual std::string warning() const = 0;

@@ -11,8 +11,12 @@ namespace omentum::transport {
 // Holds a 3 MB OrganState that arrives at once, with room for the other topics.
 inline constexpr int kSocketBufferBytes = 4 * 1024 * 1024;
 
-// A participant that died is forgotten after the lease; announcements at a quarter of it survive losses.
-inline constexpr int kParticipantLeaseMs = 2000;
+// A participant is forgotten when it was not heard of for its lease. Fast DDS' is longer than Cyclone's: of
+// two that lose each other for a while, the Fast one then forgets first or alone, and Cyclone tells it
+// everything anew. The other way round they never meet again: a Fast participant that forgot nothing does not
+// announce its endpoints twice. 10 s: what stops a process for seconds (a debugger, a busy disk) is outlived.
+inline constexpr int kCycloneLeaseMs = 2000;
+inline constexpr int kFastLeaseMs = 10000;
 inline constexpr int kAnnouncementPeriodMs = 500;
 
 /// Largest domain whose ports stay below 65536 with some participants in it (7400 + 250 * domain).

@@ -20,6 +20,7 @@ struct TopicSpec {
   int depth = 1;  // samples kept per key
   std::chrono::milliseconds deadline{0};
   std::chrono::milliseconds liveliness_lease{0};
+  int writers = 1;  // of one key, each of whose samples a reader must see: it keeps `depth` for each
 };
 
 // A device of 1 kHz misses 40 poses before the deadline counts, one of 50 Hz still keeps it. Both
@@ -29,6 +30,10 @@ inline constexpr std::chrono::milliseconds kPoseDeadline{40};
 inline constexpr std::chrono::milliseconds kPoseLease{100};
 // Commands come from people and scripts: never more than a few in the time that one takes to arrive.
 inline constexpr int kCommandDepth = 32;
+
+// Several writers may describe one tool's device, and the smallest of their limits counts: what one says must
+// not replace what another said and nobody took yet.
+inline constexpr int kDevicesOfATool = 8;
 
 template <class M>
 inline constexpr TopicSpec kTopicSpec = [] {
@@ -42,7 +47,7 @@ template <> inline constexpr TopicSpec kTopicSpec<msg::ToolPose> {
 template <> inline constexpr TopicSpec kTopicSpec<msg::ToolForce> {
     "omentum/1/tool_force", Reliability::kBestEffort, Durability::kVolatile};
 template <> inline constexpr TopicSpec kTopicSpec<msg::DeviceInfo> {
-    "omentum/1/device_info", Reliability::kReliable, Durability::kTransientLocal};
+    "omentum/1/device_info", Reliability::kReliable, Durability::kTransientLocal, 1, {}, {}, kDevicesOfATool};
 template <> inline constexpr TopicSpec kTopicSpec<msg::Contact> {
     "omentum/1/contact", Reliability::kBestEffort, Durability::kVolatile};
 template <> inline constexpr TopicSpec kTopicSpec<msg::LocalModel> {

@@ -1,5 +1,6 @@
 #include "deform_node/contact_book.h"
 
+#include "node/contact_bounds.h"
 #include "tests/nodes/deform_fixtures.h"
 
 #include <gmock/gmock.h>
@@ -17,12 +18,28 @@ using deform_test::odd_numbers;
 
 constexpr std::int32_t kSurfaceNodes = 20;
 constexpr std::int32_t kPinned = 4;
+constexpr std::uint32_t kTools = 0b11011;  // of the scene
+constexpr double kMaxForce_n = 10, kReach_m = 0.05;
 const Vec3 kPush(0, 0, -1);
 
 class ContactBookTest : public ::testing::Test {
  protected:
   runtime::FaultList faults_;
-  ContactBook book_{{odd_numbers(kSurfaceNodes, kPinned)}, faults_};
+  const physics::SurfaceCompliance compliance_ = deform_test::random_compliance(kSurfaceNodes - kPinned, 3);
+  ContactBook book_{{organ()}, {.tools = kTools, .max_force_n = kMaxForce_n}, faults_};
+
+  OrganNumbers organ() const {
+    OrganNumbers numbers = odd_numbers(kSurfaceNodes, kPinned);
+    numbers.reach_m = kReach_m;
+    numbers.compliance = &compliance_;
+    return numbers;
+  }
+  /// How often contacts were dropped, and for how many reasons.
+  std::pair<std::uint64_t, std::size_t> dropped() const {
+    std::uint64_t counted = 0;
+    for (const runtime::Fault& fault : faults_.list()) counted += fault.count;
+    return {counted, faults_.list().size()};
+  }
 
   double push_at(double seconds) {
     book_.advance(static_cast<std::int64_t>(seconds * kNsPerS));
@@ -107,10 +124,41 @@ TEST_F(ContactBookTest, BadContactsAreDroppedAndCountedAndTheLastGoodOneStays) {
   book_.take(good, kNsPerS);
   for (const msg::Contact& contact : bad) book_.take(contact, kNsPerS + 1);
   EXPECT_EQ(push_at(1.01), 1);
-  std::uint64_t counted = 0;
-  for (const runtime::Fault& fault : faults_.list()) counted += fault.count;
-  EXPECT_EQ(counted, bad.size());
-  EXPECT_EQ(faults_.list().size(), 6U) << "one line per kind";
+  EXPECT_EQ(dropped(), std::pair(std::uint64_t{bad.size()}, std::size_t{6})) << "one line per kind";
+}
+
+TEST_F(ContactBookTest, OnlyTheScenesToolsPress) {
+  book_.take(contact_on(2, {3}, {kPush}), kNsPerS);
+  msg::Contact for_another = contact_on(0, {3}, {kPush});
+  for_another.cause.tool = 1;  // its echo would be another tool's
+  book_.take(for_another, kNsPerS);
+  EXPECT_EQ(push_at(1.01), 0);
+  EXPECT_TRUE(book_.echoes().empty());
+  EXPECT_EQ(dropped(), std::pair(std::uint64_t{2}, std::size_t{1}));
+}
+
+TEST_F(ContactBookTest, ForcesBeyondTheScenesAreDropped) {
+  const double most = node::kTissueHeadRoom * kMaxForce_n;
+  for (const double force_n : {1.001 * most, 1e30, 1e300}) {
+    book_.take(contact_on(0, {3}, {force_n * kPush}), kNsPerS);
+    book_.take(contact_on(0, {3, 4}, {force_n / 2 * kPush, -force_n / 2 * kPush}), kNsPerS);  // in sum 0
+  }
+  EXPECT_EQ(push_at(1.01), 0);
+  EXPECT_EQ(dropped(), std::pair(std::uint64_t{6}, std::size_t{1}));
+}
+
+// C has entries of up to 1e-4 m/N here: what is within the force's bound may still be a displacement of none.
+TEST_F(ContactBookTest, WhatWouldMoveTheOrganBeyondItsSizeIsDropped) {
+  const double column_m_n = (compliance_.block(SurfaceId(3), SurfaceId(3)) * kPush).norm();
+  book_.take(contact_on(0, {3}, {1.01 * kReach_m / column_m_n * kPush}), kNsPerS);
+  EXPECT_EQ(push_at(1.01), 0);
+  EXPECT_EQ(dropped(), std::pair(std::uint64_t{1}, std::size_t{1}));
+  book_.take(contact_on(0, {3}, {0.99 * kReach_m / column_m_n * kPush}), kNsPerS);
+  EXPECT_GT(push_at(1.01), 0);
+  msg::Contact claims = contact_on(0, {3}, {kPush});
+  claims.displacements[0].x = 1e30;
+  book_.take(claims, kNsPerS);
+  EXPECT_EQ(dropped().first, 2u);
 }
 
 }  // namespace

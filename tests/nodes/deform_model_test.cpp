@@ -24,7 +24,8 @@ class QuasiStaticModelTest : public ::testing::Test {
   physics::SurfaceCompliance compliance_ = random_compliance(kMobile, 11);
   QuasiStaticModel model_{compliance_, kSurfaceNodes};
   runtime::FaultList faults_;
-  ContactBook book_{{odd_numbers(kSurfaceNodes, kSurfaceNodes - kMobile)}, faults_};
+  ContactBook book_{
+      {odd_numbers(kSurfaceNodes, kSurfaceNodes - kMobile)}, {.tools = 3, .max_force_n = 10}, faults_};
 
   /// Two tools, seven nodes, one of them touched by both.
   void press() {

@@ -2,8 +2,7 @@
 #include "organ/organ.h"
 #include "transport/bus.h"
 
-#include "tests/support/meshes.h"
-#include "tests/support/process.h"
+#include "tests/nodes/deform_block.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -15,36 +14,12 @@
 namespace omentum {
 namespace {
 
+using deform_test::BlockScene;
 using geometry::SurfaceId;
 using geometry::Vec3;
 
 /// OrganState holds floats, and so do the tensors.
 constexpr double kWithin = 1e-3;
-constexpr double kSideM = 0.1;
-
-/// A block of 10 cm, held at z = 0, and a scene around it.
-class BlockScene {
- public:
-  BlockScene() {
-    geometry::write_mesh(test::make_box_mesh(4, 4, 4, Vec3::Constant(kSideM)), folder_ / "block.msh");
-    test::Process build("organ_build",
-                        {folder_ / "block.msh", "-o", folder_ / "block.h5", "--young", "10000", "--poisson",
-                         "0.45", "--density", "1000", "--scale", "1", "--fixed", "plane:z<0.001"});
-    if (build.wait() != 0) throw std::runtime_error(build.messages());
-    std::ofstream(folder_ / "scene.toml")
-        << "name = \"a block\"\n"
-           "[[organs]]\nname = \"block\"\nmesh = \"block.msh\"\nfile = \"block.h5\"\n"
-           "young_pa = 10000\npoisson = 0.45\ndensity_kg_m3 = 1000\n"
-           "fixed = \"plane:z<0.001\"\n"
-           "[[tools]]\nid = 0\nname = \"probe\"\nshape = \"probe\"\npoints = [[0,0,0]]\n";
-  }
-  std::string scene() const { return folder_ / "scene.toml"; }
-  std::string report() const { return folder_ / "report.json"; }
-  organ::Organ organ() const { return organ::load_organ(folder_ / "block.h5", organ::Load::kWithTensors); }
-
- private:
-  test::ScratchFolder folder_;
-};
 
 /// deform_node, and what it publishes.
 class Bench {
@@ -242,6 +217,20 @@ TEST_P(DeformNodeTest, BadContactsAreFaultsInItsReportAndTheEndIsClean) {
   EXPECT_GT(report["loop"]["ticks"], 0);
   EXPECT_EQ(report["loop"]["rate_hz"], 100);
   ASSERT_EQ(report["faults"].size(), 1U);
+}
+
+TEST_P(DeformNodeTest, ContactsThatNoToolOfTheSceneMakesMoveNothing) {
+  msg::Contact strong = push(organ_, 1), foreign = push(organ_, 2);
+  strong.forces[0].z = -1e30;
+  foreign.tool = foreign.cause.tool = 5;
+  ASSERT_TRUE(test::comes_true([&] {
+    bench_.send(strong);
+    bench_.send(foreign);
+    return bench_.status() && bench_.status()->faults.size() >= 2;
+  }));
+  ASSERT_TRUE(bench_.state());
+  EXPECT_EQ(largest(*bench_.state()), 0);
+  EXPECT_TRUE(bench_.state()->echoes.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, DeformNodeTest,

@@ -145,29 +145,6 @@ TEST(ForceSafety, AfterAStallNoTickStepsFartherThanANominalOne) {
   }
 }
 
-TEST(DeviceLimits, WhatIsNoLimitIsIgnoredAndSaid) {
-  msg::DeviceInfo info{};
-  info.max_stiffness_n_m = 1000;
-  EXPECT_TRUE(haptic::read_limits(info).sound);
-  EXPECT_EQ(haptic::read_limits(info).limits.max_force_n, 0) << "0 is meant";
-  for (const double nonsense : {kNan, -1.0, std::numeric_limits<double>::infinity()}) {
-    for (int field = 0; field < 3; ++field) {
-      msg::DeviceInfo bad = info;
-      double* const fields[] = {&bad.max_force_n, &bad.max_torque_nm, &bad.max_stiffness_n_m};
-      *fields[field] = nonsense;
-      const haptic::ReadLimits read = haptic::read_limits(bad);
-      EXPECT_FALSE(read.sound);
-      const double limits[] = {read.limits.max_force_n, read.limits.max_torque_nm,
-                               read.limits.max_stiffness_n_m};
-      const haptic::DeviceLimits unknown;
-      const double defaults[] = {unknown.max_force_n, unknown.max_torque_nm, unknown.max_stiffness_n_m};
-      EXPECT_EQ(limits[field], defaults[field]);
-    }
-  }
-  info.max_stiffness_n_m = 0;
-  EXPECT_FALSE(haptic::read_limits(info).sound) << "nothing can be felt with it";
-}
-
 TEST(ForceSafety, StepsAreSlewed) {
   ForceSafety safety = ramped_up();
   for (int i = 1; i <= 4; ++i) {

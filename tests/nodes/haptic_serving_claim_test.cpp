@@ -2,13 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace omentum::haptic {
 namespace {
 
+using node::Standing;
+
 constexpr double kRate_hz = 1000;
+constexpr std::uint32_t kOwnTools = 0b0011, kShared = 0b0010;
 
 ServingClaim own(Standing standing) {
-  return {.instance = 1000, .tools_served = 0b0011, .organ_hash = "abc", .standing = standing};
+  return {.claim = {.instance = 1000, .standing = standing}, .tools_served = kOwnTools};
 }
 
 msg::NodeStatus other(std::uint64_t instance, double served_s, std::uint32_t tools = 0b0110) {
@@ -23,61 +28,41 @@ msg::NodeStatus other(std::uint64_t instance, double served_s, std::uint32_t too
 }
 
 TEST(ServingClaim, WhoListensYieldsToWhoServesWhateverTheClocksSay) {
+  for (const std::uint64_t instance : {1, 2000})
+    EXPECT_EQ(judge(own(Standing::kListening), other(instance, 0.1)).given_up, kShared);
+}
+
+TEST(ServingClaim, WhoIsSettledKeepsItsToolsWhateverIsClaimed) {
+  msg::NodeStatus boldest = other(0, 0, ~0u);
+  boldest.ticks = std::numeric_limits<std::uint64_t>::max();
+  for (const msg::NodeStatus& claimant : {other(1, 2), other(1, 60), other(2000, 60), boldest}) {
+    const Dispute dispute = judge(own(Standing::kSettled), claimant);
+    EXPECT_EQ(dispute.given_up, 0u);
+    EXPECT_EQ(dispute.kept, kOwnTools & claimant.tools_served);
+  }
+}
+
+TEST(ServingClaim, WhoIsYoungYieldsToWhoIsSettledAndOnlyWhatIsInDispute) {
+  EXPECT_EQ(judge(own(Standing::kYoung), other(2000, 60)).given_up, kShared) << "it was found late";
+  EXPECT_EQ(judge(own(Standing::kYoung), other(1, 60, 0b1100)).given_up, 0u) << "other tools";
+  EXPECT_EQ(judge(own(Standing::kYoung), other(1, 60, 0b1100)).kept, 0u);
+}
+
+// Two that started together: one of them serves each tool.
+TEST(ServingClaim, OneOfTwoYoungOnesStays) {
+  const ServingClaim mine = own(Standing::kYoung);
   for (const std::uint64_t instance : {1, 2000}) {
-    const auto why = yields_to(own(Standing::kListening), other(instance, 0.1));
-    ASSERT_TRUE(why);
-    EXPECT_NE(why->find("tool 1"), std::string::npos) << *why;
-    EXPECT_NE(why->find("elsewhere"), std::string::npos);
+    const msg::NodeStatus theirs = other(instance, 0.5, kOwnTools);
+    const ServingClaim turned{node::claim_of(theirs), kOwnTools};
+    EXPECT_EQ(judge(mine, theirs).given_up ^ judge(turned, other(1000, 0.5, kOwnTools)).given_up, kOwnTools);
   }
 }
 
-TEST(ServingClaim, ANewcomerWhoseClockIsBehindDoesNotEndWhoServes) {
-  EXPECT_FALSE(yields_to(own(Standing::kSettled), other(1, 2)));
-  EXPECT_TRUE(yields_to(own(Standing::kYoung), other(2000, 60))) << "it found the older one late";
-}
-
-// Every pair of standings and instances: one of the two stays, the other goes.
-TEST(ServingClaim, OneOfTwoStays) {
-  for (const double own_s : {0.5, 60.0}) {
-    for (const double other_s : {0.5, 60.0}) {
-      for (const std::uint64_t instance : {1, 2000}) {
-        ServingClaim mine = own(standing_of(static_cast<std::uint64_t>(own_s * kRate_hz), kRate_hz));
-        const msg::NodeStatus theirs = other(instance, other_s, mine.tools_served);
-        ServingClaim turned = mine;
-        turned.instance = instance;
-        turned.standing = standing_of(theirs.ticks, theirs.rate_hz);
-        EXPECT_NE(yields_to(mine, theirs).has_value(),
-                  yields_to(turned, other(mine.instance, own_s, mine.tools_served)).has_value());
-      }
-    }
-  }
-}
-
-TEST(ServingClaim, OwnStatusAndStrangersAreNoReasonToYield) {
-  const ServingClaim listening = own(Standing::kListening);
-  EXPECT_FALSE(yields_to(listening, other(1000, 60))) << "its own status";
-  EXPECT_FALSE(yields_to(listening, other(1, 60, 0b1100))) << "other tools";
-  msg::NodeStatus device = other(1, 60);
-  device.kind = msg::NODE_DEVICE;
-  EXPECT_FALSE(yields_to(listening, device));
-}
-
-TEST(ServingClaim, RefusesAnotherOrganOrProtocol) {
-  const ServingClaim claim = own(Standing::kListening);
-  const msg::SceneInfo same{
-      .protocol = msg::PROTOCOL_VERSION, .scene = "", .organs = {{.name = "o", .hash = "abc"}}};
-  EXPECT_FALSE(contradicts(claim, same));
-  msg::SceneInfo wrong = same;
-  wrong.organs[0].hash = "def";
-  ASSERT_TRUE(contradicts(claim, wrong));
-  EXPECT_NE(contradicts(claim, wrong)->find("abc"), std::string::npos);
-  EXPECT_NE(contradicts(claim, wrong)->find("def"), std::string::npos);
-  wrong = same;
-  wrong.protocol += 1;
-  EXPECT_TRUE(contradicts(claim, wrong));
-  wrong = same;
-  wrong.organs.clear();
-  EXPECT_TRUE(contradicts(claim, wrong));
+TEST(ServingClaim, AnEndNamesToolAndHost) {
+  const msg::NodeStatus theirs = other(1, 60);
+  const std::string why = nothing_left(judge(own(Standing::kListening), theirs), theirs);
+  EXPECT_NE(why.find("tool 1 is already served"), std::string::npos) << why;
+  EXPECT_NE(why.find("elsewhere"), std::string::npos) << why;
 }
 
 }  // namespace

@@ -275,8 +275,16 @@ TEST(SafetyThroughTheStep, ADevicesNonsenseIsAFault) {
   LineBench line;
   msg::DeviceInfo info{};
   info.max_force_n = kNan;
+  info.max_stiffness_n_m = 5e-324;
+  for (int i = 0; i < 3; ++i) line.line().hear(info);
+  info.max_force_n = -1;
   line.line().hear(info);
-  EXPECT_TRUE(line.faults().any());
+  const auto faults = line.faults().list();
+  ASSERT_EQ(faults.size(), 2u) << "one for each field, whatever comes";
+  EXPECT_EQ(faults[0].text, "tool 0: DeviceInfo.max_force_n = nan, expected 0 to 1000; the last one holds");
+  EXPECT_EQ(faults[0].count, 4u);
+  EXPECT_NE(faults[1].text.find("max_stiffness_n_m = 4.9"), std::string::npos) << faults[1].text;
+  EXPECT_LT(faults[1].text.size(), runtime::FaultList::kTextSize);
 }
 
 TEST(SafetyThroughTheStep, ADeadDeviceLetsTheTissueGo) {

@@ -109,6 +109,16 @@ TEST(RememberStatus, RestartedNodeTakesItsPredecessorsPlace) {
   EXPECT_EQ(heard[0].status.instance, 2u);
   remember_status(status_of(msg::NODE_DEFORM, 1), kSecond, heard);
   EXPECT_EQ(heard[0].status.instance, 2u) << "a late sample of the old run";
+  remember_status(status_of(msg::NODE_DEFORM, 1), 60 * kSecond, heard);
+  EXPECT_EQ(heard[0].status.instance, 1u) << "whoever was the newest is silent";
+}
+
+TEST(RememberStatus, ACrowdOfNamesHasAnEnd) {
+  std::vector<HeardStatus> heard;
+  for (std::uint64_t instance = 1; instance < 1000; ++instance)
+    remember_status(status_of(msg::NODE_HAPTIC, instance), static_cast<std::int64_t>(instance), heard);
+  EXPECT_EQ(heard.size(), kMostHeard);
+  EXPECT_EQ(heard.back().status.instance, 999u) << "the newest is among them";
 }
 
 TEST(RememberStatus, SeveralHandsHaveALineEachUntilTheyFallSilent) {
@@ -166,40 +176,6 @@ TEST(OrganRow, LinearRangeIsThatOfTheLargestDisplacement) {
 TEST(PanelShare, LeavesTheOrganInANarrowPicture) {
   EXPECT_NEAR(panel_share({960, 600}), (kPanelWidth + kPanelMargin) / 960, 1e-6);
   for (const int width : {64, 200, 480}) EXPECT_LE(panel_share({width, 300}), 0.4);
-}
-
-TEST(Obey, CommandsAreLevelsAndARepeatedOneChangesNothing) {
-  SessionState session;
-  obey({.seq = 1, .command = msg::COMMAND_PAUSE, .argument = {}}, session);
-  EXPECT_TRUE(session.paused);
-  obey({.seq = 2, .command = msg::COMMAND_RESET, .argument = {}}, session);
-  obey({.seq = 2, .command = msg::COMMAND_RESET, .argument = {}}, session);
-  EXPECT_EQ(session.resets, 1u);
-  obey({.seq = 3, .command = msg::COMMAND_START, .argument = {}}, session);
-  EXPECT_FALSE(session.paused);
-}
-
-std::string refusal(const msg::SceneInfo& info) {
-  try {
-    check_scene_info(info, {{"liver", "aaaa", 10}});
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST(CheckSceneInfo, AnotherOrganIsRefusedWithBothHashes) {
-  const msg::SceneInfo good{.protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{"liver", "aaaa"}}};
-  EXPECT_EQ(refusal(good), "");
-  msg::SceneInfo other = good;
-  other.organs[0].hash = "bbbb";
-  EXPECT_THAT(refusal(other), testing::AllOf(HasSubstr("aaaa"), HasSubstr("bbbb"), HasSubstr("liver")));
-  msg::SceneInfo newer = good;
-  newer.protocol = msg::PROTOCOL_VERSION + 1;
-  EXPECT_THAT(refusal(newer), HasSubstr("protocol"));
-  msg::SceneInfo more = good;
-  more.organs.push_back({"spleen", "cccc"});
-  EXPECT_THAT(refusal(more), HasSubstr("2 organs"));
 }
 
 TEST(PoseArrivals, AreFoundUntilOverwritten) {

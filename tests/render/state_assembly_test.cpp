@@ -7,6 +7,7 @@
 namespace omentum::render {
 namespace {
 
+constexpr double kReachM = 1000;
 constexpr std::uint32_t kNodes = 6, kBlocks = 3, kPerBlock = 2;
 
 // Every value of the state is `value`.
@@ -25,7 +26,7 @@ msg::OrganState block(std::uint64_t seq, std::uint32_t number, float value) {
 
 struct Shown {
   std::vector<AssembledState> states;
-  StateAssembly assembly{kNodes};
+  StateAssembly assembly{kNodes, kReachM};
   StateAssembly::Outcome take(const msg::OrganState& block) {
     return assembly.take(block, [this](const AssembledState& s) { states.push_back(s); });
   }
@@ -106,6 +107,7 @@ TEST(StateAssembly, MisfitsAreRefusedWhole) {
   EXPECT_TRUE(refuses([](msg::OrganState& s) { s.first = 0xffffffff; }));
   EXPECT_TRUE(refuses([](msg::OrganState& s) { s.block_count = 0xffffffff; }));
   EXPECT_TRUE(refuses([](msg::OrganState& s) { s.values[1] = std::numeric_limits<float>::quiet_NaN(); }));
+  EXPECT_TRUE(refuses([](msg::OrganState& s) { s.values[2] = -1e30f; })) << "farther than it reaches";
   EXPECT_TRUE(shown.states.empty());
 }
 
@@ -114,6 +116,16 @@ TEST(MergeEchoes, TakesTheNewestOfEachTool) {
   ASSERT_EQ(merged.size(), 2u);
   EXPECT_EQ(merged[0].seq, 6u);
   EXPECT_EQ(merged[1].seq, 9u);
+}
+
+// A status with more than its bound would be refused whole.
+TEST(MergeEchoes, FitsAStatusWhateverIsEchoed) {
+  std::vector<msg::Echo> first, second;
+  for (std::uint32_t tool = 0; tool < msg::MAX_TOOLS; ++tool) {
+    first.push_back({.tool = tool, .seq = 1, .stamp_ns = 1});
+    second.push_back({.tool = 1000 + tool, .seq = 1, .stamp_ns = 1});
+  }
+  EXPECT_EQ(merge_echoes({first, second}).size(), msg::MAX_TOOLS);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The other process of the contract tests: sends what the first argument names until its standard input ends,
 // and prints a line once its writers exist.
-//   transport_peer <known|durable|organ|blocks|contacts|poses> <fast|cyclone> <domain> <loopback|lan>
+//   transport_peer <known|durable|organ|blocks|contacts|poses|answers> <fast|cyclone> <domain> <loopback|lan>
 #include "tests/transport/fill.h"
 #include "transport/topics.h"
 
@@ -100,11 +100,26 @@ void send_poses(Bus& bus) {
   });
 }
 
+// answers each pose, and tells its status twice a second
+void send_answers(Bus& bus) {
+  const auto forces = bus.writer<msg::ToolForce>();
+  const auto statuses = bus.writer<msg::NodeStatus>();
+  msg::NodeStatus status;
+  const auto poses = bus.reader<msg::ToolPose>([&](const msg::ToolPose& pose) {
+    forces->write({.tool = pose.tool, .seq = pose.seq, .echo_seq = pose.seq, .echo_stamp_ns = pose.stamp_ns});
+  });
+  until_input_ends(std::chrono::milliseconds(500), [&] {
+    ++status.ticks;
+    statuses->write(status);
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 5) {
-    std::cerr << "usage: transport_peer <known|durable|organ|blocks|contacts|poses> <fast|cyclone> <domain> "
+    std::cerr << "usage: transport_peer <known|durable|organ|blocks|contacts|poses|answers> <fast|cyclone> "
+                 "<domain> "
                  "<loopback|lan>\n";
     return 2;
   }
@@ -121,5 +136,6 @@ int main(int argc, char** argv) {
   if (what == "blocks") send_blocks(*bus);
   if (what == "contacts") send_contacts(*bus);
   if (what == "poses") send_poses(*bus);
+  if (what == "answers") send_answers(*bus);
   return 0;
 }

@@ -47,7 +47,7 @@ class PeerProcess {
               transport::Profile profile = transport::Profile::kLoopback) {
     int to_peer[2], from_peer[2];
     if (pipe(to_peer) != 0 || pipe(from_peer) != 0) throw std::runtime_error("no pipe");
-    const std::string program = std::string(OMENTUM_BIN_DIR) + "/transport_peer";
+    const std::string program = std::string(OMENTUM_BIN_DIR).append("/transport_peer");
     const std::string number = std::to_string(domain);
     pid_ = fork();
     if (pid_ == 0) {
@@ -78,6 +78,12 @@ class PeerProcess {
     waitpid(pid_, &status, 0);
     pid_ = 0;
     return exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  /// Stops it for a while, as a debugger or a laptop's lid does.
+  void freeze(std::chrono::milliseconds time) {
+    kill(pid_, SIGSTOP);
+    std::this_thread::sleep_for(time);
+    kill(pid_, SIGCONT);
   }
   void kill_it() {
     kill(pid_, SIGKILL);

@@ -56,7 +56,7 @@ std::string general(Profile profile) {
 std::string discovery(const std::vector<std::string>& peers) {
   // participants of one machine that are found by address need ports that can be guessed: an index each
   constexpr int kMostParticipants = 30;
-  std::string text = element("LeaseDuration", milliseconds(kParticipantLeaseMs)) +
+  std::string text = element("LeaseDuration", milliseconds(kCycloneLeaseMs)) +
                      element("SPDPInterval", milliseconds(kAnnouncementPeriodMs));
   if (!peers.empty()) {
     std::string list;

@@ -65,7 +65,9 @@ Qos writer_qos(const TopicSpec& spec) {
 }
 
 Qos reader_qos(const TopicSpec& spec) {
-  return common_qos(spec);
+  Qos qos = common_qos(spec);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, spec.depth * spec.writers);
+  return qos;
 }
 
 dds_entity_t checked(dds_entity_t entity, const std::string& what) {

@@ -3,14 +3,22 @@
 #include "transport/arrivals.h"
 #include "transport/cyclone/conversion.h"
 #include "transport/cyclone/entities.h"
+#include "transport/departures.h"
 #include "transport/reader_counters.h"
 
 #include <atomic>
+#include <cstring>
 #include <stdexcept>
 
 namespace omentum::transport::cyclone {
 
 namespace {
+
+WriterId writer_id(dds_instance_handle_t publication) {
+  WriterId id{};
+  std::memcpy(id.data(), &publication, sizeof publication);
+  return id;
+}
 
 template <class M>
 class CycloneWriter final : public Writer<M> {
@@ -59,14 +67,14 @@ class CycloneWriter final : public Writer<M> {
 template <class M>
 class CycloneReader final : public Reader<M> {
  public:
-  CycloneReader(const Entities& entities, std::function<void(const M&)> on_sample)
-      : on_sample_(std::move(on_sample)) {
+  CycloneReader(const Entities& entities, ByWriter<M> callbacks) : callbacks_(std::move(callbacks)) {
     const TopicSpec& spec = kTopicSpec<M>;
     const dds_entity_t topic = entities.topic(spec, WireType<M>::descriptor());
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
                                                                               dds_delete_listener);
     dds_lset_data_available(listener.get(), on_data_available);
     dds_lset_liveliness_changed(listener.get(), on_liveliness_changed);
+    if (callbacks_.on_gone) dds_lset_subscription_matched(listener.get(), on_subscription_matched);
     reader_ = checked(dds_create_reader(entities.participant, topic, reader_qos(spec).get(), listener.get()),
                       std::string("a reader of ") + spec.name);
   }
@@ -89,32 +97,46 @@ class CycloneReader final : public Reader<M> {
     me.arrivals_.announce([&] { me.take_all(reader); });
   }
 
+  static void on_subscription_matched(dds_entity_t reader, dds_subscription_matched_status_t status,
+                                      void* self) {
+    if (status.current_count_change >= 0) return;
+    auto& me = *static_cast<CycloneReader*>(self);
+    me.departures_.left(writer_id(status.last_publication_handle));
+    me.arrivals_.announce([&] { me.take_all(reader); });
+  }
+
   static void on_liveliness_changed(dds_entity_t, dds_liveliness_changed_status_t status, void* self) {
     static_cast<CycloneReader*>(self)->counters_.liveliness_changed(status.not_alive_count_change);
   }
 
   // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which tells nobody
   void take_all(dds_entity_t reader) {
-    constexpr std::int32_t kAtOnce = 8;
-    for (;;) {
-      void* loans[kAtOnce] = {};
-      dds_sample_info_t infos[kAtOnce];
-      const std::int32_t count = dds_take(reader, loans, infos, kAtOnce, kAtOnce);
-      if (count <= 0) return;
-      for (std::int32_t i = 0; i < count; ++i)
-        if (infos[i].valid_data) deliver(loans[i]);
-      dds_return_loan(reader, loans, count);
-    }
+    const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
+    while (take_some(reader)) continue;
+    for (const WriterId& writer : gone) callbacks_.on_gone(writer);
   }
 
-  void deliver(const void* loan) {
+  bool take_some(dds_entity_t reader) {
+    constexpr std::int32_t kAtOnce = 8;
+    void* loans[kAtOnce] = {};
+    dds_sample_info_t infos[kAtOnce];
+    const std::int32_t count = dds_take(reader, loans, infos, kAtOnce, kAtOnce);
+    if (count <= 0) return false;
+    for (std::int32_t i = 0; i < count; ++i)
+      if (infos[i].valid_data) deliver(loans[i], writer_id(infos[i].publication_handle));
+    dds_return_loan(reader, loans, count);
+    return true;
+  }
+
+  void deliver(const void* loan, const WriterId& writer) {
     take_over(*static_cast<const typename WireType<M>::Type*>(loan), message_);
     counters_.delivered(message_);
-    on_sample_(message_);
+    callbacks_.on_sample(message_, writer);
   }
 
-  std::function<void(const M&)> on_sample_;
-  M message_;  // its sequences keep their memory from sample to sample
+  ByWriter<M> callbacks_;
+  Departures departures_;  // where somebody asks for them
+  M message_;              // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
   dds_entity_t reader_ = 0;
@@ -131,13 +153,13 @@ std::unique_ptr<Writer<M>> Participant::writer() {
 }
 
 template <class M>
-std::unique_ptr<Reader<M>> Participant::reader(std::function<void(const M&)> on_sample) {
-  return std::make_unique<CycloneReader<M>>(*entities_, std::move(on_sample));
+std::unique_ptr<Reader<M>> Participant::reader(ByWriter<M> callbacks) {
+  return std::make_unique<CycloneReader<M>>(*entities_, std::move(callbacks));
 }
 
 #define OMENTUM_INSTANTIATE(M)                                            \
   template std::unique_ptr<Writer<msg::M>> Participant::writer<msg::M>(); \
-  template std::unique_ptr<Reader<msg::M>> Participant::reader<msg::M>(std::function<void(const msg::M&)>);
+  template std::unique_ptr<Reader<msg::M>> Participant::reader<msg::M>(ByWriter<msg::M>);
 OMENTUM_FOR_EACH_TOPIC(OMENTUM_INSTANTIATE)
 #undef OMENTUM_INSTANTIATE
 

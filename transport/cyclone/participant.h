@@ -17,7 +17,7 @@ class Participant {
   template <class M>
   std::unique_ptr<Writer<M>> writer();
   template <class M>
-  std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample);
+  std::unique_ptr<Reader<M>> reader(ByWriter<M> callbacks);
 
  private:
   std::unique_ptr<Entities> entities_;

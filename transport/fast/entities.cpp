@@ -70,7 +70,7 @@ dds::DomainParticipantQos participant_qos(const BusOptions& options) {
   dds::DomainParticipantQos qos;
   qos.name(options.name);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  discovery.leaseDuration = duration(kParticipantLeaseMs);
+  discovery.leaseDuration = duration(kFastLeaseMs);
   discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriodMs);
   discovery.initial_announcements.count = kFirstAnnouncements;
   set_transports(qos, options.profile);
@@ -153,6 +153,7 @@ dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_
 dds::DataReaderQos reader_qos(const TopicSpec& spec) {
   dds::DataReaderQos qos;
   set_common(qos, spec);
+  qos.history().depth = spec.depth * spec.writers;
   return qos;
 }
 

@@ -1,11 +1,16 @@
 #include "transport/fast/participant.h"
 
 #include "transport/arrivals.h"
-#include "transport/fast/entities.h"
+#include "transport/departures.h"
+#include "transport/fast/membership.h"
 #include "transport/fast/message_type.h"
+#include "transport/fast/newest_by_key.h"
 #include "transport/reader_counters.h"
+#include "transport/settings.h"
+#include "transport/standstill.h"
 
 #include <atomic>
+#include <shared_mutex>
 #include <stdexcept>
 
 namespace omentum::transport::fast {
@@ -14,17 +19,20 @@ namespace {
 
 using eprosima::fastrtps::types::ReturnCode_t;
 
+WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) {
+  WriterId id{};
+  for (std::size_t i = 0; i < id.size(); ++i) id[i] = publication.value[i];
+  return id;
+}
+
+// A process that stood still for so long may have been forgotten by some and not by others.
+constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastLeaseMs) / 2;
+
 template <class M>
-class FastWriter final : public Writer<M> {
+class FastWriter final : public Writer<M>, private Endpoint {
  public:
-  explicit FastWriter(Entities& entities) : entities_(entities) {
-    const TopicSpec& spec = kTopicSpec<M>;
-    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    const auto qos = writer_qos(spec, entities.profile, kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes);
-    writer_ = entities.publisher->create_datawriter(topic, qos, nullptr, dds::StatusMask::none());
-    if (!writer_) throw std::runtime_error(std::string("Fast DDS refused a writer of ") + spec.name);
-  }
-  ~FastWriter() override { entities_.publisher->delete_datawriter(writer_); }
+  explicit FastWriter(Membership& membership) : membership_(membership) { membership.add(*this); }
+  ~FastWriter() override { membership_.remove(*this); }
 
   bool write(const M& sample) noexcept override {
     if (within_bounds(sample) && send(sample)) {
@@ -36,55 +44,108 @@ class FastWriter final : public Writer<M> {
   }
 
   EndpointStatus status() const override {
-    EndpointStatus status = status_of(*writer_);
+    const std::shared_lock lock(mutex_);
+    EndpointStatus status = writer_ ? status_of(*writer_) : EndpointStatus{};
     status.samples = samples_;
     status.rejected = rejected_;
     return status;
   }
 
  private:
+  void join(Entities& entities) override {
+    const TopicSpec& spec = kTopicSpec<M>;
+    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
+    const auto qos = writer_qos(spec, entities.profile, kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes);
+    const std::lock_guard lock(mutex_);
+    writer_ = entities.publisher->create_datawriter(topic, qos, nullptr, dds::StatusMask::none());
+    if (!writer_) throw std::runtime_error(std::string("Fast DDS refused a writer of ") + spec.name);
+    // a new writer's history is empty
+    newest_.for_each([this](const M& sample) { hand_over(sample); });
+  }
+
+  void leave(Entities& entities) override {
+    const std::lock_guard lock(mutex_);
+    if (writer_) entities.publisher->delete_datawriter(writer_);
+    writer_ = nullptr;
+  }
+
   bool send(const M& sample) noexcept {
-    // serialize() and getKey() only read it
-    SampleRef<M> data{const_cast<M*>(&sample)};
     try {
-      return writer_->write(&data);
+      std::shared_lock lock(mutex_, std::defer_lock);
+      if constexpr (kDurable<M>) {
+        lock.lock();
+        newest_.keep(sample);
+        return !writer_ || hand_over(sample);  // without a participant: said by the next one
+      } else {
+        // a participant that is being renewed is not waited for
+        return lock.try_lock() && writer_ && hand_over(sample);
+      }
     } catch (const std::exception&) {
       return false;
     }
   }
 
-  Entities& entities_;
+  bool hand_over(const M& sample) {
+    // serialize() and getKey() only read it
+    SampleRef<M> data{const_cast<M*>(&sample)};
+    return writer_->write(&data);
+  }
+
+  Membership& membership_;
+  mutable std::shared_mutex mutex_;  // exclusive: writer_ changes
   dds::DataWriter* writer_ = nullptr;
+  NewestByKey<M> newest_;  // of durable topics only
   std::atomic<std::uint64_t> samples_{0};
   std::atomic<std::uint64_t> rejected_{0};
 };
 
 template <class M>
-class FastReader final : public Reader<M>, private dds::DataReaderListener {
+class FastReader final : public Reader<M>, private Endpoint, private dds::DataReaderListener {
  public:
-  FastReader(Entities& entities, std::function<void(const M&)> on_sample)
-      : entities_(entities), on_sample_(std::move(on_sample)) {
-    const TopicSpec& spec = kTopicSpec<M>;
-    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    const auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
-    reader_ = entities.subscriber->create_datareader(topic, reader_qos(spec), this, mask);
-    if (!reader_) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
+  FastReader(Membership& membership, ByWriter<M> callbacks)
+      : membership_(membership), callbacks_(std::move(callbacks)) {
+    membership.add(*this);
   }
-
-  ~FastReader() override {
-    reader_->set_listener(nullptr);
-    arrivals_.close();
-    entities_.subscriber->delete_datareader(reader_);
-  }
+  ~FastReader() override { membership_.remove(*this); }
 
   EndpointStatus status() const override {
-    EndpointStatus status = status_of(*reader_);
+    const std::shared_lock lock(mutex_);
+    EndpointStatus status = reader_ ? status_of(*reader_) : EndpointStatus{};
     counters_.add_to(status);
     return status;
   }
 
  private:
+  void join(Entities& entities) override {
+    const TopicSpec& spec = kTopicSpec<M>;
+    dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
+    auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
+    if (callbacks_.on_gone) mask << dds::StatusMask::subscription_matched();
+    arrivals_.open();
+    dds::DataReader* reader = entities.subscriber->create_datareader(topic, reader_qos(spec), this, mask);
+    if (!reader) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
+    const std::lock_guard lock(mutex_);
+    reader_ = reader;
+  }
+
+  void leave(Entities& entities) override {
+    if (!reader_) return;
+    reader_->set_listener(nullptr);
+    arrivals_.close();
+    departures_.all_left();
+    const std::lock_guard lock(mutex_);
+    entities.subscriber->delete_datareader(reader_);
+    reader_ = nullptr;
+  }
+
   void on_data_available(dds::DataReader* reader) override {
+    arrivals_.announce([&] { take_all(*reader); });
+  }
+
+  void on_subscription_matched(dds::DataReader* reader,
+                               const dds::SubscriptionMatchedStatus& status) override {
+    if (status.current_count_change >= 0) return;
+    departures_.left(writer_id(status.last_publication_handle));
     arrivals_.announce([&] { take_all(*reader); });
   }
 
@@ -94,6 +155,7 @@ class FastReader final : public Reader<M>, private dds::DataReaderListener {
   }
 
   void take_all(dds::DataReader& reader) {
+    const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
     SampleRef<M> data{&message_};
     dds::SampleInfo info;
     while (reader.take_next_sample(&data, &info) == ReturnCode_t::RETCODE_OK) {
@@ -103,36 +165,48 @@ class FastReader final : public Reader<M>, private dds::DataReaderListener {
         continue;
       }
       counters_.delivered(message_);
-      on_sample_(message_);
+      const WriterId writer = writer_id(info.publication_handle);
+      if (callbacks_.on_gone) departures_.delivered(writer);
+      callbacks_.on_sample(message_, writer);
     }
+    for (const WriterId& writer : gone) callbacks_.on_gone(writer);
   }
 
-  Entities& entities_;
-  std::function<void(const M&)> on_sample_;
-  M message_;  // its sequences keep their memory from sample to sample
+  Membership& membership_;
+  ByWriter<M> callbacks_;
+  Departures departures_;  // where somebody asks for them
+  M message_;              // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
+  mutable std::shared_mutex mutex_;  // exclusive: reader_ changes
   dds::DataReader* reader_ = nullptr;
 };
 
 }  // namespace
 
-Participant::Participant(const BusOptions& options) : entities_(std::make_unique<Entities>(options)) {}
+Participant::Participant(const BusOptions& options)
+    : membership_(std::make_unique<Membership>(options)),
+      watch_(std::make_unique<StandstillWatch>(kForgottenAfter, [this] { return membership_->renew(); })) {}
+
 Participant::~Participant() = default;
 
-template <class M>
-std::unique_ptr<Writer<M>> Participant::writer() {
-  return std::make_unique<FastWriter<M>>(*entities_);
+bool Participant::renew() noexcept {
+  return membership_->renew();
 }
 
 template <class M>
-std::unique_ptr<Reader<M>> Participant::reader(std::function<void(const M&)> on_sample) {
-  return std::make_unique<FastReader<M>>(*entities_, std::move(on_sample));
+std::unique_ptr<Writer<M>> Participant::writer() {
+  return std::make_unique<FastWriter<M>>(*membership_);
+}
+
+template <class M>
+std::unique_ptr<Reader<M>> Participant::reader(ByWriter<M> callbacks) {
+  return std::make_unique<FastReader<M>>(*membership_, std::move(callbacks));
 }
 
 #define OMENTUM_INSTANTIATE(M)                                            \
   template std::unique_ptr<Writer<msg::M>> Participant::writer<msg::M>(); \
-  template std::unique_ptr<Reader<msg::M>> Participant::reader<msg::M>(std::function<void(const msg::M&)>);
+  template std::unique_ptr<Reader<msg::M>> Participant::reader<msg::M>(ByWriter<msg::M>);
 OMENTUM_FOR_EACH_TOPIC(OMENTUM_INSTANTIATE)
 #undef OMENTUM_INSTANTIATE
 
