@@ -1,6 +1,7 @@
 #include "transport/cyclone/participant.h"
 
 #include "transport/arrivals.h"
+#include "transport/cyclone/complaints.h"
 #include "transport/cyclone/conversion.h"
 #include "transport/cyclone/entities.h"
 #include "transport/reader_counters.h"
@@ -60,7 +61,7 @@ template <class M>
 class CycloneReader final : public Reader<M> {
  public:
   CycloneReader(const Entities& entities, std::function<void(const M&)> on_sample)
-      : on_sample_(std::move(on_sample)) {
+      : on_sample_(std::move(on_sample)), undecodable_before_(undecodable(kTopicSpec<M>.name)) {
     const TopicSpec& spec = kTopicSpec<M>;
     const dds_entity_t topic = entities.topic(spec, WireType<M>::descriptor());
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
@@ -80,6 +81,7 @@ class CycloneReader final : public Reader<M> {
   EndpointStatus status() const override {
     EndpointStatus status = reader_status(reader_);
     counters_.add_to(status);
+    status.rejected += undecodable(kTopicSpec<M>.name) - undecodable_before_;
     return status;
   }
 
@@ -93,7 +95,7 @@ class CycloneReader final : public Reader<M> {
     static_cast<CycloneReader*>(self)->counters_.liveliness_changed(status.not_alive_count_change);
   }
 
-  // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which tells nobody
+  // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which only complains
   void take_all(dds_entity_t reader) {
     constexpr std::int32_t kAtOnce = 8;
     for (;;) {
@@ -114,6 +116,7 @@ class CycloneReader final : public Reader<M> {
   }
 
   std::function<void(const M&)> on_sample_;
+  const std::uint64_t undecodable_before_;
   M message_;  // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
