@@ -34,7 +34,8 @@ class Session:
 
     def __init__(self, options, scene, name):
         self.options, self.scene, self.name = options, scene, name
-        self.domain = Domain(options.domain)
+        on_network = options.profile == "lan"
+        self.domain = Domain(options.domain, options.programs / "omentum_domain" if on_network else None)
         self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
         self.headless = options.headless
         self.stopping = False
@@ -107,6 +108,7 @@ class Session:
                 seconds = time.monotonic() - begin
                 processes.stop_all(self.nodes)
                 self.messenger.stop()
+                self.domain.release()
                 self.leftovers.remove()
         if code == processes.REFUSED:
             self.clear_out()  # a picture of a session that never was
