@@ -36,7 +36,8 @@ class Claims(unittest.TestCase):
         return claimed, said.getvalue()
 
     def test_a_domain_that_is_used_on_the_network_is_left_to_those_who_use_it(self):
-        self.answer(f'[ "$2" = {self.free} ] && echo "used by haptic_node on theatre-2" || {{ echo free; exec sleep 60; }}')
+        used = 'echo "used by haptic_node on theatre-2"'
+        self.answer(f'[ "$2" = {self.free} ] && {used} || {{ echo free; exec sleep 60; }}')
         claimed, said = self.claim()
         self.assertGreater(claimed.number, self.free)
         self.assertIn(f"DDS domain {self.free} is used by haptic_node on theatre-2", said)
