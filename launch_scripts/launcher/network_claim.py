@@ -1,8 +1,14 @@
 """A DDS domain claimed on the network: omentum_domain listens for some seconds, then holds it."""
+import ctypes
+import signal
 import subprocess
 
 from .errors import Refusal
-from .processes import die_with_launcher
+from .processes import PR_SET_PDEATHSIG
+
+
+def end_with_launcher():
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 class NetworkClaim:
@@ -12,7 +18,7 @@ class NetworkClaim:
         print(f"run: looking for other sessions in DDS domain {number} of the network", flush=True)
         self.process = subprocess.Popen([str(program), "--domain", str(number)], stdin=subprocess.DEVNULL,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0,
-                                        preexec_fn=die_with_launcher)
+                                        preexec_fn=end_with_launcher)
         said = self.process.stdout.readline().strip()
         self.rival = None if said == "free" else said
         if said == "free":

@@ -14,11 +14,6 @@ REFUSED = 2  # exit code of bad input
 PR_SET_PDEATHSIG = 1
 
 
-def die_with_launcher():
-    """In the child: whatever ends the launcher ends it."""
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
-
-
 class Node:
     """One process of the session. Started again, it keeps its place."""
 
@@ -37,7 +32,8 @@ class Node:
             raise Refusal(f"{self.command[0]}: {error.strerror}") from error
 
     def prepare_child(self):
-        die_with_launcher()
+        # whatever ends the launcher ends its nodes
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
         if self.processors:
             os.sched_setaffinity(0, self.processors)
 

@@ -47,7 +47,7 @@ class PeerProcess {
               transport::Profile profile = transport::Profile::kLoopback) {
     int to_peer[2], from_peer[2];
     if (pipe(to_peer) != 0 || pipe(from_peer) != 0) throw std::runtime_error("no pipe");
-    const std::string program = OMENTUM_BIN_DIR "/transport_peer";
+    const std::string program = std::string(OMENTUM_BIN_DIR).append("/transport_peer");
     const std::string number = std::to_string(domain);
     pid_ = fork();
     if (pid_ == 0) {

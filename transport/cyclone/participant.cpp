@@ -61,7 +61,7 @@ template <class M>
 class CycloneReader final : public Reader<M> {
  public:
   CycloneReader(const Entities& entities, std::function<void(const M&)> on_sample)
-      : on_sample_(std::move(on_sample)), undecodable_before_(undecodable(kTopicSpec<M>.name)) {
+      : on_sample_(std::move(on_sample)) {
     const TopicSpec& spec = kTopicSpec<M>;
     const dds_entity_t topic = entities.topic(spec, WireType<M>::descriptor());
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
@@ -95,7 +95,7 @@ class CycloneReader final : public Reader<M> {
     static_cast<CycloneReader*>(self)->counters_.liveliness_changed(status.not_alive_count_change);
   }
 
-  // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which only complains
+  // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which tells nobody
   void take_all(dds_entity_t reader) {
     constexpr std::int32_t kAtOnce = 8;
     for (;;) {
@@ -116,10 +116,11 @@ class CycloneReader final : public Reader<M> {
   }
 
   std::function<void(const M&)> on_sample_;
-  const std::uint64_t undecodable_before_;
   M message_;  // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
+  const std::uint64_t undecodable_before_ =
+      undecodable(kTopicSpec<M>.name);  // of this process' earlier readers
   dds_entity_t reader_ = 0;
 };
 
