@@ -119,8 +119,7 @@ class CycloneReader final : public Reader<M> {
   M message_;  // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
-  const std::uint64_t undecodable_before_ =
-      undecodable(kTopicSpec<M>.name);  // of this process' earlier readers
+  const std::uint64_t undecodable_before_ = undecodable(kTopicSpec<M>.name);
   dds_entity_t reader_ = 0;
 };
 
