@@ -11,9 +11,31 @@ namespace omentum::device {
 
 enum class AnswerVerdict : std::uint8_t {
   kAccepted,
-  kRepeated,  // not newer than an answer that came before
+  kRepeated,  // not newer than an accepted answer that came before
   kForeign,   // answers a pose that this device did not send
   kLate,      // the pose that it answers is too long ago
+};
+
+/// Counts the numbers that are missing among one node's answers. Answers that are not ours are of the same
+/// sequence when another device moves the same tool, and of any other when another session is met: so they
+/// can explain a gap, and never make one. add...() are for one thread, lost() for any.
+class AnswerGaps {
+ public:
+  /// Of an answer to us, in order; `restarted`: the node counts from anew.
+  void add_ours(std::uint64_t seq, bool restarted) noexcept;
+  /// Of any other answer.
+  void add_other(std::uint64_t seq) noexcept;
+
+  std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
+
+ private:
+  /// Numbers that others' answers may skip and still be taken for the same sequence.
+  static constexpr std::uint64_t kSameSequence = 16;
+
+  std::uint64_t followed_ = 0;  // from the newest of ours on, through others' answers
+  std::uint64_t skipped_ = 0;   // on that way
+  bool begun_ = false;
+  std::atomic<std::uint64_t> lost_{0};
 };
 
 /// How one tool's answers came in.
@@ -52,7 +74,8 @@ class AnswerGate {
   AnswerVerdict verdict(const msg::ToolForce& answer, std::int64_t now_ns) noexcept;
 
   std::array<std::atomic<std::int64_t>, kPoses> stamps_ns_;  // of the pose with that number modulo kPoses
-  transport::SequenceTracker sequence_;
+  transport::SequenceTracker sequence_;  // of what is accepted: another session's numbers say nothing of ours
+  AnswerGaps gaps_;
   std::array<std::atomic<std::uint64_t>, 4> counts_{};  // by verdict
 };
 

@@ -13,8 +13,10 @@ namespace omentum::runtime {
 /// write.
 inline constexpr int kHandLoopPriority = 60;
 /// The DDS vendor's threads that carry its samples: above all ordinary work, which would hold a lock that the
-/// loop needs while a picture is drawn, and below the loop itself.
-inline constexpr int kHandLinkPriority = 59;
+/// loop needs while a picture is drawn, and equal to the loop itself. Above it they would cut a tick short at
+/// every sample; below it the loop would cut them short at every pose that wakes it, and compute with each of
+/// those that wait in the socket while newer ones come behind: so they take all that has come, then it ticks.
+inline constexpr int kHandLinkPriority = kHandLoopPriority;
 
 struct RealtimeGrant {
   bool fifo = false;

@@ -7,6 +7,7 @@ import time
 from . import processes, report
 from .domain import Domain
 from .keys import Keys
+from .leftovers import Leftovers
 from .machine import StealWatch
 from .messenger import Messenger
 
@@ -34,12 +35,14 @@ class Session:
 
     def __init__(self, options, scene, name):
         self.options, self.scene, self.name = options, scene, name
-        self.domain = Domain(options.domain)
+        on_network = options.profile == "lan"
+        self.domain = Domain(options.domain, options.programs / "omentum_domain" if on_network else None)
         self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
         self.headless = options.headless
         self.stopping = False
         self.realtime = False
         self.restarts = {}
+        self.leftovers = Leftovers()
         if not self.headless and not has_display():
             self.headless = True
             print("run: no display: writing pictures instead (--headless)", flush=True)
@@ -106,6 +109,8 @@ class Session:
                 seconds, steal_share = time.monotonic() - begin, steal.share()
                 processes.stop_all(self.nodes)
                 self.messenger.stop()
+                self.domain.release()
+                self.leftovers.remove()
         if code == processes.REFUSED:
             self.clear_out()  # a picture of a session that never was
         else:
@@ -132,9 +137,13 @@ class Session:
         while not self.stopping and any(node.running() for node in self.nodes):
             self.obey(keys.wait(POLL_S))
             self.messenger.poll()
+            self.look_for_leftovers()
             elapsed = time.monotonic() - begin
             for node in self.nodes:
-                if node.ended_now() and self.ended(node, elapsed) == processes.REFUSED:
+                if not node.ended_now():
+                    continue
+                self.leftovers.remove()
+                if self.ended(node, elapsed) == processes.REFUSED:
                     return processes.REFUSED
             self.restart_due()
             self.look_at_realtime()
@@ -163,6 +172,11 @@ class Session:
                 del self.restarts[node.name]
                 print(f"run: starting {node.name} again", flush=True)
                 node.start()
+
+    def look_for_leftovers(self):
+        for owner in (*self.nodes, self.messenger):
+            if owner.process is not None:
+                self.leftovers.look(owner.process.pid)
 
     def look_at_realtime(self):
         haptic = self.nodes[0]

@@ -87,6 +87,20 @@ TEST_F(AnswerGateTest, WhatAnotherDeviceCausedIsNotLost) {
   EXPECT_EQ(gate.counts().lost, 0u);
 }
 
+// two sessions met: the other node counts from elsewhere, and may count ahead of ours
+TEST_F(AnswerGateTest, AnswersOfAnotherSessionDoNotMakeOurOwnLookRepeated) {
+  constexpr std::uint64_t kFarAhead = 1'000'000;
+  for (std::uint64_t i = 1; i <= 50; ++i) {
+    const std::uint64_t echo_seq = kSent - 50 + i;
+    EXPECT_EQ(judge(kFarAhead + i, echo_seq, stamp_ns(echo_seq) + kMs / 2, stamp_ns(echo_seq) + kMs),
+              AnswerVerdict::kForeign);
+    EXPECT_EQ(prompt(i, echo_seq), AnswerVerdict::kAccepted);
+  }
+  EXPECT_EQ(gate.counts().foreign, 50u);
+  EXPECT_EQ(gate.counts().repeated, 0u);
+  EXPECT_EQ(gate.counts().lost, 0u);
+}
+
 TEST_F(AnswerGateTest, ANodeThatWasRestartedIsObeyedAndNoLoss) {
   EXPECT_EQ(prompt(5000, 800), AnswerVerdict::kAccepted);
   EXPECT_EQ(prompt(1, 950), AnswerVerdict::kAccepted);  // no node starts within 100 ms

@@ -1,6 +1,8 @@
 #include "runtime/realtime.h"
 #include "runtime/memory_limit.h"
 
+#include "runtime/rate_loop.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -96,6 +98,48 @@ TEST(Realtime, ThreadsOfAStartKeepThePriorityAndTheStarterDoesNot) {
     ended = true;
     link.join();
   }).join();
+}
+
+void stay_on_one_processor() {
+  cpu_set_t allowed, one;
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  int processor = 0;
+  while (!CPU_ISSET(processor, &allowed)) ++processor;
+  CPU_ZERO(&one);
+  CPU_SET(processor, &one);
+  sched_setaffinity(0, sizeof one, &one);
+}
+
+// Samples wait for the link, which hands them on one by one and wakes the loop each time.
+TEST(Realtime, ALoopTicksOnceItsLinkHasHandedOnAllThatWaits) {
+  constexpr int kWaiting = 100;
+  RateLoop loop(0.1);  // its own schedule plays no part
+  std::atomic<bool> ready{false}, permitted{true};
+  std::atomic<int> newest{0};
+  std::atomic<int> seen_by_first_tick{0};
+  std::thread ticks([&] {
+    stay_on_one_processor();
+    permitted = request_realtime(kHandLoopPriority).fifo;
+    ready = true;
+    if (permitted && loop.wait() == RateLoop::Cause::kWoken) seen_by_first_tick = newest.load();
+  });
+  while (!ready) std::this_thread::yield();
+  if (permitted) {
+    // the loop sleeps by now; were it later, it would only see more
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::thread([&] {
+      stay_on_one_processor();
+      const RealtimeStart start(kHandLinkPriority);
+      for (int sample = 1; sample <= kWaiting; ++sample) {
+        newest = sample;
+        loop.wake();
+      }
+    }).join();
+  }
+  ticks.join();
+  munlockall();
+  if (!permitted) GTEST_SKIP() << "no permission for real-time priorities";
+  EXPECT_EQ(seen_by_first_tick, kWaiting);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "transport/cyclone/domain.h"
 
+#include "transport/cyclone/complaints.h"
 #include "transport/settings.h"
 #include "transport/topics.h"
 
@@ -78,6 +79,7 @@ std::string configuration(Profile profile, const std::vector<std::string>& peers
 }
 
 Domain::Domain(int id, Profile profile) : id_(id) {
+  tell_complaints_once();
   OpenDomains& domains = open_domains();
   const std::lock_guard lock(domains.mutex);
   const auto found = domains.by_id.find(id);

@@ -1,6 +1,7 @@
 #include "transport/cyclone/participant.h"
 
 #include "transport/arrivals.h"
+#include "transport/cyclone/complaints.h"
 #include "transport/cyclone/conversion.h"
 #include "transport/cyclone/entities.h"
 #include "transport/departures.h"
@@ -88,6 +89,7 @@ class CycloneReader final : public Reader<M> {
   EndpointStatus status() const override {
     EndpointStatus status = reader_status(reader_);
     counters_.add_to(status);
+    status.rejected += undecodable(kTopicSpec<M>.name) - undecodable_before_;
     return status;
   }
 
@@ -139,6 +141,7 @@ class CycloneReader final : public Reader<M> {
   M message_;              // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;
+  const std::uint64_t undecodable_before_ = undecodable(kTopicSpec<M>.name);
   dds_entity_t reader_ = 0;
 };
 
