@@ -3,6 +3,8 @@
 #include "tests/support/process.h"
 
 #include <gmock/gmock.h>
+#include <lz4.h>
+#include <lzma.h>
 #include <zlib.h>
 
 #include <bit>
@@ -100,19 +102,36 @@ std::string gmsh_2_binary(const RawMesh& m) {
 
 // Two node blocks, the second with parametric coordinates of a surface; one block of triangles, one of
 // tetrahedra.
-std::string gmsh_4_0_text(const RawMesh& m) {
+// The manual's "MSH file format version 4.0 (legacy)": tags before dimensions, numbers of 32 bits next to
+// their coordinates. The binary file has entities, whose bytes say nothing to a reader of meshes.
+std::string gmsh_4_0(const RawMesh& m, bool binary) {
   const std::size_t n = m.positions.size(), half = n / 2;
   Bytes out;
-  out.text("$MeshFormat\n4 0 8\n$EndMeshFormat\n$Nodes\n2 ", n, "\n1 3 0 ", half, "\n");
+  const auto integer = [&](std::size_t v) { binary ? out.value(static_cast<std::int32_t>(v)) : out.text(v); };
+  const auto size = [&](std::size_t v) { binary ? out.value<std::uint64_t>(v) : out.text(v); };
+  const auto real = [&](double v) { binary ? out.value(v) : out.text(v); };
+  out.text("$MeshFormat\n4 ", binary ? "1" : "0", " 8\n");
+  if (binary) out.value<std::int32_t>(1).text("\n");
+  out.text("$EndMeshFormat\n");
+  if (binary) out.text("$Entities\n").value<std::uint64_t>(0).value(0x24456e64).text("\n$EndEntities\n");
+  out.text("$Nodes\n");
+  size(2), size(n);
   for (std::size_t i = 0; i < n; ++i) {
-    if (i == half) out.text("1 2 1 ", n - half, "\n");
-    out.text(i + 1, m.positions[i].x(), m.positions[i].y(), m.positions[i].z(),
-             i < half ? "\n" : "0.5 0.5\n");
+    if (i == 0) integer(1), integer(3), integer(0), size(half);
+    if (i == half) integer(1), integer(2), integer(1), size(n - half);
+    integer(i + 1);
+    for (int k = 0; k < 3; ++k) real(m.positions[i][k]);
+    if (i >= half) real(0.5), real(0.5);
   }
-  out.text("$EndNodes\n$Elements\n2 ", m.tetrahedra.size() + 1, "\n1 2 2 1\n1 1 2 3\n1 3 4 ",
-           m.tetrahedra.size(), "\n");
-  for (const auto& t : m.tetrahedra) out.text("2", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1, "\n");
-  return out.text("$EndElements\n").content;
+  out.text("\n$EndNodes\n$Elements\n");
+  size(2), size(m.tetrahedra.size() + 1);
+  integer(1), integer(2), integer(2), size(1), integer(1), integer(1), integer(2), integer(3);
+  integer(1), integer(3), integer(4), size(m.tetrahedra.size());
+  for (const auto& t : m.tetrahedra) {
+    integer(2);
+    for (const std::int32_t v : t) integer(static_cast<std::size_t>(v) + 1);
+  }
+  return out.text("\n$EndElements\n").content;
 }
 
 std::string gmsh_4_1(const RawMesh& m, bool binary) {
@@ -225,11 +244,42 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
+enum class Packing { kNone, kZlib, kLz4, kLzma };
+
 // How the arrays of a .vtu are coded.
 struct VtuCoding {
   std::string format;  // "binary" or "appended"
-  bool base64, zlib, wide_header;
+  bool base64;
+  Packing packing;
+  bool wide_header;
 };
+
+const char* compressor(Packing packing) {
+  constexpr const char* kNames[] = {"", " compressor=\"vtkZLibDataCompressor\"",
+                                    " compressor=\"vtkLZ4DataCompressor\"",
+                                    " compressor=\"vtkLZMADataCompressor\""};
+  return kNames[static_cast<int>(packing)];
+}
+
+std::string pack(const std::string& block, Packing packing) {
+  std::string packed(compressBound(block.size()) + 1024, '\0');
+  const auto* in = reinterpret_cast<const std::uint8_t*>(block.data());
+  auto* out = reinterpret_cast<std::uint8_t*>(packed.data());
+  std::size_t size = 0;
+  if (packing == Packing::kZlib) {
+    uLongf written = packed.size();
+    compress(out, &written, in, block.size());
+    size = written;
+  } else if (packing == Packing::kLz4) {
+    size = static_cast<std::size_t>(LZ4_compress_default(
+        block.data(), packed.data(), static_cast<int>(block.size()), static_cast<int>(packed.size())));
+  } else {
+    EXPECT_EQ(
+        lzma_easy_buffer_encode(6, LZMA_CHECK_CRC32, nullptr, in, block.size(), out, &size, packed.size()),
+        LZMA_OK);
+  }
+  return packed.substr(0, size);
+}
 
 std::string coded(const std::string& data, const VtuCoding& how) {
   const auto word = [&](std::size_t v) {
@@ -237,18 +287,14 @@ std::string coded(const std::string& data, const VtuCoding& how) {
                            : Bytes().value(static_cast<std::uint32_t>(v)).content;
   };
   const auto as_text = [&](const std::string& bytes) { return how.base64 ? base64(bytes) : bytes; };
-  if (!how.zlib) return as_text(word(data.size()) + data);
+  if (how.packing == Packing::kNone) return as_text(word(data.size()) + data);
   constexpr std::size_t kBlock = 200;  // so that there are several, the last one shorter
   std::string header, blocks;
   std::size_t count = 0;
   for (std::size_t at = 0; at < data.size(); at += kBlock, ++count) {
-    const std::string block = data.substr(at, kBlock);
-    uLongf size = compressBound(block.size());
-    std::string packed(size, '\0');
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(block.data()),
-             block.size());
-    header += word(size);
-    blocks += packed.substr(0, size);
+    const std::string packed = pack(data.substr(at, kBlock), how.packing);
+    header += word(packed.size());
+    blocks += packed;
   }
   return as_text(word(count) + word(kBlock) + word(data.size() % kBlock) + header) + as_text(blocks);
 }
@@ -276,9 +322,9 @@ std::string vtu(const RawMesh& m, const VtuCoding& how) {
   out.text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" ",
-      how.wide_header ? "header_type=\"UInt64\"" : "",
-      how.zlib ? " compressor=\"vtkZLibDataCompressor\"" : "", "><UnstructuredGrid><Piece NumberOfPoints=\"",
-      std::to_string(m.positions.size()), "\" NumberOfCells=\"", std::to_string(m.tetrahedra.size()), "\">");
+      how.wide_header ? "header_type=\"UInt64\"" : "", compressor(how.packing),
+      "><UnstructuredGrid><Piece NumberOfPoints=\"", std::to_string(m.positions.size()),
+      "\" NumberOfCells=\"", std::to_string(m.tetrahedra.size()), "\">");
   out.text("<Points>", array("type=\"Float32\" NumberOfComponents=\"3\"", points.content), "</Points>");
   out.text("<Cells>", array("type=\"Int64\" Name=\"connectivity\"", nodes.content),
            array("type=\"Int32\" Name=\"offsets\"", ends.content),
@@ -321,7 +367,8 @@ const std::vector<Format>& formats() {
       {"Gmsh1", ".msh", gmsh_1},
       {"Gmsh2Text", ".msh", gmsh_2_text},
       {"Gmsh2Binary", ".msh", gmsh_2_binary},
-      {"Gmsh40Text", ".msh", gmsh_4_0_text},
+      {"Gmsh40Text", ".msh", [](const RawMesh& m) { return gmsh_4_0(m, false); }},
+      {"Gmsh40Binary", ".msh", [](const RawMesh& m) { return gmsh_4_0(m, true); }},
       {"Gmsh41Text", ".msh", [](const RawMesh& m) { return gmsh_4_1(m, false); }},
       {"Gmsh41Binary", ".msh", [](const RawMesh& m) { return gmsh_4_1(m, true); }},
       {"VtkText", ".vtk", vtk_text},
@@ -332,27 +379,43 @@ const std::vector<Format>& formats() {
       {"VtuText", ".vtu", vtu_text},
       {"VtuBase64", ".vtu",
        [](const RawMesh& m) {
-         return vtu(m, {"binary", true, false, false});
+         return vtu(m, {"binary", true, Packing::kNone, false});
        }},
       {"VtuBase64WideHeader", ".vtu",
        [](const RawMesh& m) {
-         return vtu(m, {"binary", true, false, true});
+         return vtu(m, {"binary", true, Packing::kNone, true});
        }},
       {"VtuBase64Zlib", ".vtu",
        [](const RawMesh& m) {
-         return vtu(m, {"binary", true, true, false});
+         return vtu(m, {"binary", true, Packing::kZlib, false});
+       }},
+      {"VtuBase64Lz4", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"binary", true, Packing::kLz4, false});
+       }},
+      {"VtuBase64Lzma", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"binary", true, Packing::kLzma, true});
+       }},
+      {"VtuAppendedRawLz4", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"appended", false, Packing::kLz4, true});
+       }},
+      {"VtuAppendedRawLzma", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"appended", false, Packing::kLzma, false});
        }},
       {"VtuAppendedRaw", ".vtu",
        [](const RawMesh& m) {
-         return vtu(m, {"appended", false, false, true});
+         return vtu(m, {"appended", false, Packing::kNone, true});
        }},
       {"VtuAppendedRawZlib", ".vtu",
        [](const RawMesh& m) {
-         return vtu(m, {"appended", false, true, false});
+         return vtu(m, {"appended", false, Packing::kZlib, false});
        }},
       {"VtuAppendedBase64Zlib", ".vtu",
        [](const RawMesh& m) {
-         return vtu(m, {"appended", true, true, true});
+         return vtu(m, {"appended", true, Packing::kZlib, true});
        }},
   };
   return all;
@@ -473,7 +536,7 @@ TEST_F(MeshFiles, MessagesNameFileLineAndExpectation) {
   EXPECT_THAT(refusal(put(folder_ / "twice.msh", "$NOD\n2\n1 0 0 0\n1 0 0 0\n$ENDNOD\n")),
               HasSubstr("node number 1 twice"));
   EXPECT_THAT(refusal(put(folder_ / "p.vtk", "# vtk DataFile Version 2.0\nx\nASCII\nDATASET POLYDATA\n")),
-              HasSubstr("p.vtk:4: found POLYDATA, expected UNSTRUCTURED_GRID"));
+              HasSubstr("p.vtk:4: found POLYDATA (a surface), expected UNSTRUCTURED_GRID"));
   EXPECT_THAT(refusal(put(folder_ / "x.vtu", "<VTKFile type=\"UnstructuredGrid\"")),
               HasSubstr("well-formed XML"));
   put(folder_ / "half.node", "1 3 0 0\n1 0 0 0\n");
