@@ -102,7 +102,7 @@ class OrganProgramsTest : public testing::Test {
 
   test::ScratchFolder folder;
   const std::filesystem::path mesh = folder / "box.msh", large_mesh = folder / "large.msh";
-  const std::filesystem::path organ = folder / "box.h5", partial = folder / "box.h5.partial";
+  const std::filesystem::path organ = folder / "box.h5", partial = folder / "box.h5.omentum-partial";
 };
 
 TEST_F(OrganProgramsTest, BuildMakesAnOrganThatLoadsAndSecondBuildFindsItUpToDate) {
@@ -151,6 +151,29 @@ TEST_F(OrganProgramsTest, KilledBuildLeavesNothingThatLooksFinished) {
   build();  // takes the remains over
   EXPECT_FALSE(std::filesystem::exists(partial));
   EXPECT_NO_THROW(load_organ(organ, Load::kWithTensors));
+}
+
+TEST_F(OrganProgramsTest, TheNextStartRemovesWhatKilledOnesLeftAndOnlyThat) {
+  const auto partial_of = [&](const std::string& name) { return folder / (name + ".h5.omentum-partial"); };
+  const auto build_into = [&](const std::string& name) {
+    auto arguments = build_arguments(large_mesh);
+    arguments[2] = (folder / (name + ".h5")).string();
+    return arguments;
+  };
+  Process killed("organ_build", build_into("killed")), living("organ_build", build_into("living"));
+  ASSERT_TRUE(test::comes_true([&] {
+    return std::filesystem::exists(partial_of("killed")) && std::filesystem::exists(partial_of("living"));
+  }));
+  EXPECT_EQ(killed.end(SIGKILL), -SIGKILL);
+  EXPECT_TRUE(std::filesystem::exists(partial_of("killed")));
+  const std::string foreign = write("download.partial", "somebody else's");
+
+  build();
+  EXPECT_FALSE(std::filesystem::exists(partial_of("killed")));
+  EXPECT_TRUE(std::filesystem::exists(foreign));
+  // on a fast machine it may have finished by now
+  EXPECT_TRUE(std::filesystem::exists(partial_of("living")) || std::filesystem::exists(folder / "living.h5"));
+  living.end(SIGTERM);
 }
 
 TEST_F(OrganProgramsTest, TerminatedBuildRemovesItsTracesAndKeepsTheOldOrgan) {
