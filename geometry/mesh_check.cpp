@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace omentum::geometry {
 namespace {
@@ -17,9 +16,6 @@ constexpr double kFlattestHeight = 1e-6;
 // Nodes that are closer than this fraction of the mesh's diagonal are at the same place: what single
 // precision tells apart there. An honest edge is a thousand times longer.
 constexpr double kSamePlace = 1e-7;
-
-// Three components each must be numbered by 32 bits.
-constexpr std::size_t kMostNodes = std::numeric_limits<std::int32_t>::max() / 3;
 
 // Offenders named in a message before it only counts.
 constexpr std::size_t kNamed = 5;

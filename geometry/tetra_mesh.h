@@ -5,11 +5,15 @@
 #include "geometry/types.h"
 
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace omentum::geometry {
+
+/// Of nodes and of tetrahedra: their numbers have 32 bits, those of three components each too.
+inline constexpr std::size_t kMostNodes = std::numeric_limits<std::int32_t>::max() / 3;
 
 /// What a mesh file holds, before any check. Nodes and tetrahedra in the file's order, from 0.
 struct RawMesh {

@@ -6,19 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace omentum::organ {
 
 namespace {
 
 using geometry::InputError;
+using geometry::kMostNodes;
 using geometry::NodeId;
 using geometry::Tetrahedron;
 using geometry::Triangle;
-
-// Three components each must be numbered by 32 bits.
-constexpr std::size_t kMostNodes = std::numeric_limits<std::int32_t>::max() / 3;
 
 class Checker {
  public:
