@@ -107,8 +107,11 @@ std::string words(const std::vector<std::uint64_t>& shape) {
 
 Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  // what describes the data has checksums from this version of the format on: damage there is refused by
+  // HDF5, whose older parts crash on it
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   if (mode == Mode::kCreate) {
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_alignment(access, kAlignFrom, kAlignment);
     file_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
     if (file_ < 0) fail("cannot be created");
@@ -116,9 +119,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
   }
   if (!std::filesystem::exists(file)) fail("no such file");
   if (!std::filesystem::is_regular_file(file)) fail("is not a file; expected an organ file");
-  if (access(file.c_str(), mode == Mode::kRead ? R_OK : R_OK | W_OK) != 0)
+  if (::access(file.c_str(), mode == Mode::kRead ? R_OK : R_OK | W_OK) != 0)
     fail(std::string("cannot be opened: ") + std::strerror(errno));
-  file_ = H5Fopen(file.c_str(), mode == Mode::kRead ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT);
+  file_ = H5Fopen(file.c_str(), mode == Mode::kRead ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access);
   if (file_ < 0)
     fail("is not a whole HDF5 file (damaged, truncated or of another kind); expected an organ file");
 }
