@@ -30,5 +30,6 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/OmentumConfigVersion.cmak
 install(FILES
   ${PROJECT_BINARY_DIR}/OmentumConfig.cmake
   ${PROJECT_BINARY_DIR}/OmentumConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindOmentumLz4.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindOmentumNumerics.cmake
   DESTINATION ${omentum_package_dir} COMPONENT development)

@@ -6,6 +6,9 @@
 namespace omentum::geometry {
 namespace {
 
+// What some editors put in front of UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 bool is_space(char c) {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
@@ -38,6 +41,8 @@ FileCursor::FileCursor(const std::filesystem::path& file) : name_(file.string())
   if (!stream.read(text_.data(), static_cast<std::streamsize>(text_.size()))) {
     throw InputError(name_ + ": cannot be read");
   }
+  if (text_.empty()) throw InputError(name_ + ": is empty; expected a mesh file");
+  if (text_.starts_with(kByteOrderMark)) position_ = word_start_ = kByteOrderMark.size();
 }
 
 bool FileCursor::at_end() {

@@ -14,7 +14,8 @@ namespace omentum::geometry {
 /// InputError "FILE:LINE: found ..., expected ..." when something else does.
 class FileCursor {
  public:
-  /// Reads the whole file; throws InputError when it is missing or unreadable.
+  /// Reads the whole file and passes over a byte order mark; throws InputError when it is missing, unreadable
+  /// or empty.
   explicit FileCursor(const std::filesystem::path& file);
 
   const std::string& name() const { return name_; }

@@ -8,11 +8,7 @@
 namespace omentum::geometry {
 namespace {
 
-constexpr int kTetrahedronType = 4;
-
-// Nodes of each element type from 1, as far as Gmsh's manual lists common ones; 0: not known here.
-constexpr std::array<int, 20> kNodesOfType = {0, 2,  3,  4,  4,  8, 6, 5,  3,  6,
-                                              9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
+constexpr std::size_t kCorners = 4;  // of a tetrahedron
 
 class GmshReader {
  public:
@@ -46,8 +42,8 @@ class GmshReader {
 
   std::size_t checked_count(std::int64_t value, const char* expected) const;
   void add_node(std::int64_t number, const Vec3& position);
-  void read_element_nodes(int type);
-  int node_count_of(std::int64_t type) const;
+  void read_element_nodes(std::int64_t type);
+  std::int32_t index_of(std::int64_t number) const;
 
   FileCursor in_;
   RawMesh mesh_;
@@ -84,7 +80,7 @@ void GmshReader::read_format() {
   version_ = in_.real("the version of the format");
   binary_ = in_.integer("0 (ASCII) or 1 (binary)") != 0;
   const std::int64_t real_size = in_.integer("the size of a real number, 8");
-  if (version_ < 2 || version_ >= 5 || (version_ >= 3 && version_ < 4)) {
+  if (!((version_ >= 2 && version_ < 3) || (version_ >= 4 && version_ < 5))) {
     in_.fail("version " + std::to_string(version_), "version 2.x or 4.x");
   }
   if (real_size != 8) in_.fail("real numbers of " + std::to_string(real_size) + " bytes", "8");
@@ -149,27 +145,31 @@ void GmshReader::read_nodes_4() {
   in_.word("$EndNodes");
 }
 
-int GmshReader::node_count_of(std::int64_t type) const {
-  if (type < 1 || type >= std::ssize(kNodesOfType))
-    in_.fail("element type " + std::to_string(type), "a type from 1 to 19");
-  return kNodesOfType[static_cast<std::size_t>(type)];
+std::int32_t GmshReader::index_of(std::int64_t number) const {
+  const auto found = index_of_number_.find(number);
+  if (found == index_of_number_.end()) {
+    in_.fail("node number " + std::to_string(number) + " in tetrahedron " +
+                 std::to_string(mesh_.tetrahedra.size()),
+             "the number of a node listed before");
+  }
+  return found->second;
 }
 
-void GmshReader::read_element_nodes(int type) {
-  std::array<std::int32_t, 4> tetrahedron{};
-  const int count = node_count_of(type);
-  for (int i = 0; i < count; ++i) {
+void GmshReader::read_element_nodes(std::int64_t type) {
+  const auto [kind, count] = gmsh_element(type);
+  if (count == 0) in_.fail("element type " + std::to_string(type), "a type from 1 to 31");
+  const bool solid = kind == ElementKind::kTetrahedron;
+  std::array<std::int32_t, kCorners> tetrahedron{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const std::int64_t node = number("a node of an element");
-    if (type != kTetrahedronType) continue;
-    const auto found = index_of_number_.find(node);
-    if (found == index_of_number_.end()) {
-      in_.fail("node number " + std::to_string(node) + " in tetrahedron " +
-                   std::to_string(mesh_.tetrahedra.size()),
-               "the number of a node listed before");
-    }
-    tetrahedron[static_cast<std::size_t>(i)] = found->second;
+    if (solid && i < kCorners) tetrahedron[i] = index_of(node);
   }
-  if (type == kTetrahedronType) mesh_.tetrahedra.push_back(tetrahedron);
+  if (!solid) {
+    ++mesh_.others[static_cast<std::size_t>(kind)];
+    return;
+  }
+  mesh_.tetrahedra.push_back(tetrahedron);
+  if (static_cast<std::size_t>(count) > kCorners) ++mesh_.curved;
 }
 
 void GmshReader::read_elements_1() {
@@ -180,7 +180,7 @@ void GmshReader::read_elements_1() {
     in_.integer("a physical region");
     in_.integer("an elementary region");
     in_.integer("the number of nodes of an element");
-    read_element_nodes(static_cast<int>(type));
+    read_element_nodes(type);
   }
   in_.word("$ENDELM");
 }
@@ -199,7 +199,7 @@ void GmshReader::read_elements_2() {
     for (std::int64_t e = 0; e < in_group; ++e, ++i) {
       if (binary_) integer("an element number");
       for (std::size_t t = 0; t < tags; ++t) integer("a tag of an element");
-      read_element_nodes(static_cast<int>(type));
+      read_element_nodes(type);
     }
   }
   in_.word("$EndElements");
@@ -222,7 +222,7 @@ void GmshReader::read_elements_4() {
         checked_count(size("the number of elements in this block"), "a number of elements");
     for (std::size_t e = 0; e < in_block; ++e) {
       number("an element number");
-      read_element_nodes(static_cast<int>(type));
+      read_element_nodes(type);
     }
   }
   in_.word("$EndElements");

@@ -1,6 +1,7 @@
 #include "geometry/mesh_topology.h"
 #include "geometry/tetra_faces.h"
 #include "geometry/tetra_mesh.h"
+#include "geometry/twin_nodes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,19 @@ namespace {
 // would exceed its neighbours' by the inverse of the same factor.
 constexpr double kFlattestHeight = 1e-6;
 
+// Nodes that are closer than this fraction of the mesh's diagonal are at the same place: what single
+// precision tells apart there. An honest edge is a thousand times longer.
+constexpr double kSamePlace = 1e-7;
+
 // Offenders named in a message before it only counts.
 constexpr std::size_t kNamed = 5;
 
 class Checker {
  public:
-  Checker(const RawMesh& raw, double metres_per_unit) : raw_(raw) { scale_positions(metres_per_unit); }
+  Checker(const RawMesh& raw, double metres_per_unit, double merge_m)
+      : raw_(raw), tetrahedra_(raw.tetrahedra), merge_m_(merge_m) {
+    scale_positions(metres_per_unit);
+  }
 
   CheckedMesh run();
 
@@ -27,10 +35,14 @@ class Checker {
   void check_neighbours();
   void check_node_numbers() const;
   void check_finite() const;
+  void merge_twins();
+  void check_twins();
   void orient();
   void check_repeated();
   void drop_unused_nodes();
 
+  std::vector<std::int32_t> used_nodes() const;
+  void warn_of_what_is_not_read();
   const Vec3& position(std::int32_t node) const { return positions_[static_cast<std::size_t>(node)]; }
   void refuse(const char* thing, Offenders which, const std::string& what);
   void warn(std::size_t count, const char* singular, const char* plural);
@@ -42,6 +54,7 @@ class Checker {
   const RawMesh& raw_;
   std::vector<Vec3> positions_;                          // all nodes of the file, m
   std::vector<std::array<std::int32_t, 4>> tetrahedra_;  // positively oriented after orient()
+  double merge_m_;                                       // 0: nodes are not merged
   std::vector<std::string> reasons_;
   CheckedMesh result_;
 };
@@ -79,6 +92,10 @@ void Checker::scale_positions(double metres_per_unit) {
     throw InputError(raw_.source + ": found the scale " + std::to_string(metres_per_unit) +
                      " metres per unit, expected a positive number");
   }
+  if (!(merge_m_ >= 0) || !std::isfinite(merge_m_)) {
+    throw InputError(raw_.source + ": found the merging distance " + std::to_string(merge_m_) +
+                     " m, expected a positive number");
+  }
   positions_.reserve(raw_.positions.size());
   for (const Vec3& p : raw_.positions) positions_.push_back(metres_per_unit * p);
 }
@@ -94,6 +111,11 @@ void Checker::check_node_numbers() const {
       }
     }
   }
+  if (positions_.size() > kMostNodes || raw_.tetrahedra.size() > kMostNodes) {
+    throw InputError(raw_.source + ": found " + std::to_string(positions_.size()) + " nodes and " +
+                     std::to_string(raw_.tetrahedra.size()) + " tetrahedra, expected at most " +
+                     std::to_string(kMostNodes) + " of each");
+  }
   if (raw_.tetrahedra.empty()) throw InputError(raw_.source + ": found no tetrahedra, expected at least one");
 }
 
@@ -104,6 +126,51 @@ void Checker::check_finite() const {
         throw InputError(raw_.source + ": the position of node " + std::to_string(node) + " is not finite");
     }
   }
+}
+
+std::vector<std::int32_t> Checker::used_nodes() const {
+  std::vector<bool> used(positions_.size());
+  for (const auto& tetrahedron : tetrahedra_) {
+    for (const std::int32_t node : tetrahedron) used[static_cast<std::size_t>(node)] = true;
+  }
+  std::vector<std::int32_t> nodes;
+  for (std::size_t n = 0; n < used.size(); ++n) {
+    if (used[n]) nodes.push_back(static_cast<std::int32_t>(n));
+  }
+  return nodes;
+}
+
+void Checker::merge_twins() {
+  if (merge_m_ == 0) return;
+  const std::vector<std::int32_t> first =
+      first_of_twins(find_twins(positions_, used_nodes(), merge_m_), positions_.size());
+  Offenders collapsed;
+  for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
+    auto& v = tetrahedra_[t];
+    for (std::int32_t& node : v) node = first[static_cast<std::size_t>(node)];
+    auto sorted = v;
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) collapsed.push_back(t);
+  }
+  refuse("tetrahedra", collapsed, "with nodes that are no farther apart than what is merged");
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    const auto node = static_cast<std::int32_t>(n);
+    if (first[n] != node) result_.merged.push_back({node, first[n]});
+  }
+  warn(result_.merged.size(), "node was merged into another one at its place",
+       "nodes were merged into others at their places");
+  stop_if_refused();
+}
+
+void Checker::check_twins() {
+  Vec3 low = position(tetrahedra_[0][0]), high = low;
+  const std::vector<std::int32_t> nodes = used_nodes();
+  for (const std::int32_t node : nodes)
+    low = low.cwiseMin(position(node)), high = high.cwiseMax(position(node));
+  const auto pairs = find_twins(positions_, nodes, kSamePlace * (high - low).norm());
+  if (pairs.empty()) return;
+  // what else is wrong may follow from it
+  reasons_.insert(reasons_.begin(), describe_twins(pairs, kNamed));
 }
 
 // Height over the largest face, as a fraction of the longest edge.
@@ -119,7 +186,6 @@ double relative_height(const std::array<Vec3, 4>& p, double volume) {
 }
 
 void Checker::orient() {
-  tetrahedra_ = raw_.tetrahedra;
   Offenders flat;
   std::size_t reordered = 0;
   for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
@@ -169,14 +235,15 @@ void Checker::drop_unused_nodes() {
   const auto node = [&](std::int32_t n) { return NodeId(compact[static_cast<std::size_t>(n)]); };
   for (const auto& v : tetrahedra_)
     mesh.tetrahedra.push_back({node(v[0]), node(v[1]), node(v[2]), node(v[3])});
-  warn(positions_.size() - mesh.positions.size(), "node belongs to no tetrahedron and is dropped",
-       "nodes belong to no tetrahedron and are dropped");
+  warn(positions_.size() - mesh.positions.size() - result_.merged.size(),
+       "node belongs to no tetrahedron and is dropped", "nodes belong to no tetrahedron and are dropped");
 }
 
 // Elements first: without volume, or among copies, neighbours mean nothing.
 void Checker::check_elements() {
   check_node_numbers();
   check_finite();
+  merge_twins();
   orient();
   check_repeated();
   stop_if_refused();
@@ -193,6 +260,7 @@ void Checker::check_neighbours() {
   refuse("tetrahedra", touching_along_edges(sides), "touching along an edge only (non-manifold boundary)");
   refuse("nodes", pinched_nodes(sides, tetrahedra_, positions_.size()),
          "joining regions that touch there in a point or an edge only (non-manifold)");
+  if (!reasons_.empty()) check_twins();
   stop_if_refused();
   refuse("nodes", pinched_boundary_nodes(sides, positions_.size()),
          "joining boundary faces that touch there in a point only (non-manifold boundary)");
@@ -202,10 +270,19 @@ void Checker::check_neighbours() {
          "boundary faces pass through each other (overlapping)");
   refuse("tetrahedra", covered_at_boundary(positions_, tetrahedra_, sides),
          "at the boundary lying inside another one (overlapping)");
+  check_twins();
   stop_if_refused();
 }
 
+void Checker::warn_of_what_is_not_read() {
+  warn(raw_.curved, "tetrahedron has more than four nodes: its corners alone are read",
+       "tetrahedra have more than four nodes: their corners alone are read");
+  const std::string solids = describe_solids(raw_.others);
+  if (!solids.empty()) result_.warnings.push_back(raw_.source + ": not read, no tetrahedra: " + solids);
+}
+
 CheckedMesh Checker::run() {
+  warn_of_what_is_not_read();
   check_elements();
   check_neighbours();
   drop_unused_nodes();
@@ -214,8 +291,8 @@ CheckedMesh Checker::run() {
 
 }  // namespace
 
-CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit) {
-  return Checker(raw, metres_per_unit).run();
+CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit, double merge_m) {
+  return Checker(raw, metres_per_unit, merge_m).run();
 }
 
 }  // namespace omentum::geometry

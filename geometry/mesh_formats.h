@@ -11,7 +11,7 @@ RawMesh read_gmsh(const std::filesystem::path& file);
 /// Legacy VTK, unstructured grid, ASCII and binary (big-endian, as the format prescribes).
 RawMesh read_vtk_legacy(const std::filesystem::path& file);
 
-/// VTK XML unstructured grid: ASCII, base64 and raw appended data, zlib or no compression.
+/// VTK XML unstructured grid: ASCII, base64 and raw appended data, plain or with VTK's compressors.
 RawMesh read_vtu(const std::filesystem::path& file);
 
 /// TetGen's pair of files; `file` is either of them.

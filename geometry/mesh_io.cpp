@@ -21,7 +21,9 @@ RawMesh read_mesh(const std::filesystem::path& file) {
                      "', expected .msh, .vtk, .vtu, .node or .ele");
   }
   if (mesh.tetrahedra.empty()) {
-    throw InputError(mesh.source + ": found no tetrahedra (four nodes each), expected at least one");
+    const std::string others = describe_elements(mesh.others);
+    throw InputError(mesh.source + ": found no tetrahedra" + (others.empty() ? "" : ", but " + others) +
+                     "; expected a mesh of tetrahedra");
   }
   return mesh;
 }

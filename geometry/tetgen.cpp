@@ -2,6 +2,8 @@
 #include "geometry/file_cursor.h"
 #include "geometry/mesh_formats.h"
 
+#include <limits>
+
 namespace omentum::geometry {
 namespace {
 
@@ -10,7 +12,15 @@ void skip_comments(FileCursor& in) {
   while (!in.at_end() && in.next_is('#')) in.rest_of_line();
 }
 
-// The first node's number, 0 or 1, is that of all counting in both files.
+// Where counting begins is 0 or 1 by the manual; some write other numbers, none of which may overflow it.
+std::int64_t checked_first(const FileCursor& in, std::int64_t number) {
+  constexpr std::int64_t kLargest = std::numeric_limits<std::int32_t>::max();
+  if (number < 0 || number > kLargest)
+    in.fail("node number " + std::to_string(number), "0 or 1 for the first node");
+  return number;
+}
+
+// The first node's number is that of all counting in both files.
 std::int64_t read_nodes(FileCursor& in, RawMesh& mesh) {
   skip_comments(in);
   const std::size_t count = in.count("the number of nodes");
@@ -20,7 +30,7 @@ std::int64_t read_nodes(FileCursor& in, RawMesh& mesh) {
   for (std::size_t n = 0; n < count; ++n) {
     skip_comments(in);
     const std::int64_t number = in.integer("a node number");
-    if (n == 0) first = number;
+    if (n == 0) first = checked_first(in, number);
     if (number != first + static_cast<std::int64_t>(n)) {
       in.fail("node number " + std::to_string(number), std::to_string(first + static_cast<std::int64_t>(n)));
     }
@@ -36,18 +46,19 @@ void read_tetrahedra(FileCursor& in, std::int64_t first, RawMesh& mesh) {
   const std::size_t count = in.count("the number of tetrahedra");
   const std::int64_t nodes = in.integer("the number of nodes of a tetrahedron, 4 or 10");
   if (nodes != 4 && nodes != 10) in.fail(std::to_string(nodes) + " nodes a tetrahedron", "4 or 10");
+  if (nodes == 10) mesh.curved = count;
   in.rest_of_line();
   for (std::size_t t = 0; t < count; ++t) {
     skip_comments(in);
     in.integer("a tetrahedron's number");
     std::array<std::int32_t, 4> tetrahedron{};
     for (std::int32_t& node : tetrahedron) {
-      const std::int64_t index = in.integer("a node of a tetrahedron") - first;
-      if (index < 0 || index >= std::ssize(mesh.positions)) {
-        in.fail("node number " + std::to_string(index + first) + " in tetrahedron " + std::to_string(t),
+      const std::int64_t number = in.integer("a node of a tetrahedron");
+      if (number < first || number - first >= std::ssize(mesh.positions)) {
+        in.fail("node number " + std::to_string(number) + " in tetrahedron " + std::to_string(t),
                 "a number of the .node file");
       }
-      node = static_cast<std::int32_t>(index);
+      node = static_cast<std::int32_t>(number - first);
     }
     mesh.tetrahedra.push_back(tetrahedron);
     in.rest_of_line();

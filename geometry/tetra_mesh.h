@@ -1,20 +1,27 @@
 // A tetrahedral mesh whose input was checked: what every other room may rely on.
 #pragma once
 
+#include "geometry/element_kinds.h"
 #include "geometry/types.h"
 
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace omentum::geometry {
 
+/// Of nodes and of tetrahedra: their numbers have 32 bits, those of three components each too.
+inline constexpr std::size_t kMostNodes = std::numeric_limits<std::int32_t>::max() / 3;
+
 /// What a mesh file holds, before any check. Nodes and tetrahedra in the file's order, from 0.
 struct RawMesh {
   std::string source;                                   // the file, for messages
   std::vector<Vec3> positions;                          // in the file's unit
-  std::vector<std::array<std::int32_t, 4>> tetrahedra;  // 0-based positions in `positions`
+  std::vector<std::array<std::int32_t, 4>> tetrahedra;  // 0-based positions in `positions`: corners
+  std::size_t curved = 0;                               // of them have nodes between their corners too
+  ElementCounts others{};                               // elements that are no tetrahedra
 };
 
 /// A valid mesh: every node used, every tetrahedron positively oriented, no duplicate or overlapping
@@ -32,14 +39,21 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A node of the file whose place another one takes; 0-based numbers in the file.
+struct MergedNode {
+  std::int32_t dropped, kept;
+};
+
 struct CheckedMesh {
   TetraMesh mesh;
   std::vector<std::string> warnings;  // e.g. "sofa.msh: 12 tetrahedra were listed in negative order"
+  std::vector<MergedNode> merged;     // by `dropped`, ascending; nodes that were merged on demand
 };
 
-/// Reads .msh (Gmsh 1, 2.2, 4; ASCII and binary where the format has it), .vtk (legacy, ASCII and
-/// binary), .vtu (ASCII, base64, zlib) and .node/.ele (either name). Other elements in the file are
-/// ignored. Throws InputError naming file, line or section, and what was expected.
+/// Reads .msh (Gmsh 1, 2.2, 4.0, 4.1; ASCII and binary where the format has it), .vtk (legacy, ASCII and
+/// binary), .vtu (ASCII, base64, raw; zlib, LZ4 and LZMA) and .node/.ele (either name). Of tetrahedra with
+/// ten nodes or more the corners are read. Other elements are counted, not read. Throws InputError naming
+/// file, line or section, and what was expected; without any tetrahedron, what the file holds instead.
 RawMesh read_mesh(const std::filesystem::path& file);
 
 /// Writes Gmsh 2.2 ASCII, positions in metres.
@@ -48,8 +62,10 @@ void write_mesh(const TetraMesh& mesh, const std::filesystem::path& file);
 /// Scales to metres, drops unused nodes and reorders negatively listed tetrahedra (both with a
 /// warning that counts them); throws InputError naming the elements otherwise: zero volume (height
 /// below 1e-6 of the longest edge), repeated or overlapping elements, non-manifold or open boundary,
-/// disconnected parts, non-finite positions, node numbers out of range.
-CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit);
+/// disconnected parts, nodes at the same place (an inner crack, or parts glued by copying), non-finite
+/// positions, node numbers out of range. `merge_m` > 0: nodes at most so far apart, m, become the first of
+/// them, with a warning; throws where that would collapse a tetrahedron.
+CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit, double merge_m = 0);
 
 /// Signed volume, m^3: positive when d lies on the side of (a,b,c) its right-handed normal points to.
 inline double signed_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

@@ -12,8 +12,9 @@ struct VtkCells {
   std::vector<std::int64_t> types;  // [cells]
 };
 
-/// Appends the linear tetrahedra (type 10) to `mesh`, whose positions from `first_node` on the cells count.
-/// Throws InputError naming the tetrahedron when its nodes are not four or do not exist.
+/// Appends the corners of the tetrahedra (type 10; 24 and others of higher order) to `mesh`, whose positions
+/// from `first_node` on the cells count, and counts what else there is. Throws InputError naming the
+/// tetrahedron when its nodes do not exist or are not as many as its type has.
 void append_tetrahedra(const VtkCells& cells, std::size_t first_node, RawMesh& mesh);
 
 }  // namespace omentum::geometry

@@ -68,6 +68,7 @@ void VtkReader::read_header() {
   binary_ = coding == "BINARY";
   if (in_.word("DATASET") != "DATASET") in_.fail("something else", "DATASET");
   const std::string_view kind = in_.word("UNSTRUCTURED_GRID");
+  if (kind == "POLYDATA") in_.fail("POLYDATA (a surface)", "UNSTRUCTURED_GRID (a mesh of tetrahedra)");
   if (kind != "UNSTRUCTURED_GRID") in_.fail(kind, "UNSTRUCTURED_GRID");
 }
 

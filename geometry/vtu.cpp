@@ -21,11 +21,10 @@ pugi::xml_node named_array(const VtuArrays& arrays, pugi::xml_node parent, const
 void read_points(const VtuArrays& arrays, pugi::xml_node piece, RawMesh& mesh) {
   const std::vector<double> xyz =
       arrays.reals(child_of(arrays, child_of(arrays, piece, "Points"), "DataArray"));
-  if (xyz.size() != 3 * piece.attribute("NumberOfPoints").as_ullong()) {
+  if (xyz.size() % 3 != 0 || xyz.size() / 3 != piece.attribute("NumberOfPoints").as_ullong()) {
     arrays.fail(std::to_string(xyz.size()) + " coordinates", "three for each of NumberOfPoints");
   }
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3)
-    mesh.positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  for (std::size_t i = 0; i < xyz.size(); i += 3) mesh.positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
 }
 
 VtkCells read_cells(const VtuArrays& arrays, pugi::xml_node piece) {

@@ -2,21 +2,20 @@
 
 #include "geometry/tetra_mesh.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <type_traits>
+#include <utility>
 
 namespace omentum::geometry {
 namespace {
 
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-// Deflate cannot shrink by more than about 1:1032: a larger claim is a broken file, not a reason to allocate.
-constexpr std::size_t kLargestCompression = 1040;
 
 std::string decode_base64(std::string_view text) {
   std::string bytes;
@@ -48,6 +47,7 @@ std::string read_file(const std::filesystem::path& file) {
   }
   std::ostringstream text;
   text << stream.rdbuf();
+  if (text.view().empty()) throw InputError(file.string() + ": is empty; expected a mesh file");
   return std::move(text).str();
 }
 
@@ -75,9 +75,10 @@ VtuArrays::VtuArrays(const std::filesystem::path& file) : name_(file.string()) {
          "<VTKFile type=\"UnstructuredGrid\">");
   }
   const std::string_view compressor = root_.attribute("compressor").value();
-  if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-    fail(std::string(compressor), "vtkZLibDataCompressor");
-  compressed_ = !compressor.empty();
+  const std::optional<BlockCodec> codec = block_codec(compressor);
+  if (!codec)
+    fail(std::string(compressor), "vtkZLibDataCompressor, vtkLZ4DataCompressor or vtkLZMADataCompressor");
+  codec_ = *codec;
   if (std::string_view(root_.attribute("header_type").value()) == "UInt64") word_size_ = 8;
   if (std::string_view(root_.attribute("byte_order").value()) == "BigEndian") order_ = std::endian::big;
 }
@@ -120,6 +121,20 @@ std::vector<T> VtuArrays::parse_text(pugi::xml_node array) const {
   }
 }
 
+// A stored value as a T that holds the same number.
+template <class T, class Stored>
+T VtuArrays::as(Stored value) const {
+  if constexpr (std::is_integral_v<T> && std::is_floating_point_v<Stored>) {
+    // beyond, a double has no whole numbers of its own
+    constexpr double kLargest = 9007199254740992.0;
+    if (!(std::abs(value) <= kLargest) || value != std::trunc(value))
+      fail("the number " + std::to_string(value), "whole numbers");
+  } else if constexpr (std::is_integral_v<T>) {
+    if (!std::in_range<T>(value)) fail("the number " + std::to_string(value), "one of 63 bits");
+  }
+  return static_cast<T>(value);
+}
+
 template <class T>
 std::vector<T> VtuArrays::convert(const std::string& bytes, std::string_view type) const {
   std::vector<T> result;
@@ -128,7 +143,7 @@ std::vector<T> VtuArrays::convert(const std::string& bytes, std::string_view typ
       fail(std::to_string(bytes.size()) + " bytes", "whole values of " + std::string(type));
     result.reserve(bytes.size() / sizeof(Stored));
     for (std::size_t i = 0; i < bytes.size(); i += sizeof(Stored)) {
-      result.push_back(static_cast<T>(load<Stored>(bytes.data() + i, order_)));
+      result.push_back(as<T>(load<Stored>(bytes.data() + i, order_)));
     }
   };
   if (type == "Float32")
@@ -194,7 +209,7 @@ std::size_t VtuArrays::header_word(std::string_view bytes, std::size_t index) co
 }
 
 std::string VtuArrays::bytes_of(Coded data) const {
-  if (compressed_) return inflate_blocks(data);
+  if (codec_ != BlockCodec::kNone) return inflate_blocks(data);
   const std::size_t size = header_word(peek(data, word_size_), 0);
   if (size > data.text.size())
     fail("an array of " + std::to_string(size) + " bytes", "no more than the file holds");
@@ -218,14 +233,12 @@ std::string VtuArrays::inflate_blocks(Coded data) const {
   std::size_t at = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t in_size = header_word(header, 3 + b);
-    uLongf out_size = b + 1 == blocks && last_size > 0 ? last_size : block_size;
-    if (out_size / kLargestCompression > in_size)
-      fail("a block of " + std::to_string(out_size) + " bytes", "less");
-    std::string block(out_size, '\0');
-    const int status = uncompress(reinterpret_cast<Bytef*>(block.data()), &out_size,
-                                  reinterpret_cast<const Bytef*>(coded.data() + at), in_size);
-    if (status != Z_OK || out_size != block.size()) fail("a block that zlib cannot read", "zlib data");
-    result += block;
+    const std::size_t out_size = b + 1 == blocks && last_size > 0 ? last_size : block_size;
+    const std::optional<std::string> block =
+        decode_block(codec_, std::string_view(coded).substr(at, in_size), out_size);
+    if (!block)
+      fail("a compressed block that does not hold " + std::to_string(out_size) + " bytes", "one that does");
+    result += *block;
     at += in_size;
   }
   return result;

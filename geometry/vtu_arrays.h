@@ -1,6 +1,8 @@
 // The data arrays of a VTK XML file, whatever way they are written.
 #pragma once
 
+#include "geometry/block_codec.h"
+
 #include <pugixml.hpp>
 
 #include <bit>
@@ -12,8 +14,8 @@
 
 namespace omentum::geometry {
 
-/// Decodes arrays written as text, base64 in place, or appended (base64 or raw), plain or with zlib. Every
-/// function throws InputError naming the file and the array.
+/// Decodes arrays written as text, base64 in place, or appended (base64 or raw), plain or
+/// compressed. Every function throws InputError naming the file and the array.
 class VtuArrays {
  public:
   explicit VtuArrays(const std::filesystem::path& file);
@@ -34,6 +36,8 @@ class VtuArrays {
 
   template <class T>
   std::vector<T> values(pugi::xml_node array) const;
+  template <class T, class Stored>
+  T as(Stored value) const;
   template <class T>
   std::vector<T> parse_text(pugi::xml_node array) const;
   template <class T>
@@ -51,7 +55,7 @@ class VtuArrays {
   pugi::xml_node root_;
   std::string appended_;  // behind the underscore of <AppendedData>
   bool appended_base64_ = false;
-  bool compressed_ = false;
+  BlockCodec codec_ = BlockCodec::kNone;
   std::size_t word_size_ = 4;  // of headers, bytes
   std::endian order_ = std::endian::little;
 };

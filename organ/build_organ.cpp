@@ -1,13 +1,14 @@
 #include "organ/build_organ.h"
 
+#include "organ/organ_check.h"
 #include "organ/organ_hash.h"
 #include "organ/organ_writer.h"
 #include "organ/stored_tensors.h"
+#include "organ/tensor_check.h"
 #include "physics/blas_threads.h"
 #include "physics/force_tensors.h"
 
 #include <chrono>
-#include <cmath>
 
 namespace omentum::organ {
 
@@ -22,19 +23,6 @@ double seconds_since(Clock::time_point start) {
 
 // Below this many free degrees of freedom a factorization does not repay a second BLAS thread.
 constexpr std::int32_t kThreadedFactorFrom = 10000;
-
-void require_material(const physics::Material& m) {
-  const auto refuse = [](const std::string& what, double found, const std::string& expected) {
-    throw InputError(what + " is " + std::to_string(found) + "; expected " + expected);
-  };
-  if (!(m.young_pa > 0) || !std::isfinite(m.young_pa))
-    refuse("Young's modulus", m.young_pa, "a positive number (Pa)");
-  if (!(m.poisson > -1 && m.poisson < 0.5))
-    refuse("Poisson's ratio", m.poisson, "more than -1 and less than 0.5");
-  if (!(m.density_kg_m3 > 0) || !std::isfinite(m.density_kg_m3)) {
-    refuse("density", m.density_kg_m3, "a positive number (kg/m^3)");
-  }
-}
 
 physics::StiffnessFactor factorize(const Organ& organ, const physics::FreeDofs& free, int threads) {
   const physics::BlasThreads blas(free.count < kThreadedFactorFrom ? 1 : threads);
@@ -62,7 +50,7 @@ bool fill(const OrganWriter& writer, const Organ& organ, const physics::Stiffnes
 
 Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Material& material,
                  FixedComponents fixed, Storage storage) {
-  require_material(material);
+  require_material(material, "");
   physics::require_held(mesh, fixed);
   Organ organ;
   organ.name = std::move(name);
@@ -81,8 +69,9 @@ Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Mate
 bool is_up_to_date(const std::filesystem::path& file, const Organ& organ) {
   try {
     const Organ found = load_organ(file, Load::kMeshOnly);
-    map_tensors(file, found);
-    return found.hash == organ.hash && found.name == organ.name;
+    if (found.hash != organ.hash || found.name != organ.name) return false;
+    require_whole(map_tensors(file, found), file);
+    return true;
   } catch (const InputError&) {
     return false;
   }

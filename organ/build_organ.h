@@ -34,7 +34,7 @@ class Interrupted : public std::runtime_error {
 Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Material& material,
                  FixedComponents fixed, Storage storage);
 
-/// Whether `file` is a finished organ file with this organ's hash and name.
+/// Whether `file` is a finished organ file with this organ's hash and name and whole tensors (all are read).
 bool is_up_to_date(const std::filesystem::path& file, const Organ& organ);
 
 /// Computes the force tensors into `file`. Whole or not at all (OrganWriter). Throws geometry::InputError,

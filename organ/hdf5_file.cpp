@@ -2,8 +2,11 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 #include <unistd.h>
@@ -88,6 +91,12 @@ bool fits_into(std::uint64_t bytes, const std::vector<std::uint64_t>& shape, std
   return room > 0;
 }
 
+// Whether an attribute is one value of the given class.
+bool is_single(hid_t attribute, hid_t type, H5T_class_t wanted) {
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  return H5Sget_simple_extent_npoints(space) == 1 && H5Tget_class(type) == wanted;
+}
+
 std::string words(const std::vector<std::uint64_t>& shape) {
   std::string text;
   for (const std::uint64_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
@@ -98,8 +107,11 @@ std::string words(const std::vector<std::uint64_t>& shape) {
 
 Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  // what describes the data has checksums from this version of the format on: damage there is refused by
+  // HDF5, whose older parts crash on it
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   if (mode == Mode::kCreate) {
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_alignment(access, kAlignFrom, kAlignment);
     file_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
     if (file_ < 0) fail("cannot be created");
@@ -107,9 +119,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
   }
   if (!std::filesystem::exists(file)) fail("no such file");
   if (!std::filesystem::is_regular_file(file)) fail("is not a file; expected an organ file");
-  if (access(file.c_str(), mode == Mode::kRead ? R_OK : R_OK | W_OK) != 0)
+  if (::access(file.c_str(), mode == Mode::kRead ? R_OK : R_OK | W_OK) != 0)
     fail(std::string("cannot be opened: ") + std::strerror(errno));
-  file_ = H5Fopen(file.c_str(), mode == Mode::kRead ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT);
+  file_ = H5Fopen(file.c_str(), mode == Mode::kRead ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access);
   if (file_ < 0)
     fail("is not a whole HDF5 file (damaged, truncated or of another kind); expected an organ file");
 }
@@ -136,13 +148,37 @@ void Hdf5File::write(const std::string& dataset, std::span<const T> values,
   }
 }
 
+// Another layout than ours could hide more numbers than the file has bytes, or those of another file.
+Extent Hdf5File::extent_of(const std::string& dataset, std::int64_t data, std::uint64_t count,
+                           std::uint64_t each) const {
+  const haddr_t offset = H5Dget_offset(data);
+  const Handle made(H5Dget_create_plist(data), H5Pclose);
+  if (H5Pget_layout(made) != H5D_CONTIGUOUS || H5Pget_external_count(made) != 0 ||
+      (offset == HADDR_UNDEF && count > 0)) {
+    fail("dataset '" + dataset + "' does not lie in the file in one piece");
+  }
+  const std::uint64_t size = std::filesystem::file_size(path_);
+  if (count > 0 && (offset > size || count > (size - offset) / each)) {
+    fail("is truncated: " + std::to_string(size) + " bytes do not hold " + std::to_string(count) +
+         " numbers of '" + dataset + "' at " + std::to_string(offset));
+  }
+  return {count > 0 ? offset : 0, count * each};
+}
+
 template <class T>
-std::vector<T> Hdf5File::read(const std::string& dataset) const {
+std::vector<T> Hdf5File::read(const std::string& dataset, std::uint64_t columns) const {
   const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   if (!data.ok()) fail("has no dataset '" + dataset + "'; expected an organ file");
   const std::vector<std::uint64_t> shape = shape_of(data);
+  if (shape.size() != (columns == 0 ? 1 : 2) || (columns != 0 && shape[1] != columns)) {
+    fail("dataset '" + dataset + "' is " + words(shape) + "; expected " +
+         (columns == 0 ? "a list" : "rows of " + std::to_string(columns)));
+  }
+  const Handle type(H5Dget_type(data), H5Tclose);
+  if (H5Tequal(type, type_of<T>()) <= 0) fail("dataset '" + dataset + "' is of another number type");
   if (!fits_into(std::filesystem::file_size(path_), shape, sizeof(T)))
     fail("dataset '" + dataset + "' is damaged: " + words(shape) + " numbers are more than the file holds");
+  extent_of(dataset, data, count_of(shape), sizeof(T));
   std::vector<T> values(count_of(shape));
   if (!values.empty() && H5Dread(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     fail("dataset '" + dataset + "' cannot be read");
@@ -166,11 +202,10 @@ Extent Hdf5File::locate(const std::string& dataset, const std::vector<std::uint6
     fail("dataset '" + dataset + "' is " + words(shape_of(data)) + "; expected " + words(shape));
   }
   const Handle type(H5Dget_type(data), H5Tclose);
-  const haddr_t offset = H5Dget_offset(data);
-  if (H5Tequal(type, type_of<T>()) <= 0 || offset == HADDR_UNDEF) {
-    fail("dataset '" + dataset + "' is of another number type or not contiguous");
-  }
-  return {offset, count_of(shape) * sizeof(T)};
+  if (H5Tequal(type, type_of<T>()) <= 0) fail("dataset '" + dataset + "' is of another number type");
+  if (!fits_into(std::filesystem::file_size(path_), shape, sizeof(T)))
+    fail("dataset '" + dataset + "' is damaged: " + words(shape) + " numbers are more than the file holds");
+  return extent_of(dataset, data, count_of(shape), sizeof(T));
 }
 
 void Hdf5File::write_text(const std::string& attribute, const std::string& value) {
@@ -196,9 +231,10 @@ bool Hdf5File::has_attribute(const std::string& attribute) const {
 std::string Hdf5File::read_text(const std::string& attribute) const {
   const Handle data(H5Aopen(file_, attribute.c_str(), H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(data), H5Tclose);
-  std::string value(H5Tget_size(type), '\0');
-  if (!data.ok() || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
-      H5Aread(data, type, value.data()) < 0) {
+  const std::size_t size = type.ok() ? H5Tget_size(type) : 0;
+  std::string value(std::min(size, kLongestText), '\0');
+  if (!data.ok() || !is_single(data, type, H5T_STRING) || H5Tis_variable_str(type) > 0 ||
+      size > kLongestText || H5Aread(data, type, value.data()) < 0) {
     fail("has no text '" + attribute + "'; expected an organ file");
   }
   return value.substr(0, value.find('\0'));
@@ -206,11 +242,22 @@ std::string Hdf5File::read_text(const std::string& attribute) const {
 
 double Hdf5File::read_number(const std::string& attribute) const {
   const Handle data(H5Aopen(file_, attribute.c_str(), H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(data), H5Tclose);
   double value = 0;
-  if (!data.ok() || H5Aread(data, H5T_NATIVE_DOUBLE, &value) < 0) {
+  if (!data.ok() || !is_single(data, type, H5T_FLOAT) || H5Aread(data, H5T_NATIVE_DOUBLE, &value) < 0) {
     fail("has no number '" + attribute + "'; expected an organ file");
   }
   return value;
+}
+
+std::int32_t Hdf5File::read_count(const std::string& attribute, std::int32_t low) const {
+  constexpr auto kHigh = std::numeric_limits<std::int32_t>::max();
+  const double value = read_number(attribute);
+  if (!(value >= low && value <= kHigh) || value != std::floor(value)) {
+    fail("'" + attribute + "' is " + std::to_string(value) + "; expected a whole number from " +
+         std::to_string(low) + " to " + std::to_string(kHigh));
+  }
+  return static_cast<std::int32_t>(value);
 }
 
 template void Hdf5File::write(const std::string&, std::span<const double>, const std::vector<std::uint64_t>&);
@@ -218,9 +265,9 @@ template void Hdf5File::write(const std::string&, std::span<const std::int32_t>,
                               const std::vector<std::uint64_t>&);
 template void Hdf5File::write(const std::string&, std::span<const std::uint8_t>,
                               const std::vector<std::uint64_t>&);
-template std::vector<double> Hdf5File::read(const std::string&) const;
-template std::vector<std::int32_t> Hdf5File::read(const std::string&) const;
-template std::vector<std::uint8_t> Hdf5File::read(const std::string&) const;
+template std::vector<double> Hdf5File::read(const std::string&, std::uint64_t) const;
+template std::vector<std::int32_t> Hdf5File::read(const std::string&, std::uint64_t) const;
+template std::vector<std::uint8_t> Hdf5File::read(const std::string&, std::uint64_t) const;
 template Extent Hdf5File::reserve<float>(const std::string&, const std::vector<std::uint64_t>&);
 template Extent Hdf5File::reserve<double>(const std::string&, const std::vector<std::uint64_t>&);
 template Extent Hdf5File::locate<float>(const std::string&, const std::vector<std::uint64_t>&) const;

@@ -1,10 +1,12 @@
 #include "organ/organ.h"
 
 #include "organ/hdf5_file.h"
+#include "organ/organ_check.h"
 #include "organ/organ_hash.h"
 #include "organ/organ_layout.h"
 #include "organ/stored_tensors.h"
 
+#include <cstdio>
 #include <cstring>
 
 namespace omentum::organ {
@@ -13,15 +15,30 @@ namespace {
 
 using geometry::InputError;
 
-// Numbers of the file as a list of Ts that are made of them (typed indices, vectors, triangles).
+// Numbers of the file as a list of Ts that are made of them (typed indices, vectors, triangles), a T a row.
 template <class T, class Number>
 std::vector<T> read_as(const Hdf5File& file, const char* dataset) {
+  constexpr std::size_t kColumns = sizeof(T) / sizeof(Number);
   static_assert(sizeof(T) % sizeof(Number) == 0);
-  const std::vector<Number> numbers = file.read<Number>(dataset);
-  std::vector<T> values(numbers.size() * sizeof(Number) / sizeof(T));
+  const std::vector<Number> numbers = file.read<Number>(dataset, kColumns == 1 ? 0 : kColumns);
+  std::vector<T> values(numbers.size() / kColumns);
   if (!values.empty())
     std::memcpy(static_cast<void*>(values.data()), numbers.data(), values.size() * sizeof(T));
   return values;
+}
+
+// Without the zeros of a whole number; whatever the file says.
+std::string version_text(double version) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", version);
+  return text;
+}
+
+Storage read_storage(const Hdf5File& hdf5, const std::filesystem::path& file) {
+  const std::string text = hdf5.read_text(layout::kStorage);
+  if (text != "float" && text != "double")
+    throw InputError(file.string() + ": its '" + layout::kStorage + "' is neither float nor double");
+  return text == "double" ? Storage::kDouble : Storage::kFloat;
 }
 
 void require_format(const Hdf5File& hdf5, const std::filesystem::path& file) {
@@ -30,31 +47,31 @@ void require_format(const Hdf5File& hdf5, const std::filesystem::path& file) {
   }
   const double version = hdf5.read_number(layout::kVersion);
   if (version != kFormatVersion) {
-    throw InputError(file.string() + ": has format version " + std::to_string(static_cast<int>(version)) +
-                     "; expected " + std::to_string(kFormatVersion) + " (build it again with organ_build)");
+    throw InputError(file.string() + ": has format version " + version_text(version) + "; expected " +
+                     std::to_string(kFormatVersion) + " (build it again with organ_build)");
   }
   if (!hdf5.has_attribute(layout::kFinished)) {
     throw InputError(file.string() + ": is unfinished (an interrupted organ_build); build it again");
   }
 }
 
-Organ read_contents(const Hdf5File& hdf5) {
+Organ read_contents(const Hdf5File& hdf5, const std::filesystem::path& file) {
   Organ organ;
   organ.name = hdf5.read_text(layout::kName);
-  organ.storage = hdf5.read_text(layout::kStorage) == "double" ? Storage::kDouble : Storage::kFloat;
+  organ.storage = read_storage(hdf5, file);
   organ.material = {hdf5.read_number(layout::kYoung), hdf5.read_number(layout::kPoisson),
                     hdf5.read_number(layout::kDensity)};
   organ.mesh.positions = read_as<geometry::Vec3, double>(hdf5, layout::kPositions);
   organ.mesh.tetrahedra = read_as<geometry::Tetrahedron, std::int32_t>(hdf5, layout::kTetrahedra);
-  organ.mesh.file_node = hdf5.read<std::int32_t>(layout::kFileNode);
-  organ.mesh.file_node_count = static_cast<std::int32_t>(hdf5.read_number(layout::kFileNodes));
+  organ.mesh.file_node = hdf5.read<std::int32_t>(layout::kFileNode, 0);
+  organ.mesh.file_node_count = hdf5.read_count(layout::kFileNodes, 4);
   organ.surface.node = read_as<geometry::NodeId, std::int32_t>(hdf5, layout::kSurfaceNode);
   organ.surface.triangles = read_as<geometry::Triangle, std::int32_t>(hdf5, layout::kTriangles);
   organ.surface.tetrahedron = read_as<geometry::TetId, std::int32_t>(hdf5, layout::kBehind);
-  organ.surface.fan_start = hdf5.read<std::int32_t>(layout::kFanStart);
+  organ.surface.fan_start = hdf5.read<std::int32_t>(layout::kFanStart, 0);
   organ.surface.fan = read_as<geometry::TriangleId, std::int32_t>(hdf5, layout::kFan);
-  organ.surface.mobile_count = static_cast<std::int32_t>(hdf5.read_number(layout::kMobile));
-  organ.fixed = hdf5.read<std::uint8_t>(layout::kFixed);
+  organ.surface.mobile_count = hdf5.read_count(layout::kMobile, 1);
+  organ.fixed = hdf5.read<std::uint8_t>(layout::kFixed, 0);
   return organ;
 }
 
@@ -79,7 +96,7 @@ Organ load_organ(const std::filesystem::path& file, Load what) {
   {
     const Hdf5File hdf5(file, Hdf5File::Mode::kRead);
     require_format(hdf5, file);
-    organ = read_contents(hdf5);
+    organ = read_contents(hdf5, file);
     organ.hash = organ_hash(organ);
     if (organ.hash != hdf5.read_text(layout::kHash)) {
       throw InputError(
@@ -89,6 +106,7 @@ Organ load_organ(const std::filesystem::path& file, Load what) {
           "); build it again");
     }
   }
+  require_consistent(organ, file);
   organ.surface.of_node = invert(organ.surface.node, organ.mesh.positions.size());
   if (what == Load::kWithTensors) organ.compliance = surface_compliance(map_tensors(file, organ));
   return organ;

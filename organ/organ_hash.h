@@ -6,7 +6,7 @@
 namespace omentum::organ {
 
 /// The organ file's layout and the numerics behind its tensors. A file of another version is built again.
-inline constexpr int kFormatVersion = 1;
+inline constexpr int kFormatVersion = 2;
 
 /// SHA-256, hexadecimal, over format version, storage, mesh (with the file's numbering), surface order,
 /// material and supports.

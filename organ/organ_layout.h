@@ -15,6 +15,7 @@ inline constexpr const char* kPoisson = "poisson";
 inline constexpr const char* kDensity = "density_kg_m3";
 inline constexpr const char* kFileNodes = "file_node_count";
 inline constexpr const char* kMobile = "mobile_count";
+inline constexpr const char* kChecksum = "tensors_xxh3";  // TensorChecksum over kBounds, then kCompliance
 
 inline constexpr const char* kFormatName = "omentum organ";
 

@@ -4,47 +4,15 @@
 #include "organ/mapped_file.h"
 #include "organ/organ_hash.h"
 #include "organ/organ_layout.h"
+#include "organ/tensor_check.h"
 
-#include <cerrno>
 #include <cstring>
 
 #include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace omentum::organ {
 
 namespace {
-
-using geometry::InputError;
-
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what, int error) {
-  throw InputError(file.string() + ": " + what + ": " + std::strerror(error));
-}
-
-// Opens and locks the partial file. A lock of the open file description: HDF5's own lock and its closing of
-// other descriptors do not touch it.
-int lock_partial(const std::filesystem::path& partial) {
-  while (true) {
-    const int descriptor = open(partial.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail(partial, "cannot be written", errno);
-    struct flock whole {};
-    whole.l_type = F_WRLCK;
-    whole.l_whence = SEEK_SET;
-    if (fcntl(descriptor, F_OFD_SETLK, &whole) != 0) {
-      const int error = errno;
-      close(descriptor);
-      fail(partial, "is being written by another process", error);
-    }
-    // its writer may have finished and renamed it between our open and our lock
-    struct stat mine {
-    }, there{};
-    if (fstat(descriptor, &mine) == 0 && stat(partial.c_str(), &there) == 0 && mine.st_ino == there.st_ino) {
-      return descriptor;
-    }
-    close(descriptor);
-  }
-}
 
 // A list of Ts as the numbers that they are made of.
 template <class Number, class T>
@@ -82,22 +50,11 @@ void write_contents(Hdf5File& hdf5, const Organ& organ) {
 
 }  // namespace
 
-OrganWriter::OrganWriter(const std::filesystem::path& file, const Organ& organ)
-    : file_(file), partial_(file.string() + ".partial"), lock_(lock_partial(partial_)) {
-  try {
-    map_tensors(organ);
-  } catch (...) {
-    unlink(partial_.c_str());
-    close(lock_);
-    throw;
-  }
+OrganWriter::OrganWriter(const std::filesystem::path& file, const Organ& organ) : partial_(file) {
+  map_tensors(organ);
 }
 
-OrganWriter::~OrganWriter() {
-  if (lock_ < 0) return;
-  unlink(partial_.c_str());
-  close(lock_);
-}
+OrganWriter::~OrganWriter() = default;
 
 void OrganWriter::map_tensors(const Organ& organ) {
   const std::int32_t mobile = organ.surface.mobile_count;
@@ -106,7 +63,7 @@ void OrganWriter::map_tensors(const Organ& organ) {
   const std::vector<std::uint64_t> shape{columns, clusters, 9, geometry::kClusterSize};
   Extent tiles, bounds;
   {
-    Hdf5File hdf5(partial_, Hdf5File::Mode::kCreate);
+    Hdf5File hdf5(partial_.path(), Hdf5File::Mode::kCreate);
     write_attributes(hdf5, organ);
     write_contents(hdf5, organ);
     bounds = hdf5.reserve<float>(layout::kBounds, {columns, clusters});
@@ -116,11 +73,14 @@ void OrganWriter::map_tensors(const Organ& organ) {
   }
   // Blocks for all of it now: a full disk must fail here, not as a SIGBUS while the tensors are written.
   for (const Extent& extent : {bounds, tiles}) {
-    const int error =
-        posix_fallocate(lock_, static_cast<off_t>(extent.offset), static_cast<off_t>(extent.bytes));
-    if (error != 0) fail(partial_, "no room for the tensors", error);
+    const int error = posix_fallocate(partial_.descriptor(), static_cast<off_t>(extent.offset),
+                                      static_cast<off_t>(extent.bytes));
+    if (error != 0) {
+      throw geometry::InputError(partial_.path().string() +
+                                 ": no room for the tensors: " + std::strerror(error));
+    }
   }
-  mapped_ = std::make_unique<MappedFile>(partial_, MappedFile::Access::kWrite);
+  mapped_ = std::make_unique<MappedFile>(partial_.path(), MappedFile::Access::kWrite);
   std::byte* const there = mapped_->data() + tiles.offset;
   if (organ.storage == Storage::kFloat) {
     single_ = {mobile, reinterpret_cast<float*>(there)};
@@ -134,32 +94,23 @@ void OrganWriter::release(const void* begin, std::size_t bytes) const noexcept {
   mapped_->release(begin, bytes);
 }
 
-void OrganWriter::sync() const {
-  if (fsync(lock_) != 0) fail(partial_, "cannot be written", errno);
-}
-
 void OrganWriter::finish() {
+  const auto done = [this](const void* begin, std::size_t bytes) { release(begin, bytes); };
+  const std::string checksum = single_.values != nullptr ? tensor_checksum(single_, bounds_, done)
+                                                         : tensor_checksum(twofold_, bounds_, done);
   single_ = {};
   twofold_ = {};
   bounds_ = {};
   mapped_.reset();
-  sync();
+  partial_.sync();
   {
-    Hdf5File hdf5(partial_, Hdf5File::Mode::kUpdate);
+    Hdf5File hdf5(partial_.path(), Hdf5File::Mode::kUpdate);
+    hdf5.write_text(layout::kChecksum, checksum);
     hdf5.write_number(layout::kFinished, 1);
     hdf5.flush();
   }
-  sync();
-  if (rename(partial_.c_str(), file_.c_str()) != 0) fail(file_, "cannot be replaced", errno);
-  close(lock_);
-  lock_ = -1;
-  // the new name itself to the disk; a folder that cannot be opened for this has it there soon enough
-  const std::filesystem::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0) {
-    fsync(descriptor);
-    close(descriptor);
-  }
+  partial_.sync();
+  partial_.move_to_its_place();
 }
 
 }  // namespace omentum::organ

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "organ/organ.h"
+#include "organ/partial_file.h"
 #include "physics/compliance_tiles.h"
 
 #include <memory>
@@ -10,9 +11,9 @@ namespace omentum::organ {
 
 class MappedFile;
 
-/// Writes to FILE.partial beside the file, which finish() renames once everything is on the disk. Destroyed
-/// before, it removes FILE.partial; killed, it leaves one that has no finished mark and that the next writer
-/// takes over. Two writers of one file at a time: the second is refused.
+/// Writes to a PartialFile, which finish() moves to its place once everything is on the disk. Destroyed
+/// before, it leaves nothing; killed, a partial file without a finished mark, which the next writer in the
+/// folder removes. Two writers of one file at a time: the second is refused.
 class OrganWriter {
  public:
   /// Writes all but the tensors, whose room is mapped. `organ.storage` and `organ.hash` are used as they are.
@@ -30,16 +31,13 @@ class OrganWriter {
   /// Tiles that are not needed again soon: their pages stay with the file, but leave the process. Any thread.
   void release(const void* begin, std::size_t bytes) const noexcept;
 
-  /// Everything to the disk, then the finished mark, then the name. Throws geometry::InputError.
+  /// Everything to the disk, then checksum and finished mark, then the name. Throws geometry::InputError.
   void finish();
 
  private:
   void map_tensors(const Organ& organ);
-  void sync() const;
 
-  std::filesystem::path file_;
-  std::filesystem::path partial_;
-  int lock_ = -1;  // descriptor that holds the lock on `partial_`; -1 once finished
+  PartialFile partial_;
   std::unique_ptr<MappedFile> mapped_;
   physics::ComplianceTiles<float> single_;
   physics::ComplianceTiles<double> twofold_;

@@ -3,6 +3,7 @@
 #include "organ/hdf5_file.h"
 #include "organ/mapped_file.h"
 #include "organ/organ_layout.h"
+#include "organ/tensor_check.h"
 
 #include <algorithm>
 #include <new>
@@ -15,10 +16,10 @@ constexpr std::size_t kCacheLine = 64;  // bytes; what the superpose kernels ask
 
 template <class T>
 const T* numbers_at(const MappedFile& mapped, const Extent& extent, const std::filesystem::path& file) {
-  if (extent.offset + extent.bytes > mapped.size()) {
+  if (extent.offset > mapped.size() || extent.bytes > mapped.size() - extent.offset) {
     throw geometry::InputError(file.string() + ": is truncated: " + std::to_string(mapped.size()) +
-                               " bytes; expected " + std::to_string(extent.offset + extent.bytes) +
-                               " or more");
+                               " bytes do not hold " + std::to_string(extent.bytes) + " at " +
+                               std::to_string(extent.offset));
   }
   if (extent.offset % kCacheLine != 0) {
     throw geometry::InputError(file.string() +
@@ -47,6 +48,7 @@ StoredTensors map_tensors(const std::filesystem::path& file, const Organ& organ)
   }
   tensors.bounds = numbers_at<float>(*mapped, hdf5.locate<float>(layout::kBounds, {mobile, clusters}), file);
   tensors.keep_alive = mapped;
+  require_sound(tensors, organ, file);
   return tensors;
 }
 

@@ -17,7 +17,8 @@ struct StoredTensors {
   std::shared_ptr<const void> keep_alive;          // shared: whoever reads the tiles keeps the file mapped
 };
 
-/// Throws geometry::InputError as load_organ does. `organ` is what load_organ gave for the same file.
+/// Throws geometry::InputError as load_organ does, require_sound included. `organ` is what load_organ gave
+/// for the same file.
 StoredTensors map_tensors(const std::filesystem::path& file, const Organ& organ);
 
 /// Float tensors as they are; double ones rounded into memory of their own.

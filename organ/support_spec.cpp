@@ -81,7 +81,8 @@ Match box_match(const Spec& spec) {
 }
 
 // Which numbers of the mesh file a CSV lists, [file_node_count].
-std::vector<bool> listed_nodes(const Spec& spec, const TetraMesh& mesh) {
+std::vector<bool> listed_nodes(const Spec& spec, const TetraMesh& mesh,
+                               std::span<const geometry::MergedNode> merged) {
   std::vector<bool> listed(mesh.file_node_count);
   for (const CsvLine& line : read_csv(spec.place)) {
     for (const std::string& field : line.fields) {
@@ -92,6 +93,9 @@ std::vector<bool> listed_nodes(const Spec& spec, const TetraMesh& mesh) {
       }
       listed[*number] = true;
     }
+  }
+  for (const auto& [dropped, kept] : merged) {
+    if (listed[dropped]) listed[kept] = true;
   }
   return listed;
 }
@@ -112,7 +116,8 @@ std::string extent_of(const TetraMesh& mesh) {
   return text + " m";
 }
 
-void add_supports(const Spec& spec, const TetraMesh& mesh, physics::FixedComponents& fixed) {
+void add_supports(const Spec& spec, const TetraMesh& mesh, std::span<const geometry::MergedNode> merged,
+                  physics::FixedComponents& fixed) {
   std::vector<bool> listed;
   Match matches;
   if (starts_with(spec.place, "plane:")) {
@@ -120,7 +125,7 @@ void add_supports(const Spec& spec, const TetraMesh& mesh, physics::FixedCompone
   } else if (starts_with(spec.place, "box:")) {
     matches = box_match(spec);
   } else {
-    listed = listed_nodes(spec, mesh);
+    listed = listed_nodes(spec, mesh, merged);
   }
   std::int32_t held = 0;
   for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
@@ -133,9 +138,10 @@ void add_supports(const Spec& spec, const TetraMesh& mesh, physics::FixedCompone
 
 }  // namespace
 
-physics::FixedComponents parse_supports(std::span<const std::string> specs, const TetraMesh& mesh) {
+physics::FixedComponents parse_supports(std::span<const std::string> specs, const TetraMesh& mesh,
+                                        std::span<const geometry::MergedNode> merged) {
   physics::FixedComponents fixed(mesh.positions.size(), 0);
-  for (const std::string& spec : specs) add_supports(split_components(spec), mesh, fixed);
+  for (const std::string& spec : specs) add_supports(split_components(spec), mesh, merged, fixed);
   return fixed;
 }
 

@@ -14,9 +14,10 @@ namespace omentum::organ {
 ///   box:x0,y0,z0,x1,y1,z1      nodes inside a box or on its faces, metres
 ///   FILE.csv                   0-based node numbers of the mesh file, one per line, a header allowed
 /// optionally followed by single components, such as ":xz"; without them a node is held in all three. Numbers
-/// of nodes that no tetrahedron uses hold nothing. Throws geometry::InputError naming the SPEC (or file and
-/// line) for a wrong one, a node number that the mesh does not have, and one that matches no node (with the
-/// mesh's extent).
-physics::FixedComponents parse_supports(std::span<const std::string> specs, const geometry::TetraMesh& mesh);
+/// of nodes that no tetrahedron uses hold nothing; that of a node that was merged into another one holds that
+/// one. Throws geometry::InputError naming the SPEC (or file and line) for a wrong one, a node number that
+/// the mesh does not have, and one that matches no node (with the mesh's extent).
+physics::FixedComponents parse_supports(std::span<const std::string> specs, const geometry::TetraMesh& mesh,
+                                        std::span<const geometry::MergedNode> merged = {});
 
 }  // namespace omentum::organ

@@ -23,6 +23,10 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
   line.option("--scale", command.metres_per_unit, "metres per unit of the mesh file (0.001 for millimetres)")
       .required()
       .type_name("METRES");
+  line.option("--merge", command.merge_m,
+              "makes one node of those that are at most so far apart, m: for parts glued by copying")
+      .not_negative()
+      .type_name("METRES");
   line.option("--fixed", command.fixed,
               "what holds the organ; repeat for a union: FILE.csv of node numbers, plane:x<0.03 or "
               "box:x0,y0,z0,x1,y1,z1 in metres, each optionally with :xz for single components")

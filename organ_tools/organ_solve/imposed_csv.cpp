@@ -1,6 +1,9 @@
 #include "organ_tools/organ_solve/imposed_csv.h"
 
 #include "organ/csv.h"
+#include "organ_tools/organ_solve/solve_models.h"
+
+#include <cmath>
 
 namespace omentum::organ_tools {
 
@@ -29,7 +32,7 @@ NodeId parse_node(const organ::CsvLine& line, const std::vector<NodeId>& nodes) 
 }
 
 physics::ImposedDisplacement parse_line(const organ::CsvLine& line, const std::vector<NodeId>& nodes,
-                                        const organ::Organ& organ) {
+                                        const organ::Organ& organ, double limit) {
   if (line.fields.size() != 4) {
     throw InputError(line.where + ": found " + std::to_string(line.fields.size()) +
                      " fields; expected 4: node,ux,uy,uz");
@@ -47,6 +50,11 @@ physics::ImposedDisplacement parse_line(const organ::CsvLine& line, const std::v
       throw InputError(line.where + ": node " + line.fields[0] + " is held by a support along " +
                        static_cast<char>('x' + axis) + "; expected 0 there, found " + field);
     }
+    if (std::abs(*value) > limit) {
+      throw InputError(line.where + ": node " + line.fields[0] + ": found " + field +
+                       " m, a thousand times the organ's "
+                       "size or more");
+    }
     imposed.displacement[axis] = *value;
   }
   return imposed;
@@ -57,10 +65,11 @@ physics::ImposedDisplacement parse_line(const organ::CsvLine& line, const std::v
 std::vector<physics::ImposedDisplacement> read_imposed(const std::filesystem::path& file,
                                                        const organ::Organ& organ) {
   const std::vector<NodeId> nodes = nodes_of_file(organ.mesh);
+  const double limit = largest_displacement(organ.mesh);
   std::vector<std::string> listed_at(organ.mesh.positions.size());
   std::vector<physics::ImposedDisplacement> imposed;
   for (const organ::CsvLine& line : organ::read_csv(file)) {
-    imposed.push_back(parse_line(line, nodes, organ));
+    imposed.push_back(parse_line(line, nodes, organ, limit));
     std::string& before = listed_at[imposed.back().node];
     if (!before.empty()) {
       throw InputError(line.where + ": node " + line.fields[0] + " is listed twice, first at " + before);

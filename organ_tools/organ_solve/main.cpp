@@ -28,7 +28,10 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
   line.option("--model", command.model, "tensors or direct").type_name("MODEL").show_default();
   line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
   line.option("--remove", command.removed, "removed tetrahedra: not part of this version").type_name("FILE");
-  line.option("-o,--output", command.prefix, "writes PREFIX.u.csv (m) and PREFIX.f.csv (N)")
+  line.option(
+          "-o,--output", command.prefix,
+          "writes PREFIX.u.csv, displacements (m), and PREFIX.f.csv, all that holds each imposed node (N): "
+          "where a support holds a component, the support's share")
       .required()
       .type_name("PREFIX");
 }
@@ -72,6 +75,7 @@ void solve(const SolveCommand& command) {
       command.model == "direct"
           ? organ_tools::solve_directly(organ, imposed, gravity)
           : organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity, warning);
+  organ_tools::require_sensible(organ, imposed, solution);
   if (!warning.empty()) std::cerr << "organ_solve: warning: " << warning << std::endl;
   organ_tools::write_solution(command.prefix, organ, imposed, solution);
 }

@@ -1,11 +1,11 @@
 #include "organ_tools/organ_solve/solution_csv.h"
 
+#include "organ/partial_file.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-
-#include <unistd.h>
+#include <fstream>
 
 namespace omentum::organ_tools {
 
@@ -19,40 +19,13 @@ void append_row(std::string& text, std::int32_t node, const Vec3& v) {
   text += row;
 }
 
-[[noreturn]] void refuse(const std::string& file) {
-  throw geometry::InputError(file + ": cannot be written: " + std::strerror(errno));
+void write(const organ::PartialFile& partial, const std::string& text) {
+  std::ofstream out(partial.path(), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out)
+    throw geometry::InputError(partial.path().string() + ": cannot be written: " + std::strerror(errno));
 }
-
-// A file that is written beside its place; it vanishes unless it was moved there.
-class PartialFile {
- public:
-  PartialFile(std::string file, const std::string& text)
-      : file_(std::move(file)), partial_(file_ + ".partial-" + std::to_string(getpid())) {
-    if (std::filesystem::is_directory(file_)) {
-      errno = EISDIR;
-      refuse(file_);
-    }
-    std::FILE* out = std::fopen(partial_.c_str(), "w");
-    if (out == nullptr) refuse(file_);
-    bool whole = std::fwrite(text.data(), 1, text.size(), out) == text.size();
-    whole = std::fclose(out) == 0 && whole;
-    if (whole) return;
-    const int reason = errno;
-    std::remove(partial_.c_str());
-    errno = reason;
-    refuse(file_);
-  }
-  ~PartialFile() { std::remove(partial_.c_str()); }
-  PartialFile(const PartialFile&) = delete;
-  PartialFile& operator=(const PartialFile&) = delete;
-
-  void move_to_its_place() {
-    if (std::rename(partial_.c_str(), file_.c_str()) != 0) refuse(file_);
-  }
-
- private:
-  std::string file_, partial_;
-};
 
 }  // namespace
 
@@ -71,7 +44,9 @@ void write_solution(const std::string& prefix, const organ::Organ& organ, Impose
     append_row(forces, organ.mesh.file_node[imposed[i].node], solution.holding_forces[i]);
   }
   // nothing is in its place before both are whole
-  PartialFile u(prefix + ".u.csv", displacements), f(prefix + ".f.csv", forces);
+  organ::PartialFile u(prefix + ".u.csv"), f(prefix + ".f.csv");
+  write(u, displacements);
+  write(f, forces);
   u.move_to_its_place();
   f.move_to_its_place();
 }

@@ -8,7 +8,8 @@
 namespace omentum::organ_tools {
 
 /// PREFIX.u.csv: "node,ux,uy,uz" for every node of the mesh file (m; unused ones do not move), and
-/// PREFIX.f.csv: "node,fx,fy,fz", the force that holds each imposed node (N). Both are written beside
+/// PREFIX.f.csv: "node,fx,fy,fz", all that holds each imposed node there (N; where a support holds a
+/// component, its share). Both are written beside
 /// their places and then renamed. Throws geometry::InputError, naming the file.
 void write_solution(const std::string& prefix, const organ::Organ& organ, Imposed imposed,
                     const physics::StaticSolution& solution);

@@ -204,6 +204,84 @@ TEST(CheckMesh, RefusesABodyThatRunsThroughItself) {
   EXPECT_EQ(refusal(bent_bar(0.9, 0.0)), "accepted");
 }
 
+// Node `node` of tetrahedra [first, last) becomes one of its own at the same place, but for `apart`.
+RawMesh with_copied_node(RawMesh raw, std::int32_t node, std::size_t first, std::size_t last,
+                         double apart = 0) {
+  raw.positions.push_back(raw.positions[node] + Vec3::Constant(apart));
+  for (std::size_t t = first; t < last; ++t) {
+    std::ranges::replace(raw.tetrahedra[t], node, static_cast<std::int32_t>(raw.positions.size() - 1));
+  }
+  return raw;
+}
+
+// Every tetrahedron behind the middle gets nodes of its own: two parts that look like one.
+RawMesh glued_by_copying() {
+  RawMesh raw = test::make_raw_box(4, 3, 3, {0.08, 0.06, 0.06});
+  std::vector<std::int32_t> copy(raw.positions.size(), -1);
+  for (auto& t : raw.tetrahedra) {
+    double x = 0;
+    for (const std::int32_t node : t) x += raw.positions[node].x() / 4;
+    if (x < 0.04) continue;
+    for (std::int32_t& node : t) {
+      if (raw.positions[node].x() > 0.041) continue;
+      if (copy[node] < 0) {
+        copy[node] = static_cast<std::int32_t>(raw.positions.size());
+        raw.positions.push_back(raw.positions[node]);
+      }
+      node = copy[node];
+    }
+  }
+  return raw;
+}
+
+TEST(CheckMesh, AnInnerCrackIsNamed) {
+  const RawMesh box = test::make_raw_box(3, 3, 3, {3, 3, 3});
+  constexpr std::int32_t kInner = 1 + 4 * (1 + 4 * 1);
+  const auto user =
+      std::ranges::find_if(box.tetrahedra, [&](const auto& t) { return std::ranges::count(t, kInner) > 0; });
+  const auto t = static_cast<std::size_t>(user - box.tetrahedra.begin());
+  for (const double rounding : {0.0, 1e-8, -1e-8}) {
+    EXPECT_THAT(refusal(with_copied_node(box, kInner, t, t + 1, rounding)),
+                AllOf(HasSubstr("1 pair of nodes at the same place"), HasSubstr("nodes 21 and 64"),
+                      HasSubstr("--merge")));
+  }
+  RawMesh unused = box;
+  unused.positions.push_back(box.positions[kInner]);
+  EXPECT_EQ(refusal(unused), "accepted") << "nobody uses it";
+}
+
+TEST(CheckMesh, PartsGluedByCopyingAreCountedAndMergedOnDemand) {
+  const RawMesh glued = glued_by_copying();
+  EXPECT_THAT(refusal(glued),
+              AllOf(HasSubstr("16 pairs of nodes at the same place"), HasSubstr("--merge METRES")));
+
+  const RawMesh whole = test::make_raw_box(4, 3, 3, {0.08, 0.06, 0.06});
+  RawMesh shifted = glued;
+  for (std::size_t n = whole.positions.size(); n < shifted.positions.size(); ++n)
+    shifted.positions[n].y() += 5e-7;
+  for (const RawMesh& parts : {glued, shifted}) {
+    const CheckedMesh merged = check_mesh(parts, 1, 1e-6);
+    EXPECT_EQ(merged.mesh.positions, whole.positions);
+    EXPECT_EQ(merged.mesh.tetrahedra, check_mesh(whole, 1).mesh.tetrahedra);
+    EXPECT_EQ(merged.mesh.file_node_count, static_cast<std::int32_t>(parts.positions.size()));
+    ASSERT_EQ(merged.merged.size(), 16u);
+    EXPECT_EQ(merged.merged[0].dropped, static_cast<std::int32_t>(whole.positions.size()));
+    EXPECT_EQ(parts.positions[merged.merged[0].kept].x(), 0.04);
+    EXPECT_THAT(merged.warnings, testing::ElementsAre(HasSubstr("16 nodes were merged")));
+  }
+}
+
+TEST(CheckMesh, MergingNeverCollapsesATetrahedron) {
+  try {
+    check_mesh(glued_by_copying(), 1, 0.021);
+    FAIL() << "an edge of 20 mm is no rounding";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no farther apart than what is merged"));
+  }
+  for (const double wrong : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(check_mesh(glued_by_copying(), 1, wrong), InputError);
+}
+
 TEST(CheckMesh, RefusesPositionsAndNumbersThatAreNone) {
   RawMesh raw = test::make_raw_box(1, 1, 1, {1, 1, 1});
   raw.positions[3].y() = std::numeric_limits<double>::quiet_NaN();

@@ -1,362 +1,14 @@
-#include "geometry/tetra_mesh.h"
+#include "tests/geometry/written_meshes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
 
 #include <gmock/gmock.h>
-#include <zlib.h>
-
-#include <bit>
-#include <cstring>
-#include <functional>
 
 namespace omentum::geometry {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-// Files are put together here byte by byte from the formats' descriptions, by no code that the readers share.
-class Bytes {
- public:
-  template <class... Parts>
-  Bytes& text(const Parts&... parts) {
-    (add(parts), ...);
-    return *this;
-  }
-  template <class T>
-  Bytes& value(T value, std::endian order = std::endian::native) {
-    std::array<char, sizeof(T)> bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-    if (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
-    content.append(bytes.data(), bytes.size());
-    return *this;
-  }
-  std::string content;
-
- private:
-  void add(const std::string& part) { content += part; }
-  void add(const char* part) { content += part; }
-  void add(double part) {
-    std::array<char, 40> digits;
-    std::snprintf(digits.data(), digits.size(), " %.17g ", part);
-    content += digits.data();
-  }
-  void add(std::size_t part) { content += " " + std::to_string(part) + " "; }
-  void add(std::int32_t part) { content += " " + std::to_string(part) + " "; }
-};
-
-// Coordinates are sums of a few powers of two, so that single precision holds them too.
-RawMesh example() {
-  RawMesh raw = test::make_raw_box(2, 1, 2, {0.5, 0.25, 1});
-  for (Vec3& p : raw.positions) p += Vec3(-0.125, 2.5, 0);
-  return raw;
-}
-
-std::string gmsh_1(const RawMesh& m) {
-  Bytes out;
-  out.text("$NOD\n", m.positions.size(), "\n");
-  for (std::size_t i = 0; i < m.positions.size(); ++i) {
-    out.text(10 * i + 7, m.positions[i].x(), m.positions[i].y(), m.positions[i].z(),
-             "\n");  // numbers with gaps
-  }
-  out.text("$ENDNOD\n$ELM\n", m.tetrahedra.size() + 1, "\n1 2 1 1 3 7 17 27\n");  // a triangle, to be ignored
-  for (const auto& t : m.tetrahedra) {
-    out.text("5 4 1 1 4", 10 * t[0] + 7, 10 * t[1] + 7, 10 * t[2] + 7, 10 * t[3] + 7, "\n");
-  }
-  return out.text("$ENDELM\n").content;
-}
-
-std::string gmsh_2_text(const RawMesh& m) {
-  Bytes out;
-  out.text(
-      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"liver\"\n$EndPhysicalNames\n$Nodes\n",
-      m.positions.size(), "\r\n");
-  for (std::size_t i = 0; i < m.positions.size(); ++i) {
-    out.text(i + 1, m.positions[i].x(), m.positions[i].y(), m.positions[i].z(), "\r\n");
-  }
-  out.text("$EndNodes\n$Elements\n", m.tetrahedra.size() + 2, "\n1 15 2 0 1 1\n2 1 3 0 1 5 1 2\n");
-  for (const auto& t : m.tetrahedra) out.text("3 4 2 0 1", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1, "\n");
-  return out.text("$EndElements\n").content;
-}
-
-std::string gmsh_2_binary(const RawMesh& m) {
-  Bytes out;
-  out.text("$MeshFormat\n2.2 1 8\n")
-      .value<std::int32_t>(1)
-      .text("\n$EndMeshFormat\n$Nodes\n", m.positions.size(), "\n");
-  for (std::size_t i = 0; i < m.positions.size(); ++i) {
-    out.value(static_cast<std::int32_t>(i + 1))
-        .value(m.positions[i].x())
-        .value(m.positions[i].y())
-        .value(m.positions[i].z());
-  }
-  out.text("\n$EndNodes\n$Elements\n", m.tetrahedra.size() + 1, "\n");
-  for (const std::int32_t v : {2, 1, 2, 1, 0, 1, 1, 2, 3}) out.value(v);  // a group of one triangle
-  for (const std::int32_t v : {4, static_cast<std::int32_t>(m.tetrahedra.size()), 2}) out.value(v);
-  for (const auto& t : m.tetrahedra) {
-    for (const std::int32_t v : {9, 0, 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1}) out.value(v);
-  }
-  return out.text("\n$EndElements\n").content;
-}
-
-// Two node blocks, the second with parametric coordinates of a surface; one block of triangles, one of
-// tetrahedra.
-std::string gmsh_4_0_text(const RawMesh& m) {
-  const std::size_t n = m.positions.size(), half = n / 2;
-  Bytes out;
-  out.text("$MeshFormat\n4 0 8\n$EndMeshFormat\n$Nodes\n2 ", n, "\n1 3 0 ", half, "\n");
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i == half) out.text("1 2 1 ", n - half, "\n");
-    out.text(i + 1, m.positions[i].x(), m.positions[i].y(), m.positions[i].z(),
-             i < half ? "\n" : "0.5 0.5\n");
-  }
-  out.text("$EndNodes\n$Elements\n2 ", m.tetrahedra.size() + 1, "\n1 2 2 1\n1 1 2 3\n1 3 4 ",
-           m.tetrahedra.size(), "\n");
-  for (const auto& t : m.tetrahedra) out.text("2", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1, "\n");
-  return out.text("$EndElements\n").content;
-}
-
-std::string gmsh_4_1(const RawMesh& m, bool binary) {
-  const std::size_t n = m.positions.size(), half = n / 2;
-  Bytes out;
-  const auto integer = [&](std::int32_t v) { binary ? out.value(v) : out.text(v); };
-  const auto size = [&](std::size_t v) { binary ? out.value<std::uint64_t>(v) : out.text(v); };
-  const auto real = [&](double v) { binary ? out.value(v) : out.text(v); };
-  const auto sizes = [&](std::initializer_list<std::size_t> values) {
-    for (const std::size_t v : values) size(v);
-  };
-  out.text("$MeshFormat\n4.1 ", binary ? "1" : "0", " 8\n");
-  if (binary) out.value<std::int32_t>(1).text("\n");
-  out.text("$EndMeshFormat\n$Nodes\n");
-  sizes({2, n, 1, n});
-  for (const bool second : {false, true}) {
-    const std::size_t first = second ? half : 0, last = second ? n : half;
-    integer(second ? 2 : 3), integer(1), integer(second), size(last - first);
-    for (std::size_t i = first; i < last; ++i) size(i + 1);
-    for (std::size_t i = first; i < last; ++i) {
-      for (int k = 0; k < 3; ++k) real(m.positions[i][k]);
-      if (second) real(0.5), real(0.25);
-    }
-  }
-  out.text("\n$EndNodes\n$Elements\n");
-  sizes({2, m.tetrahedra.size() + 1, 1, m.tetrahedra.size() + 1});
-  integer(2), integer(1), integer(2), sizes({1, 1, 1, 2, 3});
-  integer(3), integer(1), integer(4), size(m.tetrahedra.size());
-  for (const auto& t : m.tetrahedra) {
-    size(77);
-    for (const std::int32_t v : t) size(static_cast<std::size_t>(v) + 1);
-  }
-  return out.text("\n$EndElements\n").content;
-}
-
-std::string vtk_text(const RawMesh& m) {
-  Bytes out;
-  out.text("# vtk DataFile Version 2.0\nexample\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ",
-           m.positions.size(), " double\n");
-  for (const Vec3& p : m.positions) out.text(p.x(), p.y(), p.z(), "\n");
-  out.text("\nCELLS ", m.tetrahedra.size() + 1, 5 * m.tetrahedra.size() + 4, "\n3 0 1 2\n");
-  for (const auto& t : m.tetrahedra) out.text("4", t[0], t[1], t[2], t[3], "\n");
-  out.text("CELL_TYPES ", m.tetrahedra.size() + 1, "\n5\n");
-  for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.text("10\n");
-  return out.text("CELL_DATA 1\nSCALARS x float 1\nLOOKUP_TABLE default\n0\n").content;
-}
-
-std::string vtk_binary(const RawMesh& m) {
-  constexpr auto big = std::endian::big;
-  Bytes out;
-  out.text("# vtk DataFile Version 3.0\nexample\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS ",
-           m.positions.size(), "float\n");
-  for (const Vec3& p : m.positions) {
-    for (int i = 0; i < 3; ++i) out.value(static_cast<float>(p[i]), big);
-  }
-  out.text("\nCELLS ", m.tetrahedra.size(), 5 * m.tetrahedra.size(), "\n");
-  for (const auto& t : m.tetrahedra) {
-    out.value<std::int32_t>(4, big);
-    for (const std::int32_t v : t) out.value(v, big);
-  }
-  out.text("\nCELL_TYPES ", m.tetrahedra.size(), "\n");
-  for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.value<std::int32_t>(10, big);
-  return out.text("\n").content;
-}
-
-// As VTK itself writes: a field before the points, and what it knows of an array's range behind them.
-std::string vtk_with_fields(const RawMesh& m, bool binary) {
-  std::string plain = binary ? vtk_binary(m) : vtk_text(m);
-  Bytes field;
-  field.text("FIELD FieldData 2\nTIME 1 1 double\n");
-  binary ? field.value(0.25, std::endian::big) : field.text(0.25);
-  field.text("\nlabels 2 3 int\n");
-  for (std::int32_t i = 0; i < 6; ++i) binary ? field.value(i, std::endian::big) : field.text(i);
-  plain.insert(plain.find("POINTS"), field.text("\n").content);
-  const std::string range =
-      "METADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0.5 CELLS \n\n";
-  return plain.insert(plain.find("\nCELLS") + 1, range);
-}
-
-std::string vtk_5_binary(const RawMesh& m) {
-  constexpr auto big = std::endian::big;
-  const std::size_t cells = m.tetrahedra.size();
-  Bytes out;
-  out.text("# vtk DataFile Version 5.1\nexample\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS ",
-           m.positions.size(), "double\n");
-  for (const Vec3& p : m.positions) {
-    for (int i = 0; i < 3; ++i) out.value(p[i], big);
-  }
-  out.text("\nCELLS ", cells + 1, 4 * cells, "\nOFFSETS vtktypeint64\n");
-  for (std::size_t t = 0; t <= cells; ++t) out.value(static_cast<std::int64_t>(4 * t), big);
-  out.text("\nCONNECTIVITY vtktypeint64\n");
-  for (const auto& t : m.tetrahedra) {
-    for (const std::int32_t v : t) out.value<std::int64_t>(v, big);
-  }
-  out.text("\nCELL_TYPES ", cells, "\n");
-  for (std::size_t t = 0; t < cells; ++t) out.value<std::int32_t>(10, big);
-  return out.text("\n").content;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k > bytes.size() - i ? '=' : kDigits[three >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
-
-// How the arrays of a .vtu are coded.
-struct VtuCoding {
-  std::string format;  // "binary" or "appended"
-  bool base64, zlib, wide_header;
-};
-
-std::string coded(const std::string& data, const VtuCoding& how) {
-  const auto word = [&](std::size_t v) {
-    return how.wide_header ? Bytes().value<std::uint64_t>(v).content
-                           : Bytes().value(static_cast<std::uint32_t>(v)).content;
-  };
-  const auto as_text = [&](const std::string& bytes) { return how.base64 ? base64(bytes) : bytes; };
-  if (!how.zlib) return as_text(word(data.size()) + data);
-  constexpr std::size_t kBlock = 200;  // so that there are several, the last one shorter
-  std::string header, blocks;
-  std::size_t count = 0;
-  for (std::size_t at = 0; at < data.size(); at += kBlock, ++count) {
-    const std::string block = data.substr(at, kBlock);
-    uLongf size = compressBound(block.size());
-    std::string packed(size, '\0');
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(block.data()),
-             block.size());
-    header += word(size);
-    blocks += packed.substr(0, size);
-  }
-  return as_text(word(count) + word(kBlock) + word(data.size() % kBlock) + header) + as_text(blocks);
-}
-
-std::string vtu(const RawMesh& m, const VtuCoding& how) {
-  Bytes points, nodes, ends, types;
-  for (const Vec3& p : m.positions) {
-    for (int i = 0; i < 3; ++i) points.value(static_cast<float>(p[i]));
-  }
-  for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) {
-    for (const std::int32_t v : m.tetrahedra[t]) nodes.value<std::int64_t>(v);
-    ends.value(static_cast<std::int32_t>(4 * t + 4));
-    types.value<std::uint8_t>(10);
-  }
-  std::string appended;
-  const auto array = [&](const std::string& attributes, const std::string& data) {
-    if (how.format == "binary")
-      return "<DataArray " + attributes + " format=\"binary\">\n" + coded(data, how) + "\n</DataArray>";
-    const std::string tag = "<DataArray " + attributes + " format=\"appended\" offset=\"" +
-                            std::to_string(appended.size()) + "\"/>";
-    appended += coded(data, how);
-    return tag;
-  };
-  Bytes out;
-  out.text(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" ",
-      how.wide_header ? "header_type=\"UInt64\"" : "",
-      how.zlib ? " compressor=\"vtkZLibDataCompressor\"" : "", "><UnstructuredGrid><Piece NumberOfPoints=\"",
-      std::to_string(m.positions.size()), "\" NumberOfCells=\"", std::to_string(m.tetrahedra.size()), "\">");
-  out.text("<Points>", array("type=\"Float32\" NumberOfComponents=\"3\"", points.content), "</Points>");
-  out.text("<Cells>", array("type=\"Int64\" Name=\"connectivity\"", nodes.content),
-           array("type=\"Int32\" Name=\"offsets\"", ends.content),
-           array("type=\"UInt8\" Name=\"types\"", types.content), "</Cells>");
-  out.text("</Piece></UnstructuredGrid>");
-  if (how.format == "appended") {
-    out.text("<AppendedData encoding=\"", how.base64 ? "base64" : "raw", "\">\n   _", appended,
-             "\n</AppendedData>");
-  }
-  return out.text("</VTKFile>\n").content;
-}
-
-std::string vtu_text(const RawMesh& m) {
-  Bytes out;
-  out.text("<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"",
-           std::to_string(m.positions.size()), "\" NumberOfCells=\"", std::to_string(m.tetrahedra.size()),
-           "\"><Points><DataArray type=\"Float64\" format=\"ascii\">");
-  for (const Vec3& p : m.positions) out.text(p.x(), p.y(), p.z(), "\n");
-  out.text("</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">");
-  for (const auto& t : m.tetrahedra) out.text(t[0], t[1], t[2], t[3], "\n");
-  out.text("</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">");
-  for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.text(4 * t + 4);
-  out.text("</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">");
-  for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.text("10 ");
-  return out.text("</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>").content;
-}
-
-struct Format {
-  const char* name;
-  const char* extension;
-  std::function<std::string(const RawMesh&)> write;
-};
-
-void PrintTo(const Format& format, std::ostream* out) {
-  *out << format.name;
-}
-
-const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {
-      {"Gmsh1", ".msh", gmsh_1},
-      {"Gmsh2Text", ".msh", gmsh_2_text},
-      {"Gmsh2Binary", ".msh", gmsh_2_binary},
-      {"Gmsh40Text", ".msh", gmsh_4_0_text},
-      {"Gmsh41Text", ".msh", [](const RawMesh& m) { return gmsh_4_1(m, false); }},
-      {"Gmsh41Binary", ".msh", [](const RawMesh& m) { return gmsh_4_1(m, true); }},
-      {"VtkText", ".vtk", vtk_text},
-      {"VtkBinary", ".vtk", vtk_binary},
-      {"VtkTextWithFields", ".vtk", [](const RawMesh& m) { return vtk_with_fields(m, false); }},
-      {"VtkBinaryWithFields", ".vtk", [](const RawMesh& m) { return vtk_with_fields(m, true); }},
-      {"Vtk5Binary", ".vtk", vtk_5_binary},
-      {"VtuText", ".vtu", vtu_text},
-      {"VtuBase64", ".vtu",
-       [](const RawMesh& m) {
-         return vtu(m, {"binary", true, false, false});
-       }},
-      {"VtuBase64WideHeader", ".vtu",
-       [](const RawMesh& m) {
-         return vtu(m, {"binary", true, false, true});
-       }},
-      {"VtuBase64Zlib", ".vtu",
-       [](const RawMesh& m) {
-         return vtu(m, {"binary", true, true, false});
-       }},
-      {"VtuAppendedRaw", ".vtu",
-       [](const RawMesh& m) {
-         return vtu(m, {"appended", false, false, true});
-       }},
-      {"VtuAppendedRawZlib", ".vtu",
-       [](const RawMesh& m) {
-         return vtu(m, {"appended", false, true, false});
-       }},
-      {"VtuAppendedBase64Zlib", ".vtu",
-       [](const RawMesh& m) {
-         return vtu(m, {"appended", true, true, true});
-       }},
-  };
-  return all;
-}
 
 std::filesystem::path put(const std::filesystem::path& file, const std::string& content) {
   std::ofstream(file, std::ios::binary) << content;
@@ -378,7 +30,7 @@ class MeshFormats : public testing::TestWithParam<Format> {
 };
 
 TEST_P(MeshFormats, HoldTheSameMesh) {
-  const RawMesh expected = example();
+  const RawMesh expected = example_mesh();
   const RawMesh read =
       read_mesh(put(folder_ / (std::string("m") + GetParam().extension), GetParam().write(expected)));
   EXPECT_EQ(read.positions, expected.positions);
@@ -388,7 +40,7 @@ TEST_P(MeshFormats, HoldTheSameMesh) {
 // Whatever is cut off or overwritten: an InputError that names the file, or a mesh; never a crash or another
 // exception.
 TEST_P(MeshFormats, DamagedFilesAreRefusedInOneLine) {
-  const std::string whole = GetParam().write(example());
+  const std::string whole = GetParam().write(example_mesh());
   const std::filesystem::path file = folder_ / (std::string("damaged") + GetParam().extension);
   const auto expect_one_line = [&](const std::string& content) {
     const std::string reason = refusal(put(file, content));
@@ -418,7 +70,7 @@ class MeshFiles : public testing::Test {
 };
 
 TEST_F(MeshFiles, TetgenCountsFromZeroOrOneAndIsFoundByEitherName) {
-  const RawMesh expected = example();
+  const RawMesh expected = example_mesh();
   for (const int first : {0, 1}) {
     Bytes nodes, elements;
     nodes.text("# a comment\n", expected.positions.size(), "3 1 1\n");
@@ -473,7 +125,7 @@ TEST_F(MeshFiles, MessagesNameFileLineAndExpectation) {
   EXPECT_THAT(refusal(put(folder_ / "twice.msh", "$NOD\n2\n1 0 0 0\n1 0 0 0\n$ENDNOD\n")),
               HasSubstr("node number 1 twice"));
   EXPECT_THAT(refusal(put(folder_ / "p.vtk", "# vtk DataFile Version 2.0\nx\nASCII\nDATASET POLYDATA\n")),
-              HasSubstr("p.vtk:4: found POLYDATA, expected UNSTRUCTURED_GRID"));
+              HasSubstr("p.vtk:4: found POLYDATA (a surface), expected UNSTRUCTURED_GRID"));
   EXPECT_THAT(refusal(put(folder_ / "x.vtu", "<VTKFile type=\"UnstructuredGrid\"")),
               HasSubstr("well-formed XML"));
   put(folder_ / "half.node", "1 3 0 0\n1 0 0 0\n");

@@ -69,6 +69,18 @@ TEST_F(SupportSpecTest, CsvListsNodesOfTheFile) {
   EXPECT_EQ(count(fixed, 0), 25);
 }
 
+TEST_F(SupportSpecTest, AMergedNodeHoldsTheOneThatTookItsPlace) {
+  geometry::RawMesh raw = test::make_raw_box(2, 2, 2, {2, 2, 2});
+  raw.positions.push_back(raw.positions[13]);
+  for (auto& node : raw.tetrahedra[0]) node = node == 13 ? 27 : node;
+  const geometry::CheckedMesh checked = geometry::check_mesh(raw, 1, 1e-6);
+  ASSERT_EQ(checked.merged.size(), 1u);
+  const std::vector<std::string> specs = {csv("27\n")};
+  const auto fixed = parse_supports(specs, checked.mesh, checked.merged);
+  EXPECT_EQ(fixed[13], physics::kPinned);
+  EXPECT_EQ(count(fixed, physics::kPinned), 1);
+}
+
 TEST_F(SupportSpecTest, ASpecThatHoldsNothingNamesTheExtent) {
   EXPECT_THAT(refusal("plane:x<-1"),
               AllOf(HasSubstr("plane:x<-1"), HasSubstr("x 0 .. 2"), HasSubstr("z 0 .. 2")));
