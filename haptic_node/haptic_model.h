@@ -74,8 +74,7 @@ struct PointMemory {
 
 struct ToolState {
   bool engaged = false;
-  bool appeared = false;  // in this tick, without moving there
-  bool let_go = false;    // a contact that carried force was dropped in this tick
+  bool let_go = false;  // a contact that carried force was dropped in this tick
   ToolFrame frame;
   Vec3 tip_way = Vec3::Zero();      // in this tick, m
   double pace_m = 0;                // the longest way of a point in a tick, lately

@@ -196,6 +196,29 @@ void surface_with_tools(HapticState& state, DeformedSurface& surface) {
   }
 }
 
+void go_to(const ToolModel& model, const ToolFrame& measured, ToolState& tool) {
+  tool.frame = model.trocar ? through_trocar(measured, *model.trocar) : measured;
+  std::swap(tool.before, tool.now);
+  for (std::size_t p = 0; p < tool.now.size(); ++p) tool.now[p] = to_world(tool.frame, model.points[p]);
+}
+
+void keep_pace(ToolState& tool) {
+  tool.pace_m *= kPaceKept;
+  for (std::size_t p = 0; p < tool.now.size(); ++p)
+    tool.pace_m = std::max(tool.pace_m, (tool.now[p] - tool.before[p]).norm());
+}
+
+// Where its points are is asked now; a tick later where the surface is still dented by the tool's own force:
+// there it would seem to be outside.
+void appear(ToolState& tool) {
+  tool.before = tool.now;
+  tool.pace_m = 0;
+  PointMemory unknown;
+  unknown.adrift = true;
+  unknown.ask_in = tool.let_go ? 2 : 1;
+  std::ranges::fill(tool.memory, unknown);
+}
+
 }  // namespace
 
 bool is_sound(const ToolInput& input) noexcept {
@@ -219,29 +242,20 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
     const ToolInput& input = inputs[i];
     const bool engaged = input.engaged && is_sound(input);
     const bool moved_here = engaged && tool.engaged && !input.relocated;
-    tool.let_go = false;
+    tool.let_go = !moved_here && state.energies[i].stored_j > 0;
     if (!moved_here) {
       end_grasp(state, index);
-      tool.let_go = state.energies[i].stored_j > 0;
       drop_contacts(state, [&](const ToolContact& contact) { return contact.tool == index; });
     }
     tool.engaged = engaged;
-    tool.appeared = engaged && !moved_here;
     if (!engaged) continue;
-    const auto& trocar = model.tools[i].trocar;
     const Vec3 tip = tool.frame.p_WT;
-    tool.frame = trocar ? through_trocar(input.frame, *trocar) : input.frame;
+    go_to(model.tools[i], input.frame, tool);
     tool.tip_way = moved_here ? Vec3(tool.frame.p_WT - tip) : Vec3::Zero();
-    std::swap(tool.before, tool.now);
-    for (std::size_t p = 0; p < tool.now.size(); ++p)
-      tool.now[p] = to_world(tool.frame, model.tools[i].points[p]);
-    tool.pace_m *= kPaceKept;
     if (moved_here) {
-      for (std::size_t p = 0; p < tool.now.size(); ++p)
-        tool.pace_m = std::max(tool.pace_m, (tool.now[p] - tool.before[p]).norm());
+      keep_pace(tool);
     } else {
-      tool.before = tool.now;
-      std::ranges::fill(tool.memory, PointMemory{});
+      appear(tool);
     }
     if (model.tools[i].grasps) follow_grip(state, index, input.grip, surface);
   }
@@ -298,8 +312,7 @@ void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept {
     Vec3 way_out = Vec3::Zero();
     for (std::size_t p = 0; p < tool.now.size(); ++p) {
       PointMemory& memory = tool.memory[p];
-      const bool asked = memory.ask_in > 0 && --memory.ask_in == 0;
-      if (!tool.appeared && !asked) continue;
+      if (memory.ask_in == 0 || --memory.ask_in > 0) continue;
       const auto inside = surface.immersion(tool.now[p], kDeepestAppearance_m);
       memory.adrift = inside.has_value();
       if (!inside || surface.normal(inside->nearest).dot(memory.way_out) < 0) continue;

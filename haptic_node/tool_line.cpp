@@ -124,6 +124,8 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
                                        bool paused) noexcept {
   SafetyInput input = known(output, now_ns, dt_s);
   input.paused = paused;
+  if (reconnected_) lead_.restart();
+  input.model = lead_.ahead(input.model, way_s_ > 0, input.tip);
   const SafeForce safe = pass(input);
 
   const HeardPose& heard = poses_.value();
@@ -175,6 +177,7 @@ const msg::ToolForce& ToolLine::to_send(std::uint64_t tick) noexcept {
 
 void ToolLine::restart() noexcept {
   safety_.restart();
+  lead_.restart();
 }
 
 msg::Echo ToolLine::echo() const noexcept {

@@ -4,6 +4,7 @@
 #include "haptic_node/device_book.h"
 #include "haptic_node/force_safety.h"
 #include "haptic_node/haptic_step.h"
+#include "haptic_node/hold_lead.h"
 #include "haptic_node/pose_guard.h"
 #include "haptic_node/pose_interval.h"
 #include "runtime/faults.h"
@@ -108,6 +109,7 @@ class ToolLine {
 
   // the loop's thread
   ForceSafety safety_;
+  HoldLead lead_;
   double max_stiffness_n_m_ = kUsualStiffness_n_m;
   bool engaged_ = false, told_ = false;
   bool reconnected_ = false;      // it appears where it is: a new connection, or after a silence
