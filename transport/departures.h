@@ -27,11 +27,12 @@ class Departures {
     std::erase(heard_, writer);
     left_.push_back(writer);
   }
-  /// The reader joins anew, and hears those that are still there anew.
-  void all_left() {
+  /// All that were heard or left, before the reader joins anew: a writer that it hears again is a new one.
+  std::vector<WriterId> take_all() {
     const std::lock_guard lock(mutex_);
     left_.insert(left_.end(), heard_.begin(), heard_.end());
     heard_.clear();
+    return std::exchange(left_, {});
   }
   /// Who left since the last call.
   std::vector<WriterId> take() {

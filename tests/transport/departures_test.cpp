@@ -22,8 +22,9 @@ TEST(Departures, EveryWriterLeavesOnceAndAllWhenTheReaderJoinsAnew) {
   departures.left(three);  // whose samples are still to be taken
   EXPECT_EQ(departures.take(), (std::vector<WriterId>{one, three}));
   EXPECT_TRUE(departures.take().empty());
-  departures.all_left();
-  EXPECT_EQ(departures.take(), std::vector<WriterId>{two});
+  departures.left(three);
+  EXPECT_EQ(departures.take_all(), (std::vector<WriterId>{three, two}));
+  EXPECT_TRUE(departures.take_all().empty());
 }
 
 using Pair = std::pair<Vendor, Vendor>;  // of the reader, of the writers

@@ -15,6 +15,12 @@ namespace {
 
 using test::eventually;
 
+/// The Bus' own readers are made so where nobody asks who wrote.
+template <class M>
+ByWriter<M> from_anybody(std::function<void(const M&)> on_sample) {
+  return {[callback = std::move(on_sample)](const M& sample, const WriterId&) { callback(sample); }, {}};
+}
+
 class RenewedParticipant : public testing::TestWithParam<Vendor> {
  protected:
   int domain = test::domain_of_test();
@@ -30,8 +36,8 @@ TEST_P(RenewedParticipant, SamplesGoOnBothWays) {
     force_writer->write({.seq = pose.seq});
   });
   const auto pose_writer = participant.writer<msg::ToolPose>();
-  const auto forces =
-      participant.reader<msg::ToolForce>([&](const msg::ToolForce& force) { back = force.seq; });
+  const auto forces = participant.reader(
+      from_anybody<msg::ToolForce>([&](const msg::ToolForce& force) { back = force.seq; }));
   std::uint64_t seq = 0;
   for (int turn = 0; turn < 3; ++turn) {
     const std::uint64_t before = seq;
@@ -65,16 +71,43 @@ TEST_P(RenewedParticipant, WhatIsDurableIsSaidAgainToLateJoiners) {
   EXPECT_EQ(infos->status().samples, 3U);
 }
 
+// Who left while nobody listened is not kept for ever; who is still there speaks again, and stays.
+TEST_P(RenewedParticipant, WritersHaveLeftAndComeBack) {
+  std::mutex mutex;
+  std::map<WriterId, double> there;
+  int left = 0, said = 0;
+  const auto reader =
+      participant.reader(ByWriter<msg::DeviceInfo>{[&](const msg::DeviceInfo& info, const WriterId& writer) {
+                                                     const std::lock_guard lock(mutex);
+                                                     there[writer] = info.max_force_n;
+                                                     ++said;
+                                                   },
+                                                   [&](const WriterId& writer) {
+                                                     const std::lock_guard lock(mutex);
+                                                     left += static_cast<int>(there.erase(writer));
+                                                   }});
+  const auto infos = partner->writer<msg::DeviceInfo>();
+  infos->write({.tool = 0, .max_force_n = 3});
+  for (int turn = 0; turn < 3; ++turn) {
+    EXPECT_TRUE(eventually([&] {
+      const std::lock_guard lock(mutex);
+      return said > turn && left == turn && there.size() == 1;
+    })) << "turn "
+        << turn;
+    EXPECT_TRUE(participant.renew());
+  }
+}
+
 TEST_P(RenewedParticipant, WritersAndReadersComeAndGoMeanwhile) {
   std::atomic<int> concurrent{0};
   std::atomic<bool> overlapped{false};
   std::atomic<std::uint64_t> arrived{0};
   const auto poses = partner->writer<msg::ToolPose>();
-  const auto reader = participant.reader<msg::ToolPose>([&](const msg::ToolPose&) {
+  const auto reader = participant.reader(from_anybody<msg::ToolPose>([&](const msg::ToolPose&) {
     overlapped = overlapped || ++concurrent > 1;
     ++arrived;
     --concurrent;
-  });
+  }));
   const auto forces = participant.writer<msg::ToolForce>();
   std::jthread writes([&](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -86,7 +119,7 @@ TEST_P(RenewedParticipant, WritersAndReadersComeAndGoMeanwhile) {
   });
   std::jthread comes_and_goes([&](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      const auto statuses = participant.reader<msg::NodeStatus>([](const msg::NodeStatus&) {});
+      const auto statuses = participant.reader(from_anybody<msg::NodeStatus>([](const msg::NodeStatus&) {}));
       (void)participant.writer<msg::NodeStatus>()->write({});
     }
   });

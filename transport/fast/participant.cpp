@@ -121,6 +121,8 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
     auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
     if (callbacks_.on_gone) mask << dds::StatusMask::subscription_matched();
+    if (callbacks_.on_gone)
+      for (const WriterId& writer : departures_.take_all()) callbacks_.on_gone(writer);
     arrivals_.open();
     dds::DataReader* reader = entities.subscriber->create_datareader(topic, reader_qos(spec), this, mask);
     if (!reader) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
@@ -132,7 +134,6 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     if (!reader_) return;
     reader_->set_listener(nullptr);
     arrivals_.close();
-    departures_.all_left();
     const std::lock_guard lock(mutex_);
     entities.subscriber->delete_datareader(reader_);
     reader_ = nullptr;
