@@ -203,10 +203,8 @@ class HandBench {
     const haptic::ToolOutput output = model_(seen_);
     const msg::ToolForce& force = line_.answer(output, now_ns_, dt_s, paused);
     if (now_s() > 0.5) received_.acted |= force.state;
-    const double asked_n = output.force.norm();
-    if (now_s() > 0.5 && asked_n > 0)
-      received_.smallest_share =
-          std::min(received_.smallest_share, node::to_vector(force.force).norm() / asked_n);
+    if (now_s() > 0.5 && !output.force.isZero(0))
+      received_.smallest_share = std::min(received_.smallest_share, line_.safety().share());
     if (!fresh && now_ns_ - answered_ns_ < 3 * kMs / 2) return;
     send();
   }

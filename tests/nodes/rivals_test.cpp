@@ -99,7 +99,9 @@ TEST(GoesBefore, OneOfTwoDoes) {
       for (const std::uint64_t instance : {1, 2000}) {
         const Claim mine{kOwn, one}, theirs{instance, other};
         EXPECT_NE(goes_before(mine, theirs), goes_before(theirs, mine));
-        if (one > other) EXPECT_TRUE(goes_before(mine, theirs)) << "whatever the clocks say";
+        if (one > other) {
+          EXPECT_TRUE(goes_before(mine, theirs)) << "whatever the clocks say";
+        }
       }
     }
   }

@@ -25,7 +25,9 @@ TEST(BlasKernels, AChoiceThatUsesTheUnitStands) {
 TEST(BlasKernels, WhatIsAskedForIsNeverAskedAgain) {
   for (const VectorUnit unit : kUnits) {
     const auto asked = better_blas_core(unit, "Prescott");
-    if (asked) EXPECT_FALSE(better_blas_core(unit, *asked)) << *asked;
+    if (asked) {
+      EXPECT_FALSE(better_blas_core(unit, *asked)) << *asked;
+    }
   }
 }
 
