@@ -1,6 +1,7 @@
 #include "haptic_node/haptic_step.h"
 
 #include "haptic_node/contact_work.h"
+#include "haptic_node/lost_contact.h"
 
 #include <algorithm>
 #include <cmath>

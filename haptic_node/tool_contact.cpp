@@ -1,5 +1,8 @@
 #include "haptic_node/tool_contact.h"
 
+#include "haptic_node/contact_list.h"
+#include "haptic_node/lost_contact.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +14,10 @@ namespace {
 constexpr double kGraspBelow_rad = 0.10;
 constexpr double kReleaseAbove_rad = 0.20;
 
+// Jaws close on what is not farther from them than this, m: a tenth of a voxel of the scans that organs come
+// from.
+constexpr double kGraspGap_m = 1e-4;
+
 // A point this near to the surface is in the contact problem, with an open gap, m: found only when it is
 // inside, it took over its neighbours' load in one tick (0.5 N in a dent of 8 mm). An open contact is kept up
 // to kReleaseGap_m, apart from it so that none comes and goes.
@@ -20,34 +27,13 @@ constexpr double kReleaseGap_m = 1.5e-3;
 // How far a point without room is looked around, m: this many times the room it had, and at least kNear_m. A
 // point that has 1 mm of room needs no look for the next 40 ticks at 25 mm/s.
 constexpr double kArmGrowth = 4;
-// A point may appear this deep, m: half a liver.
-constexpr double kDeepestAppearance_m = 0.06;
-constexpr double kUnknownDepth_m = std::numeric_limits<double>::infinity();
 // Rounding of positions, m.
 constexpr double kHair_m = 1e-6;
 
-// How far along the surface a contact that presses may be from its tool's point, m: a quarter of what the
-// place was moved (tissue under a deep press also moves sideways), between these. The upper bound is what a
-// tool may be away from all tissue and feel something.
-constexpr double kAstrayPart = 0.25;
-constexpr double kAstrayLeast_m = 2e-3;
-constexpr double kAstrayMost_m = 4.5e-3;
-// A tool beyond the far side that has less than this of the tissue before it is through: tissue squeezed to a
-// half is far beyond what a linear model can say, and it would draw the far side along for ever.
-constexpr double kThrough = 0.5;
-// A contact that holds a depth without force is asked where it is once in so many ticks.
-constexpr std::uint64_t kAskPeriod = 64;
 // A tool's pace outlives its motion by some ticks: devices slower than the loop rest between their poses.
 constexpr double kPaceKept = 0.9;
 // Farther from W's origin than any scene, m: floats there no longer tell a tenth of a millimetre.
 constexpr double kFarthest_m = 1000;
-
-template <class Predicate>
-void drop_contacts(HapticState& state, Predicate&& gone) {
-  const std::span<ToolContact> active = state.active();
-  const auto end = std::remove_if(active.begin(), active.end(), gone);
-  state.contact_count = static_cast<int>(end - active.begin());
-}
 
 void end_grasp(HapticState& state, std::int32_t tool) {
   state.tools[tool].grasping = false;
@@ -60,11 +46,11 @@ void begin_grasp(HapticState& state, std::int32_t tool, DeformedSurface& surface
   bool holds = false;
   for (ToolContact& contact : state.active()) {
     if (contact.tool != tool) continue;
+    // what is between jaw and tissue when they close stays there: no force comes from closing alone
+    contact.offset = at_the_surface(contact, state.tools[tool].before) - surface.position(contact.held);
+    if (contact.offset.dot(contact.normal) > kGraspGap_m) continue;
     holds = true;
     contact.grasped = true;
-    // what is between jaw and tissue when they close stays there: no force comes from closing alone
-    contact.offset = state.tools[tool].before[contact.point] - surface.position(contact.held) +
-                     contact.sunken_m * contact.normal;
   }
   if (!holds) return;
   state.tools[tool].grasping = true;
@@ -102,34 +88,6 @@ ToolContact* contact_of(HapticState& state, std::int32_t tool, std::int32_t poin
   return nullptr;
 }
 
-ToolContact& add_contact(HapticState& state, std::int32_t tool, std::int32_t point) {
-  ToolContact& contact = state.contacts[state.contact_count++];
-  contact = ToolContact{};
-  contact.tool = tool;
-  contact.point = point;
-  return contact;
-}
-
-// A tool's point as the contact sees it: less the depth that is no press.
-Vec3 at_the_surface(const ToolContact& contact, std::span<const Vec3> points) {
-  return points[contact.point] + contact.sunken_m * contact.normal;
-}
-
-// The contact's way from its material point to its tool's point of the last tick, whose forces made the
-// surface: along the surface it should be none.
-bool is_astray(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
-  const Vec3 held = surface.position(contact.held);
-  const Vec3 gap = at_the_surface(contact, tool.before) - held;
-  const double along = (gap - gap.dot(contact.normal) * contact.normal).norm();
-  const double moved = (held - surface.rest_position(contact.held)).norm();
-  return along > std::clamp(kAstrayPart * moved, kAstrayLeast_m, kAstrayMost_m);
-}
-
-double depth_of(const HapticState& state, const ToolContact& contact, DeformedSurface& surface) {
-  const Vec3& p = state.tools[contact.tool].now[contact.point];
-  return (surface.position(contact.held) - p).dot(contact.normal);
-}
-
 // The surface point that tool point p met on its way, if any. Whoever has more room than tool and surface
 // moved together met nothing.
 std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, DeformedSurface& surface) {
@@ -144,56 +102,6 @@ std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, Deformed
   if (met.touched || met.nearest) memory.adrift = false;
   room = met.touched ? 0 : met.clearance_m;
   return met.touched || met.clearance_m > kNear_m ? met.touched : met.nearest;
-}
-
-// Whether the tool's point has gone through the organ: beyond where its far side is at rest, while most of
-// the tissue before it is squeezed away. A lobe that bends away goes beyond as well, but keeps its thickness.
-bool is_through(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
-  const DeformedSurface::Ahead ahead =
-      surface.tissue_ahead(contact.held, at_the_surface(contact, tool.before));
-  return ahead.rest <= 0 && ahead.now < kThrough;
-}
-
-// What of a tool's depth is no press: as if the tool had moved out, along the mean normal of its points
-// inside, until its deepest one is at the surface. So it then feels deeper tissue as it would feel it from
-// outside. A point never holds less than its own depth, nor more than it held before.
-template <class Predicate>
-void sink(HapticState& state, DeformedSurface& surface, Predicate&& belongs) {
-  double deepest_m = 0;
-  Vec3 out = Vec3::Zero();
-  for (const ToolContact& contact : state.active()) {
-    if (!belongs(contact)) continue;
-    deepest_m = std::max(deepest_m, depth_of(state, contact, surface));
-    out += contact.normal;
-  }
-  out.normalize();
-  for (ToolContact& contact : state.active()) {
-    if (!belongs(contact)) continue;
-    const double own_m = std::max(0.0, depth_of(state, contact, surface));
-    contact.sunken_m = std::min(contact.sunken_m, std::max(own_m, deepest_m * contact.normal.dot(out)));
-  }
-}
-
-// Bit t: tool t presses.
-std::uint32_t pressing_tools(const HapticState& state) {
-  std::uint32_t tools = 0;
-  for (const ToolContact& contact : state.active()) tools |= std::uint32_t{contact.touches()} << contact.tool;
-  return tools;
-}
-
-// A tool that appeared inside and goes out takes the depth with it that is no press. Only once nothing pushes
-// it any more: what one point gave up while another still pressed would push later, with energy from nowhere.
-void surface_with_tools(HapticState& state, DeformedSurface& surface) {
-  const std::uint32_t pressing = pressing_tools(state);
-  std::uint32_t sunk = 0;
-  for (const ToolContact& contact : state.active())
-    sunk |= std::uint32_t{contact.sunken_m > 0} << contact.tool;
-  for (std::size_t i = 0; i < state.tools.size(); ++i) {
-    if (((sunk & ~pressing) >> i & 1) == 0) continue;
-    sink(state, surface, [i](const ToolContact& contact) {
-      return contact.tool == static_cast<std::int32_t>(i) && contact.sunken_m > 0;
-    });
-  }
 }
 
 void go_to(const ToolModel& model, const ToolFrame& measured, ToolState& tool) {
@@ -267,25 +175,6 @@ void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) 
   }
 }
 
-void leave_astray(HapticState& state, DeformedSurface& surface) noexcept {
-  const std::uint32_t pressing = pressing_tools(state);
-  std::uint64_t turn = state.ticks;
-  drop_contacts(state, [&](const ToolContact& contact) {
-    if (contact.grasped) return false;
-    ToolState& tool = state.tools[contact.tool];
-    PointMemory& memory = tool.memory[contact.point];
-    const bool idle = contact.sunken_m > 0 && (pressing >> contact.tool & 1) == 0;
-    const bool astray = is_astray(tool, contact, surface);
-    const bool through = contact.touches() && is_through(tool, contact, surface);
-    if (!astray && !through && !(idle && ++turn % kAskPeriod == 0)) return false;
-    memory.adrift = through;
-    memory.ask_in = !through && (contact.touches() || contact.sunken_m > 0) ? 2 : 0;
-    memory.way_out = contact.normal;
-    tool.let_go |= contact.touches();
-    return true;
-  });
-}
-
 void follow_surface(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept {
   for (ToolContact& contact : state.active()) {
     contact.slid_m = 0;
@@ -302,33 +191,6 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
     contact.slid_m = (surface.rest_position(contact.held) - held_before).norm();
   }
   surface_with_tools(state, surface);
-}
-
-void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept {
-  for (std::size_t i = 0; i < state.tools.size(); ++i) {
-    ToolState& tool = state.tools[i];
-    if (!tool.engaged) continue;
-    const int first = state.contact_count;
-    Vec3 way_out = Vec3::Zero();
-    for (std::size_t p = 0; p < tool.now.size(); ++p) {
-      PointMemory& memory = tool.memory[p];
-      if (memory.ask_in == 0 || --memory.ask_in > 0) continue;
-      const auto inside = surface.immersion(tool.now[p], kDeepestAppearance_m);
-      memory.adrift = inside.has_value();
-      if (!inside || surface.normal(inside->nearest).dot(memory.way_out) < 0) continue;
-      ToolContact& contact = add_contact(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
-      contact.held = inside->nearest;
-      contact.normal = surface.normal(contact.held);
-      contact.sunken_m = kUnknownDepth_m;
-      way_out += contact.normal;
-    }
-    if (state.contact_count == first) continue;
-    int index = 0;
-    drop_contacts(state, [&](const ToolContact& contact) {
-      return index++ >= first && (contact.normal.dot(way_out) <= 0 || depth_of(state, contact, surface) <= 0);
-    });
-    sink(state, surface, [](const ToolContact& contact) { return contact.sunken_m == kUnknownDepth_m; });
-  }
 }
 
 void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {

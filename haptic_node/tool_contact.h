@@ -32,14 +32,6 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
 /// Makes the neighbourhood of every tool's path exact.
 void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) noexcept;
 
-/// Lets go of contacts whose material point is no longer where the tool is. One that slides keeps up with its
-/// point; sliding goes from triangle to triangle, though, and the point may be on another side by then (it
-/// went through a lobe, around a border, or far in one tick). Where such points are is asked anew by
-/// meet_appeared in the next tick, whose surface is without their force. Contacts that hold a depth without
-/// force are asked by turns whether the surface point nearest to them is still theirs. A point that has gone
-/// through the organ (tissue_left) holds nothing until it comes in again.
-void leave_astray(HapticState& state, DeformedSurface& surface) noexcept;
-
 /// Moves the material points of contacts that slide to the nearest point of the deformed surface, and renews
 /// normals.
 void follow_surface(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept;
@@ -48,13 +40,6 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
 /// on their way (swept segment against every triangle in the buckets that it crosses), or that are so near
 /// that the next tick may press them: who is in the problem before it touches begins at zero.
 void find_contacts(HapticState& state, DeformedSurface& surface) noexcept;
-
-/// Points that are inside the organ without having come there by moving (a device or node that was started
-/// again, or a contact that went astray): each holds the nearest surface point from where it is. It is not
-/// pushed out, is held back from going deeper at once, may leave freely, and outside is a point like any
-/// other. What of a tool's points would leave through another side of the organ than most holds nothing until
-/// it left.
-void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept;
 
 /// Lets go of contacts without force that are open by more than a hair.
 void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept;

@@ -1,0 +1,38 @@
+// What the files that find, follow and lose contacts do to the list of them.
+#pragma once
+
+#include "haptic_node/haptic_model.h"
+
+#include <algorithm>
+
+namespace omentum::haptic {
+
+/// Takes contacts out of the list; the others keep their order. `gone` is asked once for each, in order.
+template <class Predicate>
+void drop_contacts(HapticState& state, Predicate&& gone) {
+  const std::span<ToolContact> active = state.active();
+  const auto end = std::remove_if(active.begin(), active.end(), gone);
+  state.contact_count = static_cast<int>(end - active.begin());
+}
+
+/// There is room for every point of every tool (require_solvable).
+inline ToolContact& add_contact(HapticState& state, std::int32_t tool, std::int32_t point) {
+  ToolContact& contact = state.contacts[state.contact_count++];
+  contact = ToolContact{};
+  contact.tool = tool;
+  contact.point = point;
+  return contact;
+}
+
+/// A tool's point as the contact sees it: less the depth that is no press.
+inline Vec3 at_the_surface(const ToolContact& contact, std::span<const Vec3> points) {
+  return points[contact.point] + contact.sunken_m * contact.normal;
+}
+
+/// How deep the tool's point is below its material point, along the normal, m.
+inline double depth_of(const HapticState& state, const ToolContact& contact, DeformedSurface& surface) {
+  const Vec3& p = state.tools[contact.tool].now[contact.point];
+  return (surface.position(contact.held) - p).dot(contact.normal);
+}
+
+}  // namespace omentum::haptic

@@ -1,0 +1,131 @@
+#include "haptic_node/lost_contact.h"
+
+#include "haptic_node/contact_list.h"
+
+#include <limits>
+
+namespace omentum::haptic {
+namespace {
+
+// A point may appear this deep, m: half a liver.
+constexpr double kDeepestAppearance_m = 0.06;
+constexpr double kUnknownDepth_m = std::numeric_limits<double>::infinity();
+// How far along the surface a contact that presses may be from its tool's point, m: a quarter of what the
+// place was moved (tissue under a deep press also moves sideways), between these. The upper bound is what a
+// tool may be away from all tissue and feel something.
+constexpr double kAstrayPart = 0.25;
+constexpr double kAstrayLeast_m = 2e-3;
+constexpr double kAstrayMost_m = 4.5e-3;
+// A tool beyond the far side that has less than this of the tissue before it is through: tissue squeezed to a
+// half is far beyond what a linear model can say, and it would draw the far side along for ever.
+constexpr double kThrough = 0.5;
+// A contact that holds a depth without force is asked where it is once in so many ticks.
+constexpr std::uint64_t kAskPeriod = 64;
+
+// The contact's way from its material point to its tool's point of the last tick, whose forces made the
+// surface: along the surface it should be none.
+bool is_astray(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
+  const Vec3 held = surface.position(contact.held);
+  const Vec3 gap = at_the_surface(contact, tool.before) - held;
+  const double along = (gap - gap.dot(contact.normal) * contact.normal).norm();
+  const double moved = (held - surface.rest_position(contact.held)).norm();
+  return along > std::clamp(kAstrayPart * moved, kAstrayLeast_m, kAstrayMost_m);
+}
+
+// Whether the tool's point has gone through the organ: beyond where its far side is at rest, while most of
+// the tissue before it is squeezed away. A lobe that bends away goes beyond as well, but keeps its thickness.
+bool is_through(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
+  const DeformedSurface::Ahead ahead =
+      surface.tissue_ahead(contact.held, at_the_surface(contact, tool.before));
+  return ahead.rest <= 0 && ahead.now < kThrough;
+}
+
+// What of a tool's depth is no press: as if the tool had moved out, along the mean normal of its points
+// inside, until its deepest one is at the surface. So it then feels deeper tissue as it would feel it from
+// outside. A point never holds less than its own depth, nor more than it held before.
+template <class Predicate>
+void sink(HapticState& state, DeformedSurface& surface, Predicate&& belongs) {
+  double deepest_m = 0;
+  Vec3 out = Vec3::Zero();
+  for (const ToolContact& contact : state.active()) {
+    if (!belongs(contact)) continue;
+    deepest_m = std::max(deepest_m, depth_of(state, contact, surface));
+    out += contact.normal;
+  }
+  out.normalize();
+  for (ToolContact& contact : state.active()) {
+    if (!belongs(contact)) continue;
+    const double own_m = std::max(0.0, depth_of(state, contact, surface));
+    contact.sunken_m = std::min(contact.sunken_m, std::max(own_m, deepest_m * contact.normal.dot(out)));
+  }
+}
+
+// Bit t: tool t presses.
+std::uint32_t pressing_tools(const HapticState& state) {
+  std::uint32_t tools = 0;
+  for (const ToolContact& contact : state.active()) tools |= std::uint32_t{contact.touches()} << contact.tool;
+  return tools;
+}
+
+}  // namespace
+
+void leave_astray(HapticState& state, DeformedSurface& surface) noexcept {
+  const std::uint32_t pressing = pressing_tools(state);
+  std::uint64_t turn = state.ticks;
+  drop_contacts(state, [&](const ToolContact& contact) {
+    if (contact.grasped) return false;
+    ToolState& tool = state.tools[contact.tool];
+    PointMemory& memory = tool.memory[contact.point];
+    const bool idle = contact.sunken_m > 0 && (pressing >> contact.tool & 1) == 0;
+    const bool astray = is_astray(tool, contact, surface);
+    const bool through = contact.touches() && is_through(tool, contact, surface);
+    if (!astray && !through && !(idle && ++turn % kAskPeriod == 0)) return false;
+    memory.adrift = through;
+    memory.ask_in = !through && (contact.touches() || contact.sunken_m > 0) ? 2 : 0;
+    memory.way_out = contact.normal;
+    tool.let_go |= contact.touches();
+    return true;
+  });
+}
+
+void surface_with_tools(HapticState& state, DeformedSurface& surface) noexcept {
+  const std::uint32_t pressing = pressing_tools(state);
+  std::uint32_t sunk = 0;
+  for (const ToolContact& contact : state.active())
+    sunk |= std::uint32_t{contact.sunken_m > 0} << contact.tool;
+  for (std::size_t i = 0; i < state.tools.size(); ++i) {
+    if (((sunk & ~pressing) >> i & 1) == 0) continue;
+    sink(state, surface, [i](const ToolContact& contact) {
+      return contact.tool == static_cast<std::int32_t>(i) && contact.sunken_m > 0;
+    });
+  }
+}
+
+void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept {
+  for (std::size_t i = 0; i < state.tools.size(); ++i) {
+    ToolState& tool = state.tools[i];
+    if (!tool.engaged) continue;
+    const int first = state.contact_count;
+    Vec3 way_out = Vec3::Zero();
+    for (std::size_t p = 0; p < tool.now.size(); ++p) {
+      PointMemory& memory = tool.memory[p];
+      if (memory.ask_in == 0 || --memory.ask_in > 0) continue;
+      const auto inside = surface.immersion(tool.now[p], kDeepestAppearance_m);
+      memory.adrift = inside.has_value();
+      if (!inside || surface.normal(inside->nearest).dot(memory.way_out) < 0) continue;
+      ToolContact& contact = add_contact(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
+      contact.held = inside->nearest;
+      contact.normal = surface.normal(contact.held);
+      contact.sunken_m = kUnknownDepth_m;
+      way_out += contact.normal;
+    }
+    if (state.contact_count == first) continue;
+    int index = 0;
+    drop_contacts(state, [&](const ToolContact& contact) {
+      return index++ >= first && (contact.normal.dot(way_out) <= 0 || depth_of(state, contact, surface) <= 0);
+    });
+    sink(state, surface, [](const ToolContact& contact) { return contact.sunken_m == kUnknownDepth_m; });
+  }
+}
+
+}  // namespace omentum::haptic
