@@ -20,6 +20,12 @@ void turn_heading(Vec3& heading, const Vec3& way, const Vec3& push) {
   if (length > 1) heading /= length;
 }
 
+// A push over a depth holds half of their product.
+double most_share(const ContactWork& work) {
+  const double depth_m = 2 * work.stored_j / work.push.norm();
+  return std::min(kMaxShare, 1 + kMostAbove_m / depth_m);
+}
+
 // Energy that came or went with material points that moved.
 double unpaid(std::span<const ContactEnergy> tools, std::span<const ContactWork> works) {
   double sum = 0;
@@ -46,7 +52,7 @@ void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works,
       const double own_j = slid > 0 ? unpaid_j * work.slid / slid : 0;
       const Vec3 way = along_surface(work.way, work.push);
       const double held_j = tool.share * (work.stored_j - own_j) - tool.side.dot(way);
-      tool.share = std::clamp(held_j / work.stored_j, 0.0, kMaxShare);
+      tool.share = std::clamp(held_j / work.stored_j, 0.0, most_share(work));
       turn_heading(tool.heading, way, work.push);
     }
     tool.stored_j = work.stored_j;

@@ -31,6 +31,10 @@ struct ContactWork {
 /// pushed by more than this many times the tissue's own reaction.
 inline constexpr double kMaxShare = 2;
 
+/// How far a tool may be above the tissue that it presses, m: with a share above one the dent is deeper than
+/// the tool is in it. Energy beyond is let go of.
+inline constexpr double kMostAbove_m = 4e-3;
+
 /// Over which way along the surface the share returns to one, m: the side force that does it stays below a
 /// tenth of the push in a dent of 6 mm, and what a press felt like elsewhere is forgotten three fingers away.
 inline constexpr double kForget_m = 0.04;
@@ -52,7 +56,9 @@ inline constexpr double kNoEnergy_j = 1e-12;
 /// where one slides, E changes by M without work, and kappa with it:
 ///     kappa' = kappa (E' - M) / E',   M = E' - E - put_in + rubbed.
 /// Every closed path then has no net energy, the force reaches zero where the model's does, and over a
-/// surface at constant depth it is constant. What the tissue does is untouched: kappa is the hand's alone.
+/// surface at constant depth it is constant. On the wire the tissue bears what the hand feels (its dent is
+/// kappa times as deep as the tool is in it: as if kappa's difference from one were a spring between the
+/// two).
 ///
 /// A place that differs for good (stiffer near a support) is paid for along the way: a force against the
 /// heading, (1 - kappa) E / kForget_m, brings kappa back to one; its work is in the account.

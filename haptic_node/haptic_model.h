@@ -56,7 +56,7 @@ struct ToolContact {
   bool touches() const { return !force.isZero(0); }
 };
 
-/// A force on a surface node, by one tool.
+/// A force on a surface node, by one tool: opposite to what the hand feels of it.
 struct NodeForce {
   SurfaceId node;
   std::int32_t tool;

@@ -154,6 +154,20 @@ void stop(HapticState& state, std::span<ToolOutput> outputs) {
   let_go_of_everything(state);
 }
 
+// What leaves is equal and opposite: on its nodes the tissue bears what the hands feel, the side force shared
+// like the push. Collision goes on with the model's own dent, in which the tool's points lie on the surface.
+void answer_the_hands(HapticState& state) {
+  std::array<double, physics::kMaxContacts> pushes{};
+  const std::span<NodeForce> forces(state.node_forces.data(),
+                                    static_cast<std::size_t>(state.node_force_count));
+  for (const NodeForce& entry : forces) pushes[entry.tool] += entry.force.norm();
+  for (NodeForce& entry : forces) {
+    const ContactEnergy& energy = state.energies[entry.tool];
+    const double push = entry.force.norm();
+    if (push > 0) entry.force = energy.share * entry.force - push / pushes[entry.tool] * energy.side;
+  }
+}
+
 bool anyone_let_go(const HapticState& state) {
   return std::ranges::any_of(state.tools, [](const ToolState& tool) { return tool.let_go; });
 }
@@ -216,6 +230,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   for (const ToolOutput& output : outputs) result.contacts += output.touching;
   release_contacts(state, {gaps.data(), static_cast<std::size_t>(state.contact_count)});
   result.nodes = hand_over_forces(state, work.surface);
+  answer_the_hands(state);
   return result;
 }
 

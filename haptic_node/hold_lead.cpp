@@ -1,30 +1,30 @@
 #include "haptic_node/hold_lead.h"
 
+#include <algorithm>
+
 namespace omentum::haptic {
 namespace {
 
-Vec3 half_of(const Vec3& change, const Vec3& whole) {
-  const double length = change.norm(), most = whole.norm();
-  return length > most ? Vec3(0.5 * most / length * change) : Vec3(0.5 * change);
+// Half of it, shortened to `most`.
+Vec3 half(const Vec3& way, double most) {
+  const double length = 0.5 * way.norm();
+  return length > most ? Vec3(most / way.norm() * way) : Vec3(0.5 * way);
 }
 
 }  // namespace
 
-Wrench HoldLead::ahead(const Wrench& model, bool new_pose, const Vec3& tip) noexcept {
-  if (new_pose) {
-    const bool moves = known_ && (tip - tip_).norm() > kResting_m;
-    lead_ = {};
-    if (moves) {
-      lead_ = {half_of(model.force - answered_.force, model.force),
-               half_of(model.torque - answered_.torque, model.torque)};
-    }
-    known_ = true;
-    tip_ = tip;
-    answered_ = model;
+ToolFrame HoldLead::ahead(const ToolFrame& measured, bool new_pose) noexcept {
+  if (!new_pose && known_) return ahead_;
+  ahead_ = measured;
+  if (known_) {
+    ahead_.p_WT += half(measured.p_WT - measured_.p_WT, kMost_m);
+    const Vec3 turn = half(rotation_between(measured_.q_WT, measured.q_WT), kMost_rad);
+    const double angle = turn.norm();
+    if (angle > 0) ahead_.q_WT = (Eigen::AngleAxisd(angle, turn / angle) * measured.q_WT).normalized();
   }
-  // contact that ended between two poses has no force to add to
-  if (model.force.isZero(0)) return model;
-  return {model.force + lead_.force, model.torque + lead_.torque};
+  known_ = true;
+  measured_ = measured;
+  return ahead_;
 }
 
 }  // namespace omentum::haptic

@@ -3,6 +3,7 @@
 #include "haptic_node/contact_list.h"
 
 #include <limits>
+#include <numeric>
 
 namespace omentum::haptic {
 namespace {
@@ -19,6 +20,11 @@ constexpr double kAstrayMost_m = 4.5e-3;
 // A tool beyond the far side that has less than this of the tissue before it is through: tissue squeezed to a
 // half is far beyond what a linear model can say, and it would draw the far side along for ever.
 constexpr double kThrough = 0.5;
+// Normals of two contacts of one tool that point against each other, as a cosine, and how far beyond the
+// tool's middle, in its radii, a contact pushes what should lie in the tissue: tissue that holds a tip from
+// both sides lies around it, not in it.
+constexpr double kOpposed = -0.5;
+constexpr double kBehind = 0.6;
 // A contact that holds a depth without force is asked where it is once in so many ticks.
 constexpr std::uint64_t kAskPeriod = 64;
 
@@ -38,6 +44,23 @@ bool is_through(const ToolState& tool, const ToolContact& contact, DeformedSurfa
   const DeformedSurface::Ahead ahead =
       surface.tissue_ahead(contact.held, at_the_surface(contact, tool.before));
   return ahead.rest <= 0 && ahead.now < kThrough;
+}
+
+// Whether another point of the tool is pushed the other way.
+bool is_opposed(const HapticState& state, const ToolContact& contact) {
+  return std::ranges::any_of(state.active(), [&](const ToolContact& other) {
+    return other.tool == contact.tool && other.touches() && other.normal.dot(contact.normal) < kOpposed;
+  });
+}
+
+// Whether the tissue that touches the tool's point would have the tool's middle inside: a side that was drawn
+// through the other one.
+bool is_behind(const ToolState& tool, const ToolContact& contact) {
+  const double points = static_cast<double>(tool.before.size());
+  const Vec3 middle = std::accumulate(tool.before.begin(), tool.before.end(), Vec3(0, 0, 0)) / points;
+  double radius_m = 0;
+  for (const Vec3& p : tool.before) radius_m = std::max(radius_m, (p - middle).norm());
+  return (tool.before[contact.point] - middle).dot(contact.normal) > kBehind * radius_m;
 }
 
 // What of a tool's depth is no press: as if the tool had moved out, along the mean normal of its points
@@ -72,20 +95,25 @@ std::uint32_t pressing_tools(const HapticState& state) {
 void leave_astray(HapticState& state, DeformedSurface& surface) noexcept {
   const std::uint32_t pressing = pressing_tools(state);
   std::uint64_t turn = state.ticks;
-  drop_contacts(state, [&](const ToolContact& contact) {
-    if (contact.grasped) return false;
+  std::array<bool, physics::kMaxContacts> left{};
+  for (std::size_t i = 0; i < state.active().size(); ++i) {
+    const ToolContact& contact = state.contacts[i];
+    if (contact.grasped) continue;
     ToolState& tool = state.tools[contact.tool];
-    PointMemory& memory = tool.memory[contact.point];
     const bool idle = contact.sunken_m > 0 && (pressing >> contact.tool & 1) == 0;
-    const bool astray = is_astray(tool, contact, surface);
-    const bool through = contact.touches() && is_through(tool, contact, surface);
-    if (!astray && !through && !(idle && ++turn % kAskPeriod == 0)) return false;
+    const bool through = contact.touches() && (is_through(tool, contact, surface) ||
+                                               (is_opposed(state, contact) && is_behind(tool, contact)));
+    const bool to_ask = is_astray(tool, contact, surface) || (idle && ++turn % kAskPeriod == 0);
+    if (!through && !to_ask) continue;
+    left[i] = true;
+    PointMemory& memory = tool.memory[contact.point];
     memory.adrift = through;
     memory.ask_in = !through && (contact.touches() || contact.sunken_m > 0) ? 2 : 0;
     memory.way_out = contact.normal;
     tool.let_go |= contact.touches();
-    return true;
-  });
+  }
+  std::size_t i = 0;
+  drop_contacts(state, [&](const ToolContact&) { return left[i++]; });
 }
 
 void surface_with_tools(HapticState& state, DeformedSurface& surface) noexcept {

@@ -94,8 +94,9 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
   const std::int64_t age_ns = now_ns - heard.arrival_ns;
   engaged_ = heard.connection > 0 && age_ns < silence;
   told_ = heard.connection > 0 && age_ns < kForget_ns;
+  if (reconnected_) lead_.restart();
   // a tool that appears lets go first: in the dent of its own last force it would seem to be outside
-  input = {engaged_ && !reconnected_, reconnected_, frame_of(heard.pose), heard.pose.grip,
+  input = {engaged_ && !reconnected_, reconnected_, lead_.ahead(frame_of(heard.pose), fresh), heard.pose.grip,
            max_stiffness_n_m_};
   return fresh;
 }
@@ -124,8 +125,6 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
                                        bool paused) noexcept {
   SafetyInput input = known(output, now_ns, dt_s);
   input.paused = paused;
-  if (reconnected_) lead_.restart();
-  input.model = lead_.ahead(input.model, way_s_ > 0, input.tip);
   const SafeForce safe = pass(input);
 
   const HeardPose& heard = poses_.value();

@@ -177,7 +177,7 @@ TEST(HandEnergy, IsBoundedWhateverIsLost) {
 // A write that failed and a pose without an answer leave the force before: held, then decayed. The node's
 // account must not think better of it than the hand does.
 TEST(HandEnergy, TheNodesAccountIsNoBetterThanWhatTheHandReceived) {
-  constexpr double kSlack_j = 0.45e-3;  // ways that the last poses began, by forces that lead by a half
+  constexpr double kSlack_j = 0.45e-3;  // ways that the last poses began, answered for half a way ahead
   for (const Wire& wire :
        {Wire{}, Wire{.writes_failed = 0.5}, Wire{.writes_failed = 0.9}, Wire{.poses_lost = 0.5},
         Wire{.poses_lost = 0.9}, Wire{.poses_lost = 0.5, .writes_failed = 0.5}}) {

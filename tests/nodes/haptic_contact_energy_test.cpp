@@ -22,7 +22,7 @@ constexpr double kQuadrature = 1e-3;
 // A point on a frictionless flat whose stiffness changes along x, as a mesh's does from node to face.
 class BumpyFlat {
  public:
-  static double stiffness(double x) { return 500 * (1 + 0.4 * std::sin(2 * std::numbers::pi * x / 0.008)); }
+  static double stiffness(double x) { return 500 * (1 + 0.15 * std::sin(2 * std::numbers::pi * x / 0.008)); }
   static double push(const Vec3& tip) { return stiffness(tip.x()) * std::max(0.0, -tip.z()); }
 
   Vec3 felt() const { return energy_[0].share * Vec3(0, 0, push(tip_)) + energy_[0].side; }
@@ -90,7 +90,7 @@ TEST(ContactEnergy, AHandThatRubsInLoopsIsFedByNone) {
     flat.move_to({0, 0, -0.003});
     ASSERT_LE(flat.given_j(), 0) << "turn " << turn;
   }
-  EXPECT_GT(flat.energy().share, 0.5) << "and the tissue is not rubbed away";
+  EXPECT_GT(flat.energy().share, 0.7) << "and the tissue is not rubbed away";
 }
 
 TEST(ContactEnergy, AcrossASurfaceTheShareReturnsToOne) {
@@ -111,6 +111,7 @@ TEST(ContactEnergy, AnothersSlideIsNoGainOfARestingTool) {
   std::array<ContactEnergy, 2> tools;
   std::array<ContactWork, 2> works;
   works[0].stored_j = works[1].stored_j = 1e-3;
+  works[0].push = works[1].push = Vec3(0, 0, -0.5);
   balance(tools, works, false);
   // the first tool slides onto softer tissue, and both hold less than before
   works[0].slid = 1e-4;

@@ -23,10 +23,7 @@ class HapticNodeTest : public ::testing::TestWithParam<std::pair<std::string, tr
   NodeBench bench_{block_, GetParam().first, GetParam().second};
 };
 
-// The hand feels its share of what the tissue bears (haptic_node/contact_energy.h): the same way, and near to
-// one where it was pressed straight down.
 TEST_P(HapticNodeTest, PressedTissueAnswersAndItsContactSumsUpToTheForce) {
-  constexpr double kShare = 0.25, kSide = 0.1;
   ASSERT_TRUE(bench_.press()) << bench_.node().messages();
   // a contact and a force of the same tick
   ASSERT_TRUE(bench_.hold(NodeBench::kPressed, [&] {
@@ -35,9 +32,7 @@ TEST_P(HapticNodeTest, PressedTissueAnswersAndItsContactSumsUpToTheForce) {
     if (!contact || contact->tick != force->tick || contact->nodes.empty()) return false;
     Vec3 sum = Vec3::Zero();
     for (const msg::Vec3& f : contact->forces) sum += vector(f);
-    const Vec3 felt = vector(force->force);
-    EXPECT_NEAR(felt.norm(), sum.norm(), kShare * sum.norm());
-    EXPECT_LE((felt / felt.norm() + sum / sum.norm()).norm(), kSide);
+    EXPECT_LE((sum + vector(force->force)).norm(), kRelative * sum.norm());
     EXPECT_EQ(contact->cause.seq, force->echo_seq);
     EXPECT_EQ(contact->displacements.size(), contact->nodes.size());
     return true;
