@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace omentum::haptic {
 namespace {
@@ -21,26 +22,19 @@ void turn_heading(Vec3& heading, const Vec3& way, const Vec3& push) {
 }
 
 // A push over a depth holds half of their product.
-double most_share(const ContactWork& work) {
-  const double depth_m = 2 * work.stored_j / work.push.norm();
-  return std::min(kMaxShare, 1 + kMostAbove_m / depth_m);
+double depth_of(const ContactWork& work) {
+  return 2 * work.stored_j / work.push.norm();
 }
 
 // Energy that came or went with material points that moved.
-double unpaid(std::span<const ContactEnergy> tools, std::span<const ContactWork> works) {
-  double sum = 0;
-  for (std::size_t t = 0; t < tools.size(); ++t)
-    sum += works[t].stored_j - tools[t].stored_j - works[t].put_in_j + works[t].rubbed_j;
-  return sum;
+double unpaid(const ContactEnergy& tool, const ContactWork& work) {
+  return work.stored_j - tool.stored_j - work.put_in_j - work.exchanged_j + work.rubbed_j;
 }
 
 }  // namespace
 
 void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept {
   assert(tools.size() == works.size());
-  double slid = 0;
-  for (const ContactWork& work : works) slid += work.slid;
-  const double unpaid_j = let_go || slid <= 0 ? 0 : unpaid(tools, works);
   for (std::size_t t = 0; t < tools.size(); ++t) {
     ContactEnergy& tool = tools[t];
     const ContactWork& work = works[t];
@@ -49,10 +43,11 @@ void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works,
       continue;
     }
     if (tool.stored_j >= kNoEnergy_j) {
-      const double own_j = slid > 0 ? unpaid_j * work.slid / slid : 0;
+      const double depth_m = depth_of(work);
+      const double unpaid_j = let_go ? 0 : unpaid(tool, work) / (1 + std::pow(kShallow_m / depth_m, 4));
       const Vec3 way = along_surface(work.way, work.push);
-      const double held_j = tool.share * (work.stored_j - own_j) - tool.side.dot(way);
-      tool.share = std::clamp(held_j / work.stored_j, 0.0, most_share(work));
+      const double held_j = tool.share * (work.stored_j - unpaid_j) - tool.side.dot(way);
+      tool.share = std::clamp(held_j / work.stored_j, 0.0, std::min(kMaxShare, 1 + kMostAbove_m / depth_m));
       turn_heading(tool.heading, way, work.push);
     }
     tool.stored_j = work.stored_j;

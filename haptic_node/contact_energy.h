@@ -22,7 +22,7 @@ struct ContactWork {
   double stored_j = 0;       // E after the solve
   double put_in_j = 0;       // work that moving the tool against these forces took (trapezoidal rule)
   double rubbed_j = 0;       // of it, what friction turned into heat
-  double slid = 0;           // how far material points moved along the surface, weighed by their force, N m
+  double exchanged_j = 0;    // what the other tools' motion did to it through the tissue; none in sum
   Vec3 push = Vec3::Zero();  // on the tissue, N
   Vec3 way = Vec3::Zero();   // of the tip, m
 };
@@ -30,6 +30,11 @@ struct ContactWork {
 /// The largest share: a hand that brought more energy than this place would hold gets it back, but is never
 /// pushed by more than this many times the tissue's own reaction.
 inline constexpr double kMaxShare = 2;
+
+/// A dent that is not deeper than this decides nothing, m: facets and interpolated normals differ by as much,
+/// and what they make of the first touch would be multiplied into the whole press, the more the shorter the
+/// ticks are. It forgives less than a hundredth of the energy of 1 mm.
+inline constexpr double kShallow_m = 8e-5;
 
 /// How far a tool may be above the tissue that it presses, m: with a share above one the dent is deeper than
 /// the tool is in it. Energy beyond is let go of.
@@ -54,7 +59,7 @@ inline constexpr double kNoEnergy_j = 1e-12;
 ///     f = kappa f_model,   kappa E = what the hand put in, less what it got back.
 /// While no material point moves the model is conservative (f_model = -dE/dp) and kappa stays what it is;
 /// where one slides, E changes by M without work, and kappa with it:
-///     kappa' = kappa (E' - M) / E',   M = E' - E - put_in + rubbed.
+///     kappa' = kappa (E' - M) / E',   M = E' - E - put_in - exchanged + rubbed.
 /// Every closed path then has no net energy, the force reaches zero where the model's does, and over a
 /// surface at constant depth it is constant. On the wire the tissue bears what the hand feels (its dent is
 /// kappa times as deep as the tool is in it: as if kappa's difference from one were a spring between the
@@ -63,10 +68,8 @@ inline constexpr double kNoEnergy_j = 1e-12;
 /// A place that differs for good (stiffer near a support) is paid for along the way: a force against the
 /// heading, (1 - kappa) E / kForget_m, brings kappa back to one; its work is in the account.
 ///
-/// `tools` and `works`: one per tool. M of all tools together is given to those that slid: when the tissue
-/// moves under a resting tool, that is the other's work and no gain of its own. `let_go`: a contact that
-/// carried force was dropped in this tick, so that what is stored cannot be compared: shares stay.
-/// No allocation. Any thread.
+/// `tools` and `works`: one per tool. `let_go`: a contact that carried force was dropped in this tick, so
+/// that what is stored cannot be compared: shares stay. No allocation. Any thread.
 void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept;
 
 }  // namespace omentum::haptic

@@ -34,10 +34,23 @@ void measure_work(const HapticModel& model, const HapticState& state, std::span<
     const double stored_j = 0.5 * contact.force.dot(free_gaps[i] - gaps[i]);
     work.stored_j += stored_j;
     work.put_in_j += put_in(contact, before[i], way, stored_j);
-    // what slides under a resting point is another tool's doing
-    work.slid += 0.5 * (before[i].norm() + contact.force.norm()) * std::min(contact.slid_m, tool.pace_m);
     work.push += contact.force;
     if (model.friction > 0 && !contact.grasped) work.rubbed_j += rubbed(contact, gaps[i]);
+  }
+}
+
+void measure_exchange(const physics::ContactProblem& problem, const HapticState& state,
+                      std::span<const Vec3> before, std::span<ContactWork> works) noexcept {
+  for (int i = 0; i < problem.count; ++i) {
+    const ToolContact& one = state.contacts[i];
+    for (int j = 0; j < i; ++j) {
+      const ToolContact& other = state.contacts[j];
+      if (other.tool == one.tool) continue;
+      const double exchanged_j =
+          0.5 * (one.force.dot(problem.W(i, j) * before[j]) - before[i].dot(problem.W(i, j) * other.force));
+      works[one.tool].exchanged_j += exchanged_j;
+      works[other.tool].exchanged_j -= exchanged_j;
+    }
   }
 }
 

@@ -49,7 +49,6 @@ struct ToolContact {
   Vec3 force = Vec3::Zero();    // lambda, on the tissue, N
   Vec3 offset = Vec3::Zero();   // gap that a grasp keeps, m
   double sunken_m = 0;          // depth that is no press: the point appeared there (see meet_appeared)
-  double slid_m = 0;            // how far the material point moved in this tick, at rest
   bool sliding = false;         // friction was used up: the material point moves on
   bool grasped = false;
 
@@ -77,7 +76,6 @@ struct ToolState {
   bool let_go = false;  // a contact that carried force was dropped in this tick
   ToolFrame frame;
   Vec3 tip_way = Vec3::Zero();      // in this tick, m
-  double pace_m = 0;                // the longest way of a point in a tick, lately
   std::vector<Vec3> before, now;    // [P] points at the last tick and at this one, in W
   std::vector<PointMemory> memory;  // [P]
   bool opened = false;              // the jaws were open since the last grasp

@@ -221,6 +221,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   }
   if (is_finite(result, state)) {
     measure_work(model, state, before, free_gaps, gaps, work.works);
+    if (model.mode == ContactMode::kPoint) measure_exchange(work.problem, state, before, work.works);
     balance(state.energies, work.works, anyone_let_go(state));
     measure(inputs, state, outputs);
   } else {

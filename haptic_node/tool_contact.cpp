@@ -30,8 +30,6 @@ constexpr double kArmGrowth = 4;
 // Rounding of positions, m.
 constexpr double kHair_m = 1e-6;
 
-// A tool's pace outlives its motion by some ticks: devices slower than the loop rest between their poses.
-constexpr double kPaceKept = 0.9;
 // Farther from W's origin than any scene, m: floats there no longer tell a tenth of a millimetre.
 constexpr double kFarthest_m = 1000;
 
@@ -110,17 +108,10 @@ void go_to(const ToolModel& model, const ToolFrame& measured, ToolState& tool) {
   for (std::size_t p = 0; p < tool.now.size(); ++p) tool.now[p] = to_world(tool.frame, model.points[p]);
 }
 
-void keep_pace(ToolState& tool) {
-  tool.pace_m *= kPaceKept;
-  for (std::size_t p = 0; p < tool.now.size(); ++p)
-    tool.pace_m = std::max(tool.pace_m, (tool.now[p] - tool.before[p]).norm());
-}
-
 // Where its points are is asked now; a tick later where the surface is still dented by the tool's own force:
 // there it would seem to be outside.
 void appear(ToolState& tool) {
   tool.before = tool.now;
-  tool.pace_m = 0;
   PointMemory unknown;
   unknown.adrift = true;
   unknown.ask_in = tool.let_go ? 2 : 1;
@@ -160,11 +151,7 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
     const Vec3 tip = tool.frame.p_WT;
     go_to(model.tools[i], input.frame, tool);
     tool.tip_way = moved_here ? Vec3(tool.frame.p_WT - tip) : Vec3::Zero();
-    if (moved_here) {
-      keep_pace(tool);
-    } else {
-      appear(tool);
-    }
+    if (!moved_here) appear(tool);
     if (model.tools[i].grasps) follow_grip(state, index, input.grip, surface);
   }
 }
@@ -177,9 +164,7 @@ void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) 
 
 void follow_surface(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept {
   for (ToolContact& contact : state.active()) {
-    contact.slid_m = 0;
     if (contact.grasped) continue;
-    const Vec3 held_before = surface.rest_position(contact.held);
     const ToolState& tool = state.tools[contact.tool];
     if (model.friction == 0 || !contact.touches()) {
       contact.held = surface.slide(contact.held, at_the_surface(contact, tool.now));
@@ -188,7 +173,6 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
       contact.held = surface.slide(contact.held, at_the_surface(contact, tool.before));
     }
     contact.normal = surface.normal(contact.held);
-    contact.slid_m = (surface.rest_position(contact.held) - held_before).norm();
   }
   surface_with_tools(state, surface);
 }

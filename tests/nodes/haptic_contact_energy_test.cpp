@@ -18,6 +18,8 @@ using haptic::Vec3;
 constexpr double kStep_m = 1e-5;
 // The trapezoidal rule over steps of 10 um in dents of millimetres, and what steps beside each other cost.
 constexpr double kQuadrature = 1e-3;
+// What is forgiven of the first touch (kShallow_m) beside a press of 1 mm.
+constexpr double kForgiven = 1e-2;
 
 // A point on a frictionless flat whose stiffness changes along x, as a mesh's does from node to face.
 class BumpyFlat {
@@ -43,7 +45,6 @@ class BumpyFlat {
     work.stored_j = 0.5 * push(to) * std::max(0.0, -to.z());
     work.put_in_j = -0.5 * (push(tip_) + push(to)) * way.z();
     if (push(tip_) == 0) work.put_in_j = std::min(work.put_in_j, work.stored_j);
-    work.slid = 0.5 * (push(tip_) + push(to)) * std::abs(way.x());
     work.push = Vec3(0, 0, -push(to));
     work.way = way;
     tip_ = to;
@@ -73,7 +74,7 @@ TEST(ContactEnergy, AClosedPathHasNoNetEnergy) {
       flat.move_to({0, 0, -depth});
       flat.move_to({slide, 0, -depth});
       flat.move_to({slide, 0, 1e-3});
-      EXPECT_NEAR(flat.given_j(), 0, 2 * kQuadrature * flat.most_put_in_j())
+      EXPECT_NEAR(flat.given_j(), 0, kForgiven * flat.most_put_in_j())
           << "slide " << slide << ", depth " << depth;
     }
   }
@@ -107,19 +108,23 @@ TEST(ContactEnergy, AcrossASurfaceTheShareReturnsToOne) {
   EXPECT_LT(std::abs(mean - 1), at_first);
 }
 
-TEST(ContactEnergy, AnothersSlideIsNoGainOfARestingTool) {
+// What another hand does to the tissue under a resting one is felt, and is no gain to be taken back.
+TEST(ContactEnergy, WhatComesThroughTheTissueIsNoGainOfARestingTool) {
   std::array<ContactEnergy, 2> tools;
   std::array<ContactWork, 2> works;
-  works[0].stored_j = works[1].stored_j = 1e-3;
-  works[0].push = works[1].push = Vec3(0, 0, -0.5);
+  for (ContactWork& work : works) {
+    work.stored_j = 1e-3;
+    work.push = Vec3(0, 0, -0.5);
+  }
   balance(tools, works, false);
-  // the first tool slides onto softer tissue, and both hold less than before
-  works[0].slid = 1e-4;
-  works[0].stored_j = 0.8e-3;
-  works[1].stored_j = 0.9e-3;
+  works[0].put_in_j = 0.3e-3;
+  works[0].stored_j = 1.2e-3;
+  works[0].exchanged_j = -0.1e-3;
+  works[1].stored_j = 1.1e-3;
+  works[1].exchanged_j = 0.1e-3;
   balance(tools, works, false);
-  EXPECT_GT(tools[0].share, 1);
-  EXPECT_EQ(tools[1].share, 1);
+  EXPECT_NEAR(tools[0].share, 1, 1e-12);
+  EXPECT_NEAR(tools[1].share, 1, 1e-12);
 }
 
 TEST(ContactEnergy, WhatIsDroppedIsNobodysGain) {
@@ -128,7 +133,7 @@ TEST(ContactEnergy, WhatIsDroppedIsNobodysGain) {
   works[0].stored_j = works[1].stored_j = 1e-3;
   balance(tools, works, false);
   works[0] = {};
-  works[1].slid = 1e-4;
+  works[1].stored_j = 0.8e-3;
   balance(tools, works, true);
   EXPECT_EQ(tools[0].stored_j, 0);
   EXPECT_EQ(tools[1].share, 1);
