@@ -42,12 +42,13 @@ void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works,
       tool = ContactEnergy{};
       continue;
     }
+    tool.depth_m = depth_of(work);
     if (tool.stored_j >= kNoEnergy_j) {
-      const double depth_m = depth_of(work);
-      const double unpaid_j = let_go ? 0 : unpaid(tool, work) / (1 + std::pow(kShallow_m / depth_m, 4));
+      const double unpaid_j = let_go ? 0 : unpaid(tool, work) / (1 + std::pow(kShallow_m / tool.depth_m, 4));
       const Vec3 way = along_surface(work.way, work.push);
       const double held_j = tool.share * (work.stored_j - unpaid_j) - tool.side.dot(way);
-      tool.share = std::clamp(held_j / work.stored_j, 0.0, std::min(kMaxShare, 1 + kMostAbove_m / depth_m));
+      tool.share =
+          std::clamp(held_j / work.stored_j, 0.0, std::min(kMaxShare, 1 + kMostApart_m / tool.depth_m));
       turn_heading(tool.heading, way, work.push);
     }
     tool.stored_j = work.stored_j;

@@ -3,6 +3,7 @@
 
 #include "geometry/types.h"
 
+#include <algorithm>
 #include <span>
 
 namespace omentum::haptic {
@@ -12,6 +13,7 @@ using geometry::Vec3;
 /// One tool's contacts between ticks, as energy sees them.
 struct ContactEnergy {
   double stored_j = 0;          // E: elastic energy that the model says they hold
+  double depth_m = 0;           // of the dent, over which a push that grows with it holds E
   double share = 1;             // kappa: of the model's force that the hand feels
   Vec3 side = Vec3::Zero();     // along the surface, on the hand at the tip, N
   Vec3 heading = Vec3::Zero();  // where the tip slides, averaged over the last way; at most 1 long
@@ -36,9 +38,9 @@ inline constexpr double kMaxShare = 2;
 /// ticks are. It forgives less than a hundredth of the energy of 1 mm.
 inline constexpr double kShallow_m = 8e-5;
 
-/// How far a tool may be above the tissue that it presses, m: with a share above one the dent is deeper than
-/// the tool is in it. Energy beyond is let go of.
-inline constexpr double kMostAbove_m = 4e-3;
+/// How far a tool may be from the surface that it presses, m: the dent is the share times as deep as the tool
+/// is in it. Above it: energy beyond is let go of. Below it: from there on the tissue follows (borne_share).
+inline constexpr double kMostApart_m = 4e-3;
 
 /// Over which way along the surface the share returns to one, m: the side force that does it stays below a
 /// tenth of the push in a dent of 6 mm, and what a press felt like elsewhere is forgotten three fingers away.
@@ -71,5 +73,12 @@ inline constexpr double kNoEnergy_j = 1e-12;
 /// `tools` and `works`: one per tool. `let_go`: a contact that carried force was dropped in this tick, so
 /// that what is stored cannot be compared: shares stay. No allocation. Any thread.
 void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept;
+
+/// The share of the model's force that the tissue bears: the hand's, but in presses of centimetres never so
+/// much less than one that the tool would be kMostApart_m deep in tissue, or through a thin lobe that it
+/// bends away.
+inline double borne_share(const ContactEnergy& tool) noexcept {
+  return std::max(tool.share, 1 - kMostApart_m / std::max(tool.depth_m, kMostApart_m));
+}
 
 }  // namespace omentum::haptic

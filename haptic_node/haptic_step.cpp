@@ -164,7 +164,7 @@ void answer_the_hands(HapticState& state) {
   for (NodeForce& entry : forces) {
     const ContactEnergy& energy = state.energies[entry.tool];
     const double push = entry.force.norm();
-    if (push > 0) entry.force = energy.share * entry.force - push / pushes[entry.tool] * energy.side;
+    if (push > 0) entry.force = borne_share(energy) * entry.force - push / pushes[entry.tool] * energy.side;
   }
 }
 

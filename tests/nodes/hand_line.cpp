@@ -54,6 +54,7 @@ void HandLine::answer(const haptic::ToolOutput& output, std::int64_t now_ns) {
   line_.answer(output, now_ns, period_s_, false);
   const msg::ToolForce& force = line_.to_send(pose_.seq);
   altered_ += force.state != 0;
+  line_.sent(true);
   static_cast<void>(hold_.take(force, now_ns));
 }
 
