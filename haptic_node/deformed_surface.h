@@ -75,13 +75,10 @@ class DeformedSurface {
   Vec3 normal(const SurfacePoint& point) const noexcept;
 
   /// How much tissue something at p that presses a material point in has before it, straight in from the
-  /// point's nearest vertex: the way to the surface on the other side, over the thickness at rest. 1 and 1
-  /// where there is no other side.
-  struct Ahead {
-    double now;   // to where the other side is: 1 while nothing is squeezed, however far the organ is bent
-    double rest;  // to where it is at rest: below 0 p is beyond it
-  };
-  Ahead tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept;
+  /// point's nearest vertex: the way to the surface on the other side over the thickness at rest; about 1
+  /// while nothing is squeezed, however far the organ is bent. Asked for p beyond where the other side is at
+  /// rest only: elsewhere 1, without a look at it.
+  double tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept;
 
   /// The first place where the segment p -> q, inside an evaluated region, passes a triangle from outside to
   /// inside. Looks through every bucket that it crosses.

@@ -114,13 +114,13 @@ void DeformedSurface::find_other_side() {
   }
 }
 
-DeformedSurface::Ahead DeformedSurface::tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept {
+double DeformedSurface::tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept {
   Eigen::Index nearest = 0;
   point.barycentric.maxCoeff(&nearest);
   const SurfaceId n = surface_.triangles[point.triangle][nearest];
-  if (std::isinf(thickness_[n])) return {1, 1};
-  const auto ahead = [&](const Vec3& far) { return (p - far).dot(normals_[n]) / thickness_[n]; };
-  return {ahead(position(other_side_[n])), ahead(rest_position(other_side_[n]))};
+  if (std::isinf(thickness_[n])) return 1;
+  const auto way_to = [&](const Vec3& far) { return (p - far).dot(normals_[n]) / thickness_[n]; };
+  return way_to(rest_position(other_side_[n])) > 0 ? 1 : way_to(position(other_side_[n]));
 }
 
 Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {

@@ -41,9 +41,7 @@ bool is_astray(const ToolState& tool, const ToolContact& contact, DeformedSurfac
 // Whether the tool's point has gone through the organ: beyond where its far side is at rest, while most of
 // the tissue before it is squeezed away. A lobe that bends away goes beyond as well, but keeps its thickness.
 bool is_through(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
-  const DeformedSurface::Ahead ahead =
-      surface.tissue_ahead(contact.held, at_the_surface(contact, tool.before));
-  return ahead.rest <= 0 && ahead.now < kThrough;
+  return surface.tissue_ahead(contact.held, at_the_surface(contact, tool.before)) < kThrough;
 }
 
 // Whether another point of the tool is pushed the other way.
