@@ -30,7 +30,7 @@ struct ContactWork {
 };
 
 /// The largest share: a hand that brought more energy than this place would hold gets it back, but is never
-/// pushed by more than this many times the tissue's own reaction.
+/// pushed by more than this many times the model's force.
 inline constexpr double kMaxShare = 2;
 
 /// A dent that is not deeper than this decides nothing, m: facets and interpolated normals differ by as much,
@@ -50,7 +50,7 @@ inline constexpr double kForget_m = 0.04;
 /// force.
 inline constexpr double kHeading_m = 0.005;
 
-/// Energy below this is none, J: a thousandth of what a fingertip's touch does.
+/// Energy below this is none, J: 1 mN over 10 um holds five thousand times as much.
 inline constexpr double kNoEnergy_j = 1e-12;
 
 /// A point contact that slides over a mesh is not conservative by itself: the compliance under it changes

@@ -154,8 +154,9 @@ void stop(HapticState& state, std::span<ToolOutput> outputs) {
   let_go_of_everything(state);
 }
 
-// What leaves is equal and opposite: on its nodes the tissue bears what the hands feel, the side force shared
-// like the push. Collision goes on with the model's own dent, in which the tool's points lie on the surface.
+// What leaves is equal and opposite: on its nodes the tissue bears what the hands feel (but for presses of
+// centimetres, see borne_share), the side force shared like the push. Collision goes on with the model's own
+// dent, in which the tool's points lie on the surface.
 void answer_the_hands(HapticState& state) {
   std::array<double, physics::kMaxContacts> pushes{};
   const std::span<NodeForce> forces(state.node_forces.data(),

@@ -10,7 +10,8 @@ namespace omentum::haptic {
 /// went through a lobe, around a border, or far in one tick). Where such points are is asked anew by
 /// meet_appeared in the next tick, whose surface is without their force. Contacts that hold a depth without
 /// force are asked by turns whether the surface point nearest to them is still theirs. A point that has gone
-/// through the organ (tissue_left) holds nothing until it comes in again.
+/// through the organ (tissue_ahead), or whose side of the organ was drawn through the other one, holds
+/// nothing until it comes in again.
 void leave_astray(HapticState& state, DeformedSurface& surface) noexcept;
 
 /// Points that are inside the organ without having come there by moving (a device or node that was started

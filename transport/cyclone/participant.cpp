@@ -111,7 +111,8 @@ class CycloneReader final : public Reader<M> {
     static_cast<CycloneReader*>(self)->counters_.liveliness_changed(status.not_alive_count_change);
   }
 
-  // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which tells nobody
+  // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which tells its log only
+  // (complaints.h)
   void take_all(dds_entity_t reader) {
     const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
     while (take_some(reader)) continue;
