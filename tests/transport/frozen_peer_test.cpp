@@ -30,9 +30,15 @@ class Asker {
         thread_([this](const std::stop_token& stop) { ask(stop); }) {}
 
   /// Whether a pose sent from now on is answered, and a status told from now on arrives.
-  bool is_answered() const {
+  testing::AssertionResult is_answered() const {
     const std::uint64_t asked = asked_, ticks = ticks_;
-    return eventually([&] { return answered_ > asked && ticks_ > ticks + 1; });
+    if (eventually([&] { return answered_ > asked && ticks_ > ticks + 1; }))
+      return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << "poses: " << poses_->status().matched << " readers, " << asked_ << " sent, " << asked
+           << " then; answers: " << forces_->status().matched << " writers, to " << answered_
+           << "; statuses: " << statuses_->status().matched << " writers, " << ticks_ << " told, " << ticks
+           << " then";
   }
 
  private:
@@ -70,7 +76,7 @@ class FrozenPeer : public testing::TestWithParam<Pairing> {
   }
 };
 
-// longer than Cyclone's lease: a Fast process is not forgotten meanwhile
+// longer than Cyclone's lease and Fast DDS' patience with a mailbox, shorter than Fast DDS' lease
 TEST_P(FrozenPeer, AnswersAgainAfterThreeSeconds) {
   freeze_and_expect_answers(std::chrono::seconds(3), 2);
 }

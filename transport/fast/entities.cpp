@@ -49,6 +49,7 @@ void set_transports(dds::DomainParticipantQos& qos, Profile profile) {
   if (profile == Profile::kLoopback) {
     auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
     shared_memory->segment_size(kSharedSegmentBytes);
+    shared_memory->healthy_check_timeout_ms(kFastMailboxMs);
     qos.transport().user_transports.push_back(shared_memory);
   }
 }

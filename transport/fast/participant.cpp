@@ -25,8 +25,10 @@ WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication
   return id;
 }
 
-// A process that stood still for so long may have been forgotten by some and not by others.
-constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastLeaseMs) / 2;
+// A process that stood still for so long may have lost its mailbox, or been forgotten by some and not by
+// others.
+constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastMailboxMs) * 3 / 4;
+static_assert(kFastMailboxMs < kFastLeaseMs);
 
 template <class M>
 class FastWriter final : public Writer<M>, private Endpoint {
