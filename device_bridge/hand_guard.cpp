@@ -52,15 +52,19 @@ Wrench HandGuard::limit(const Wrench& asked, std::int64_t now_ns) noexcept {
   asked_ = asked;
   Wrench wrench = asked;
   only_actuated(wrench.force);
-  rise_to(wrench, std::min(period_s_, period_before_s_));
+  const double rise_s = std::min(period_s_, period_before_s_);
+  rise_to(wrench, rise_s);
   // the hand is seen again in the next period, and the one before is not seen yet
   const double unseen_s = std::max({period_s_, period_before_s_, way_s_});
   const double share = tank_.share(node::work_ahead_j(wrench.force, wrench.torque, motion_, 2 * unseen_s));
   if (share < 1) ++held_back_;
   scale(wrench, share);
-  Vec3 damping = tank_.damping(motion_, unseen_s);
-  only_actuated(damping);
-  wrench.force += damping;
+  if (!(asked.force.isZero(0) && asked.torque.isZero(0))) {  // in the air nothing may be felt
+    Vec3 damping = tank_.damping(motion_, unseen_s);
+    only_actuated(damping);
+    wrench.force += damping;
+    rise_to(wrench, rise_s);
+  }
   const double norm = wrench.force.norm();
   if (norm > max_force_n_) wrench.force *= max_force_n_ / norm;
   exerted_before_ = exerted_;

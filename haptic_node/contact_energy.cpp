@@ -26,9 +26,14 @@ double depth_of(const ContactWork& work) {
   return 2 * work.stored_j / work.push.norm();
 }
 
-// Energy that came or went with material points that moved.
-double unpaid(const ContactEnergy& tool, const ContactWork& work) {
-  return work.stored_j - tool.stored_j - work.put_in_j - work.exchanged_j + work.rubbed_j;
+// kappa' E': what the hand put in and got from others, less what it got back. A dent that is next to none
+// keeps its share. What went with a contact that was let go of is lost; what the other points hold more, for
+// taking over its load, nobody brought.
+double held(const ContactEnergy& tool, const ContactWork& work, bool let_go) {
+  const double kept_j = tool.share * work.stored_j;
+  const double paid_j = tool.share * (tool.stored_j + work.put_in_j - work.rubbed_j) + work.exchanged_j;
+  const double held_j = kept_j + (paid_j - kept_j) / (1 + std::pow(kShallow_m / tool.depth_m, 4));
+  return let_go ? std::min(kept_j, held_j) : held_j;
 }
 
 }  // namespace
@@ -44,9 +49,8 @@ void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works,
     }
     tool.depth_m = depth_of(work);
     if (tool.stored_j >= kNoEnergy_j) {
-      const double unpaid_j = let_go ? 0 : unpaid(tool, work) / (1 + std::pow(kShallow_m / tool.depth_m, 4));
       const Vec3 way = along_surface(work.way, work.push);
-      const double held_j = tool.share * (work.stored_j - unpaid_j) - tool.side.dot(way);
+      const double held_j = held(tool, work, let_go) - tool.side.dot(way);
       tool.share =
           std::clamp(held_j / work.stored_j, 0.0, std::min(kMaxShare, 1 + kMostApart_m / tool.depth_m));
       turn_heading(tool.heading, way, work.push);

@@ -24,7 +24,7 @@ struct ContactWork {
   double stored_j = 0;       // E after the solve
   double put_in_j = 0;       // work that moving the tool against these forces took (trapezoidal rule)
   double rubbed_j = 0;       // of it, what friction turned into heat
-  double exchanged_j = 0;    // what the other tools' motion did to it through the tissue; none in sum
+  double exchanged_j = 0;    // what others gave it through the tissue, as hands feel it; none in sum
   Vec3 push = Vec3::Zero();  // on the tissue, N
   Vec3 way = Vec3::Zero();   // of the tip, m
 };
@@ -38,9 +38,12 @@ inline constexpr double kMaxShare = 2;
 /// ticks are. It forgives less than a hundredth of the energy of 1 mm.
 inline constexpr double kShallow_m = 8e-5;
 
-/// How far a tool may be from the surface that it presses, m: the dent is the share times as deep as the tool
-/// is in it. Above it: energy beyond is let go of. Below it: from there on the tissue follows (borne_share).
+/// By how much the dent of what a hand feels may be deeper than the tool is in it, m: energy beyond is let go
+/// of.
 inline constexpr double kMostApart_m = 4e-3;
+
+/// How far the tissue that is told of may be from the tool that presses it, m (see borne_share).
+inline constexpr double kTissueApart_m = 2e-3;
 
 /// Over which way along the surface the share returns to one, m: the side force that does it stays below a
 /// tenth of the push in a dent of 6 mm, and what a press felt like elsewhere is forgotten three fingers away.
@@ -61,7 +64,7 @@ inline constexpr double kNoEnergy_j = 1e-12;
 ///     f = kappa f_model,   kappa E = what the hand put in, less what it got back.
 /// While no material point moves the model is conservative (f_model = -dE/dp) and kappa stays what it is;
 /// where one slides, E changes by M without work, and kappa with it:
-///     kappa' = kappa (E' - M) / E',   M = E' - E - put_in - exchanged + rubbed.
+///     kappa' = (kappa (E' - M) + exchanged) / E',   M = E' - E - put_in + rubbed.
 /// Every closed path then has no net energy, the force reaches zero where the model's does, and over a
 /// surface at constant depth it is constant. On the wire the tissue bears what the hand feels (its dent is
 /// kappa times as deep as the tool is in it: as if kappa's difference from one were a spring between the
@@ -70,15 +73,27 @@ inline constexpr double kNoEnergy_j = 1e-12;
 /// A place that differs for good (stiffer near a support) is paid for along the way: a force against the
 /// heading, (1 - kappa) E / kForget_m, brings kappa back to one; its work is in the account.
 ///
-/// `tools` and `works`: one per tool. `let_go`: a contact that carried force was dropped in this tick, so
-/// that what is stored cannot be compared: shares stay. No allocation. Any thread.
+/// `tools` and `works`: one per tool. `let_go`: a contact that carried force was dropped in this tick; what
+/// it held is lost, and what the others then hold is no more than was put in. No allocation. Any thread.
 void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept;
 
+/// The part of a dent by which the tissue may be from its tool: all of it, but in deep presses.
+inline double apart(const ContactEnergy& tool) noexcept {
+  return kTissueApart_m / std::max(tool.depth_m, kTissueApart_m);
+}
+
 /// The share of the model's force that the tissue bears: the hand's, but in presses of centimetres never so
-/// much less than one that the tool would be kMostApart_m deep in tissue, or through a thin lobe that it
-/// bends away.
+/// much less or more than one that the tool would be deep in tissue, through a thin lobe that it bends away,
+/// or far before it.
 inline double borne_share(const ContactEnergy& tool) noexcept {
-  return std::max(tool.share, 1 - kMostApart_m / std::max(tool.depth_m, kMostApart_m));
+  return std::clamp(tool.share, 1 - apart(tool), 1 + apart(tool));
+}
+
+/// The side force that the tissue bears, N: the hand's, but for a push in a dent of centimetres only so much
+/// that the tissue, which gives way sideways more than inwards, goes no farther.
+inline Vec3 borne_side(const ContactEnergy& tool, double push_n) noexcept {
+  const double most_n = 0.5 * apart(tool) * push_n, side_n = tool.side.norm();
+  return side_n > most_n ? Vec3(most_n / side_n * tool.side) : tool.side;
 }
 
 }  // namespace omentum::haptic

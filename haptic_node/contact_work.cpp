@@ -17,6 +17,22 @@ double rubbed(const ToolContact& contact, const Vec3& gap) {
   return std::max(0.0, along.dot(gap));
 }
 
+// What tool t got from tool u by the model's own forces, J.
+double passed(const physics::ContactProblem& problem, const HapticState& state, std::span<const Vec3> before,
+              int u, int t) {
+  double got_j = 0;
+  for (int i = 0; i < problem.count; ++i) {
+    if (state.contacts[i].tool != t) continue;
+    const Vec3& force = state.contacts[i].force;
+    for (int j = 0; j < problem.count; ++j) {
+      if (state.contacts[j].tool != u) continue;
+      const Eigen::Matrix3d& w = problem.W(i, j);
+      got_j += 0.5 * (force.dot(w * before[j]) - before[i].dot(w * state.contacts[j].force));
+    }
+  }
+  return got_j;
+}
+
 }  // namespace
 
 void measure_work(const HapticModel& model, const HapticState& state, std::span<const Vec3> before,
@@ -41,15 +57,13 @@ void measure_work(const HapticModel& model, const HapticState& state, std::span<
 
 void measure_exchange(const physics::ContactProblem& problem, const HapticState& state,
                       std::span<const Vec3> before, std::span<ContactWork> works) noexcept {
-  for (int i = 0; i < problem.count; ++i) {
-    const ToolContact& one = state.contacts[i];
-    for (int j = 0; j < i; ++j) {
-      const ToolContact& other = state.contacts[j];
-      if (other.tool == one.tool) continue;
-      const double exchanged_j =
-          0.5 * (one.force.dot(problem.W(i, j) * before[j]) - before[i].dot(problem.W(i, j) * other.force));
-      works[one.tool].exchanged_j += exchanged_j;
-      works[other.tool].exchanged_j -= exchanged_j;
+  const int tools = static_cast<int>(works.size());
+  for (int t = 0; t < tools; ++t) {
+    for (int u = 0; u < t; ++u) {
+      const double got_j = passed(problem, state, before, u, t);
+      const double felt_j = state.energies[got_j > 0 ? u : t].share * got_j;
+      works[t].exchanged_j += felt_j;
+      works[u].exchanged_j -= felt_j;
     }
   }
 }

@@ -17,7 +17,8 @@ void measure_work(const HapticModel& model, const HapticState& state, std::span<
 /// What passed between the tools through the tissue, by Betti's theorem: with f before and f' after,
 ///     exchanged_t = 1/2 sum_{i of t, j not of t} (f'_i . W_ij f_j - f_i . W_ij f'_j),
 /// antisymmetric in the tools, so that a hand at rest feels another's press as energy given and not as its
-/// own gain. `problem`: the one that was solved.
+/// own gain; for each pair times the share of the one that gives: what one hand's account loses is what the
+/// other's gains. `problem`: the one that was solved.
 void measure_exchange(const physics::ContactProblem& problem, const HapticState& state,
                       std::span<const Vec3> before, std::span<ContactWork> works) noexcept;
 

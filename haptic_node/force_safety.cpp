@@ -154,12 +154,14 @@ void ForceSafety::limit(const SafetyInput& input, Wrench& wrench, std::uint32_t&
     clamp_wrench(wrench, gain_ * max_force_n(), gain_ * max_torque_nm());
 }
 
-// A debt is taken out of the hand's own motion.
+// A debt is taken out of the hand's own motion where there is tissue; in the air nothing may be felt.
 void ForceSafety::damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) noexcept {
-  Wrench damper{gain_ * tank().damping(motion_, interval_s(input)), Vec3::Zero()};
+  const bool in_air = input.model.force.isZero(0) && input.model.torque.isZero(0);
+  const double gain = in_air ? 0 : gain_;
+  Wrench damper{gain * tank().damping(motion_, interval_s(input)), Vec3::Zero()};
   drop_unactuated(damper, device_.actuated_axes, input.orientation);
   slew_wrench(damper, {damping_, Vec3::Zero()}, limits_, slew_s(input));
-  damping_ = gain_ > 0 ? damper.force : Vec3::Zero();
+  damping_ = gain > 0 ? damper.force : Vec3::Zero();
   if (damping_.isZero(0)) return;
   state |= msg::FORCE_PASSIVITY;
   wrench.force += damping_;

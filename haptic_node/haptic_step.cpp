@@ -165,7 +165,8 @@ void answer_the_hands(HapticState& state) {
   for (NodeForce& entry : forces) {
     const ContactEnergy& energy = state.energies[entry.tool];
     const double push = entry.force.norm();
-    if (push > 0) entry.force = borne_share(energy) * entry.force - push / pushes[entry.tool] * energy.side;
+    const double all = pushes[entry.tool];
+    if (push > 0) entry.force = borne_share(energy) * entry.force - push / all * borne_side(energy, all);
   }
 }
 

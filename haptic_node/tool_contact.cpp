@@ -182,6 +182,7 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
     ToolState& tool = state.tools[i];
     if (!tool.engaged) continue;
     for (std::size_t p = 0; p < tool.now.size(); ++p) {
+      if (tool.memory[p].ask_in > 0) continue;  // meet_appeared looks for it
       ToolContact* known = contact_of(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
       if (known && (known->touches() || known->grasped || known->sunken_m > 0)) {
         tool.memory[p].clearance_m = 0;

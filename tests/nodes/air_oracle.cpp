@@ -48,18 +48,18 @@ bool PlainSurface::clear_way(const Vec3& a, const Vec3& b) const {
   return true;
 }
 
-bool AirOracle::in_air(const haptic::HapticState& state, bool feels) {
+AirOracle::Place AirOracle::look(const haptic::HapticState& state, bool feels) {
   const haptic::ToolState& tool = state.tools[tool_];
   without_.deform(state.forces(), tool_);
-  if (!without_.clear_of(tool.now, kMargin_m)) return false;
+  if (!without_.clear_of(tool.now, kMargin_m)) return Place::kTissue;
   const Vec3& tip = tool.frame.p_WT;
   if (!feels) {
     free_ = tip;
-    return true;
+    return Place::kAir;
   }
-  if (free_ && without_.clear_way(*free_, tip)) return true;
   with_.deform(state.forces());
-  return with_.clear_of(tool.now, kMargin_m);
+  if (with_.clear_of(tool.now, kMargin_m)) return Place::kAir;
+  return free_ && without_.clear_way(*free_, tip) ? Place::kDragged : Place::kTissue;
 }
 
 }  // namespace omentum::haptic_test

@@ -31,8 +31,9 @@ class PlainSurface {
 /// A contact drags the surface to its tool: under a force that should not be there the deformed surface is
 /// where the tool is, and a tool that it holds would never be in the air. So a tool is in the air when it is
 /// clear of the surface that the *others'* forces deform, and either of the one that its own force deforms
-/// too, or of the straight way back to where it last was free: then it has not pushed anything (a thin lobe,
-/// say) out there.
+/// too, or of the straight way back to where it last was free. In that second case its force has dragged the
+/// surface to it: all of it is wrong where a tool only passed an organ, but a tool that hooked a border and
+/// carries it along for a while looks like that, too.
 class AirOracle {
  public:
   static constexpr double kMargin_m = 5e-3;
@@ -40,7 +41,9 @@ class AirOracle {
   AirOracle(const haptic::HapticModel& model, std::int32_t tool)
       : tool_(tool), with_(model), without_(model) {}
 
-  bool in_air(const haptic::HapticState& state, bool feels);
+  enum class Place { kTissue, kDragged, kAir };
+  Place look(const haptic::HapticState& state, bool feels);
+  bool in_air(const haptic::HapticState& state, bool feels) { return look(state, feels) != Place::kTissue; }
 
  private:
   std::int32_t tool_;

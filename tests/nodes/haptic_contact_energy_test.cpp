@@ -139,6 +139,18 @@ TEST(ContactEnergy, WhatIsDroppedIsNobodysGain) {
   EXPECT_EQ(tools[1].share, 1);
 }
 
+// Points that take over the load of one that was let go of may hold more than it did.
+TEST(ContactEnergy, WhatIsTakenOverFromADroppedContactIsNoGain) {
+  std::array<ContactEnergy, 1> tools;
+  std::array<ContactWork, 1> works;
+  works[0].push = Vec3(0, 0, -0.5);
+  works[0].stored_j = 1e-3;
+  balance(tools, works, false);
+  works[0].stored_j = 1.25e-3;
+  balance(tools, works, true);
+  EXPECT_NEAR(tools[0].share * tools[0].stored_j, 1e-3, 1e-8);
+}
+
 TEST(ContactEnergy, ContactThatEndsIsForgotten) {
   BumpyFlat flat;
   flat.move_to({0, 0, -0.004});

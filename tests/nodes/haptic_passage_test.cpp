@@ -109,7 +109,7 @@ TEST_P(Passages, ATipThatCameBackFeelsNothing) {
   const Findings& found = trial.run(way_->end_s());
   EXPECT_GT(in_the_organ_n, 1) << "it was meant to press";
   EXPECT_EQ(in_the_air_n, 0) << "back above the press point";
-  EXPECT_EQ(found.air_force_n, 0) << found.air;
+  EXPECT_EQ(found.dragged_n, 0) << found.dragged;
 }
 
 TEST_P(Passages, ATipThatCameBackIsGivenNothing) {

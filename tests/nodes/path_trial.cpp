@@ -16,6 +16,7 @@ using geometry::Vec3;
 // mm from the tissue both times met none in between.
 constexpr double kLook_s = 0.01;
 constexpr double kStallEvery_s = 0.5;
+constexpr double kNever_s = std::numeric_limits<double>::infinity();
 
 // On a clock that began before the trial.
 std::int64_t ns_of(double t_s) {
@@ -37,7 +38,8 @@ PathTrial::PathTrial(const haptic::HapticModel& model, std::vector<Way> ways, Co
       outputs_(ways_.size()),
       before_(ways_.size()),
       frames_(ways_.size()),
-      in_air_since_s_(ways_.size(), std::numeric_limits<double>::infinity()),
+      in_air_since_s_(ways_.size(), kNever_s),
+      off_tissue_since_s_(ways_.size(), kNever_s),
       tool_work_j_(ways_.size()) {
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     air_.emplace_back(model, static_cast<std::int32_t>(i));
@@ -123,14 +125,15 @@ void PathTrial::look_for_air(double t_s) {
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     const double model_n = outputs_[i].force.norm();
     const double force_n = hands_.empty() ? model_n : std::max(model_n, hands_[i]->exerted().force.norm());
-    if (!air_[i].in_air(state_, model_n > 0)) {
-      in_air_since_s_[i] = std::numeric_limits<double>::infinity();
-      continue;
-    }
-    in_air_since_s_[i] = std::min(in_air_since_s_[i], t_s);
-    if (t_s - in_air_since_s_[i] < kLetGo_s || force_n <= findings_.air_force_n) continue;
-    findings_.air_force_n = force_n;
-    findings_.air = describe(i, t_s);
+    const AirOracle::Place place = air_[i].look(state_, model_n > 0);
+    const auto judge = [&](bool off, double& since_s, double& worst_n, std::string& where) {
+      since_s = off ? std::min(since_s, t_s) : kNever_s;
+      if (t_s - since_s < kLetGo_s || force_n <= worst_n) return;
+      worst_n = force_n;
+      where = describe(i, t_s);
+    };
+    judge(place == AirOracle::Place::kAir, in_air_since_s_[i], findings_.air_force_n, findings_.air);
+    judge(place != AirOracle::Place::kTissue, off_tissue_since_s_[i], findings_.dragged_n, findings_.dragged);
   }
 }
 

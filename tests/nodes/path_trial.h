@@ -19,13 +19,14 @@ using Way = std::function<haptic::ToolFrame(double t_s)>;
 struct Findings {
   bool finite = true;
   double air_force_n = 0;  // largest, of model or device, on a tool that was in the air for kLetGo_s
+  double dragged_n = 0;    // the same where it may have dragged the surface along (see AirOracle)
   double given_j = 0;      // most that the hands together had got at any time, beyond what they had put in
   double given_in_contact_j = 0;  // the same since the tissue was last free: what it lost before is no credit
   double put_in_j = 0;            // most that they had put in
   double hand_given_j = 0;        // most that one hand got at any time through safety and its device's hold
   int altered = 0;                // answers that were not the model's own
   int unsolved = 0, ticks = 0;
-  std::string air, energy, not_finite;  // where: tool, time, position, force
+  std::string air, dragged, energy, not_finite;  // where: tool, time, position, force
 };
 
 /// Whether the hands are on devices, behind force safety, or hold the model bare.
@@ -71,7 +72,7 @@ class PathTrial {
   std::vector<haptic::ToolFrame> frames_;
   std::vector<std::unique_ptr<HandLine>> hands_;  // none where they are bare
   std::vector<AirOracle> air_;
-  std::vector<double> in_air_since_s_;
+  std::vector<double> in_air_since_s_, off_tissue_since_s_;
   std::vector<double> tool_work_j_;
   double work_j_ = 0, work_when_free_j_ = 0;
   Findings findings_;
