@@ -288,7 +288,9 @@ TEST(ForceSafety, ASlowDevicesHandIsDampedByItsOwnSpeedWhereThereIsTissue) {
     if (pose) input.tip.z() += kSpeed_m_s * kInterval_s;
     input.model = force_z(i < 1000 ? 3 : i < 2000 ? kTouch_n : 0);  // along the way: 3 N x 10 cm
     const SafeForce out = safety.pass(input);
-    if (i >= 2000) EXPECT_EQ(out.wrench.force, Vec3::Zero());
+    if (i >= 2000) {
+      EXPECT_EQ(out.wrench.force, Vec3::Zero());
+    }
     if (i >= 1000) largest_n = std::max(largest_n, out.wrench.force.norm());
   }
   EXPECT_GT(largest_n, kTouch_n);
