@@ -25,9 +25,10 @@ void warn(const std::string& what) {
 
 organ::Organ read_organ(const organ_tools::BuildCommand& command) {
   geometry::CheckedMesh checked =
-      geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit, command.merge_m);
+      geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit, command.check);
   for (const std::string& warning : checked.warnings) warn(warning);
-  physics::FixedComponents fixed = organ::parse_supports(command.fixed, checked.mesh, checked.merged);
+  physics::FixedComponents fixed =
+      organ::parse_supports(command.fixed, checked.mesh, checked.merged, command.check.numbering);
   const std::string name = command.name.empty() ? command.output.stem().string() : command.name;
   return organ::make_organ(name, std::move(checked.mesh), command.material, std::move(fixed),
                            command.storage);
