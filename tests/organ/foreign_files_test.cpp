@@ -326,5 +326,42 @@ TEST_F(ForeignFilesTest, OtherFormatsAreNamed) {
   expect_refused("organ_solve", {mesh, "--gravity", "0,0,1", "-o", folder / "s"}, "a mesh (organ_build");
 }
 
+std::vector<std::string> replaced(std::vector<std::string> arguments, const std::string& option,
+                                  const std::string& value) {
+  *(std::ranges::find(arguments, option) + 1) = value;
+  return arguments;
+}
+
+TEST_F(ForeignFilesTest, SizesAndMaterialsThatCanHardlyBeMeantAreSaid) {
+  const std::string file = write("own.msh", test::gmsh_2(box));
+  const auto said = [&](const std::string& option, const std::string& value) {
+    std::filesystem::remove(organ);
+    return run("organ_build", replaced(plain(file, "plane:x<1e-6"), option, value));
+  };
+  EXPECT_THAT(said("--scale", "1"), Not(HasSubstr("warning")));
+  EXPECT_THAT(said("--scale", "0.1625"),
+              HasSubstr("warning: the organ is 6.5 mm long; organs are 10 mm to 1 m"));
+  EXPECT_THAT(said("--scale", "2500"), HasSubstr("warning: the organ is 100 m long"));
+  EXPECT_THAT(said("--young", "6"), HasSubstr("warning: Young's modulus is 6 Pa; soft tissue has 100 Pa"));
+  EXPECT_THAT(said("--density", "1.06"), HasSubstr("warning: the density is 1.06 kg/m^3; tissue has 100"));
+  EXPECT_THAT(said("--poisson", "0.4999"), HasSubstr("warning: Poisson's ratio is 0.4999;"));
+}
+
+// The organ may come from a cache, or from somebody else: then only who fits the scene can say it.
+TEST_F(ForeignFilesTest, AFittedSceneSaysWhatCanHardlyBeMeant) {
+  const std::string file = write("own.msh", test::gmsh_2(box)), fitted = folder / "scene.toml";
+  const auto said = [&](const std::string& scale, const std::string& young) {
+    std::filesystem::remove(organ);
+    run("organ_build", replaced(replaced(plain(file, "plane:x<1e-6"), "--scale", scale), "--young", young));
+    return run("scene_prepare",
+               {OMENTUM_SOURCE_DIR "/scenes/liver.toml", "--organ", organ.string(), "-o", fitted});
+  };
+  EXPECT_THAT(said("1", "3000"), Not(HasSubstr("warning")));
+  EXPECT_THAT(said("0.1625", "6"),
+              AllOf(HasSubstr("warning: the organ is 6.5 mm long; organs are"),
+                    HasSubstr("warning: the organ is 6.5 mm long, smaller than the tip of tool 0 (8 mm)"),
+                    HasSubstr("warning: Young's modulus is 6 Pa")));
+}
+
 }  // namespace
 }  // namespace omentum::organ
