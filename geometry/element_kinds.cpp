@@ -29,7 +29,7 @@ constexpr std::array<KindName, 11> kNames = {
      {kPoint, "point", "points"}}};
 constexpr std::size_t kSolids = 6;
 
-// Gmsh's types from 1 to 31: all orders that its manual lists for the usual shapes.
+// Gmsh's types from 1 to 31, with 92 and 93: all orders that its manual lists for the usual shapes.
 constexpr std::array<GmshElement, 32> kGmshTypes = {
     {{kOther, 0},        {kLine, 2},         {kTriangle, 3},    {kQuadrangle, 4}, {kTetrahedron, 4},
      {kHexahedron, 8},   {kPrism, 6},        {kPyramid, 5},     {kLine, 3},       {kTriangle, 6},
@@ -84,6 +84,8 @@ std::string describe_solids(const ElementCounts& counts) {
 }
 
 GmshElement gmsh_element(std::int64_t type) {
+  if (type == 92) return {kHexahedron, 64};
+  if (type == 93) return {kHexahedron, 125};
   return type > 0 && type < std::ssize(kGmshTypes) ? kGmshTypes[static_cast<std::size_t>(type)]
                                                    : GmshElement{};
 }

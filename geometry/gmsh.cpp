@@ -157,7 +157,8 @@ std::int32_t GmshReader::index_of(std::int64_t number, std::int64_t element) con
 
 void GmshReader::read_element_nodes(std::int64_t element, std::int64_t type) {
   const auto [kind, count] = gmsh_element(type);
-  if (count == 0) in_.fail("element type " + std::to_string(type), "a type from 1 to 31");
+  if (count == 0)
+    in_.fail("element type " + std::to_string(type), "one that Gmsh's manual lists (1 to 31, 92, 93)");
   const bool solid = kind == ElementKind::kTetrahedron;
   std::array<std::int32_t, kCorners> tetrahedron{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {

@@ -66,11 +66,14 @@ std::optional<geometry::Numbering> stated_numbering(const std::string& comment) 
   return std::nullopt;
 }
 
-void require_text(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file) || !std::ifstream(file))
+// A pipe is opened once, and not looked into.
+std::ifstream open_text(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file))
     throw geometry::InputError(file.string() + ": cannot be read; expected a CSV file");
   if (const std::string found = geometry::foreign_kind(file); !found.empty())
     throw geometry::InputError(file.string() + ": found " + found + "; expected a CSV file");
+  return in;
 }
 
 void require_width(const CsvTable& table, const CsvLine& line) {
@@ -106,8 +109,7 @@ std::vector<std::string> split_fields(const std::string& line) {
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {
-  require_text(file);
-  std::ifstream in(file);
+  std::ifstream in = open_text(file);
   CsvTable table;
   std::string text;
   bool first = true;

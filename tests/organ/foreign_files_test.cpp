@@ -2,6 +2,8 @@
 #include "tests/organ/cell_meshes.h"
 #include "tests/organ/organ_programs.h"
 
+#include <sys/stat.h>
+
 namespace omentum::organ {
 namespace {
 
@@ -43,6 +45,52 @@ class ForeignFilesTest : public OrganProgramsTest {
 
   const test::CellMesh box = test::cells_of(test::make_raw_box(2, 2, 2, {0.04, 0.04, 0.04}));
 };
+
+// The manifest's mesh with tags that are not in a row, which nobody here made.
+TEST_F(ForeignFilesTest, TagsOfARealMeshAreItsOwn) {
+  const std::filesystem::path real = test::data_file("tet/sofa_liver2.msh");
+  if (!std::filesystem::exists(real)) GTEST_SKIP() << real << " is not there";
+  std::ifstream in(real);
+  std::string word;
+  std::size_t count = 0;
+  while (in >> word && word != "$NOD" && word != "$Nodes") continue;
+  in >> count;
+  std::vector<std::pair<double, long>> by_x;
+  for (std::size_t n = 0; n < count; ++n) {
+    long tag = 0;
+    double x = 0, y = 0, z = 0;
+    in >> tag >> x >> y >> z;
+    by_x.emplace_back(x, tag);
+  }
+  std::ranges::sort(by_x);
+  const double limit = (by_x[60].first + by_x[61].first) / 2;
+  ASSERT_LT(by_x[60].first, by_x[61].first);
+  std::string held;
+  for (int n = 0; n <= 60; ++n) held += std::to_string(by_x[n].second) + "\n";
+  const auto in_decimetres = [&](const std::string& fixed) {
+    std::vector<std::string> arguments = plain(real, fixed);
+    *(std::ranges::find(arguments, "--scale") + 1) = "0.1";
+    return arguments;
+  };
+  char plane[60];
+  std::snprintf(plane, sizeof plane, "plane:x<%.17g", 0.1 * limit);
+  EXPECT_EQ(hash_after(in_decimetres(write("held.csv", held))), hash_after(in_decimetres(plane)));
+  expect_refused("organ_build", in_decimetres(write("held.csv", "0\n")), "held.csv:1: found '0'");
+}
+
+// What a shell hands over as a file: <(seq 1 20).
+TEST_F(ForeignFilesTest, ATableMayComeFromAPipe) {
+  const std::string pipe = folder / "pipe.csv";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string held;
+  for (int n = 1; n <= 76; n += 5) held += std::to_string(n) + "\n";
+  const std::string expected = hash_after(plain(mesh, write("left.csv", held)));
+  std::filesystem::remove(organ);
+  Process process("organ_build", plain(mesh, pipe));
+  std::ofstream(pipe) << held;
+  EXPECT_EQ(process.wait(), 0) << process.messages();
+  EXPECT_EQ(load_organ(organ, Load::kMeshOnly).hash, expected);
+}
 
 // Each kind of file, with its own way to count.
 class OwnNumbersTest : public ForeignFilesTest, public testing::WithParamInterface<const char*> {
@@ -204,6 +252,10 @@ TEST_F(ForeignFilesTest, EveryKindThatFillsSpaceIsNamed) {
     other.cells.push_back({{0, vtk}, {0, 1, 4, 3, 9, 10, 13, 12}});
     expect_refused("organ_build", plain(write("o.vtk", test::vtk_legacy(other))), named);
   }
+  test::CellMesh third_order = box;
+  third_order.cells.push_back({{92, 0}, std::vector<int>(64, 0)});
+  expect_refused("organ_build", plain(write("t.msh", test::gmsh_2(third_order))),
+                 "found 1 hexahedron besides");
   // one piece of a partitioned file is enough
   test::CellMesh second = cells;
   for (auto& p : second.positions) p.x() += 0.04;
@@ -311,6 +363,7 @@ TEST_F(ForeignFilesTest, OtherFormatsAreNamed) {
       {"<!DOCTYPE html>\n<html><body>404</body></html>", "web page"},
       {"*Heading\n*Node\n1, 0, 0, 0\n", "Abaqus"},
       {"MeshVersionFormatted 2\n", "Medit"},
+      {"(0 \"GAMBIT to Fluent File\")\n(2 3)\n", "Fluent"},
       {"version https://git-lfs.github.com/spec/v1\n", "git lfs"},
       {"\xff\xfe"s + "1\0"s, "UTF-16"}};
   run("organ_build", plain(mesh));
