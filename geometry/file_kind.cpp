@@ -8,8 +8,6 @@
 namespace omentum::geometry {
 namespace {
 
-using std::string_view_literals::operator""sv;
-
 constexpr std::size_t kHead = 1024;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -20,40 +18,40 @@ struct Signature {
 };
 
 constexpr Signature kSignatures[] = {
-    {"\x1f\x8b"sv, "gzip-compressed data (gunzip unpacks it)"},
-    {"BZh"sv, "bzip2-compressed data"},
+    {"\x1f\x8b", "gzip-compressed data (gunzip unpacks it)"},
+    {"BZh", "bzip2-compressed data"},
     {"\xfd"
-     "7zXZ"sv,
+     "7zXZ",
      "xz-compressed data"},
-    {"\x28\xb5\x2f\xfd"sv, "zstd-compressed data"},
-    {"PK\x03\x04"sv, "a zip archive"},
-    {"7z\xbc\xaf\x27\x1c"sv, "a 7z archive"},
-    {"\x89HDF\r\n"sv, "HDF5 data (an organ file, netCDF-4, ExodusII, MED ...)"},
-    {"CDF\x01"sv, "netCDF data (ExodusII ...)"},
-    {"CDF\x02"sv, "netCDF data (ExodusII ...)"},
-    {"CDF\x05"sv, "netCDF data (ExodusII ...)"},
-    {"\xff\xfe"sv, "UTF-16 text (save it as UTF-8)"},
-    {"\xfe\xff"sv, "UTF-16 text (save it as UTF-8)"},
-    {"\x89PNG"sv, "a PNG picture"},
-    {"\xff\xd8\xff"sv, "a JPEG picture"},
-    {"%PDF"sv, "a PDF document"},
+    {"\x28\xb5\x2f\xfd", "zstd-compressed data"},
+    {"PK\x03\x04", "a zip archive"},
+    {"7z\xbc\xaf\x27\x1c", "a 7z archive"},
+    {"\x89HDF\r\n", "HDF5 data (an organ file, netCDF-4, ExodusII, MED ...)"},
+    {"CDF\x01", "netCDF data (ExodusII ...)"},
+    {"CDF\x02", "netCDF data (ExodusII ...)"},
+    {"CDF\x05", "netCDF data (ExodusII ...)"},
+    {"\xff\xfe", "UTF-16 text (save it as UTF-8)"},
+    {"\xfe\xff", "UTF-16 text (save it as UTF-8)"},
+    {"\x89PNG", "a PNG picture"},
+    {"\xff\xd8\xff", "a JPEG picture"},
+    {"%PDF", "a PDF document"},
     {"\x7f"
-     "ELF"sv,
+     "ELF",
      "a program"},
-    {"solid "sv, "an STL surface"},
-    {"ply\n"sv, "a PLY surface"},
-    {"ply\r"sv, "a PLY surface"},
-    {"OFF\n"sv, "an OFF surface"},
-    {"OFF\r"sv, "an OFF surface"},
-    {"MeshVersionFormatted"sv, "a Medit mesh"},
-    {"(0 \""sv, "a Fluent mesh"},
-    {"(1 \""sv, "a Fluent mesh"},
-    {"(2 3)"sv, "a Fluent mesh"},
-    {"ISO-10303-21"sv, "a STEP file"},
-    {"NRRD0"sv, "an NRRD volume"},
-    {"DICM"sv, "a DICOM file", 128},
-    {"n+1\0"sv, "a NIfTI volume", 344},
-    {"version https://git-lfs"sv, "a Git LFS pointer (git lfs pull fetches the file itself)"},
+    {"solid ", "an STL surface"},
+    {"ply\n", "a PLY surface"},
+    {"ply\r", "a PLY surface"},
+    {"OFF\n", "an OFF surface"},
+    {"OFF\r", "an OFF surface"},
+    {"MeshVersionFormatted", "a Medit mesh"},
+    {"(0 \"", "a Fluent mesh"},
+    {"(1 \"", "a Fluent mesh"},
+    {"(2 3)", "a Fluent mesh"},
+    {"ISO-10303-21", "a STEP file"},
+    {"NRRD0", "an NRRD volume"},
+    {"DICM", "a DICOM file", 128},
+    {"n+1", "a NIfTI volume", 344},
+    {"version https://git-lfs", "a Git LFS pointer (git lfs pull fetches the file itself)"},
 };
 
 std::string_view without_blanks(std::string_view text) {

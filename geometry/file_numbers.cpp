@@ -32,8 +32,7 @@ std::optional<std::int32_t> FileNumbers::position_of(std::int64_t number) const 
 std::string FileNumbers::range() const {
   if (counted_) return "from " + std::to_string(first_) + " to " + std::to_string(of(count_ - 1));
   const auto end = [this](std::int32_t i) { return std::to_string(own_[static_cast<std::size_t>(i)]); };
-  return "that the mesh file has (" + std::to_string(count_) + " from " + end(sorted_.front()) + " to " +
-         end(sorted_.back()) + ")";
+  return std::to_string(count_) + " from " + end(sorted_.front()) + " to " + end(sorted_.back());
 }
 
 }  // namespace omentum::geometry

@@ -29,7 +29,7 @@ class FileNumbers {
   /// several times, the first. O(log count).
   std::optional<std::int32_t> position_of(std::int64_t number) const;
 
-  /// "from 1 to 80", or "that the mesh file has (507 from 1 to 533)" where there are gaps. Precondition:
+  /// "from 1 to 80", or "507 from 1 to 533" where there are gaps. Precondition:
   /// count > 0.
   std::string range() const;
 

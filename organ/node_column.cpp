@@ -34,10 +34,10 @@ std::int32_t NodeColumn::position(const CsvLine& line) const {
   const auto number = parse_integer(name(line));
   const auto position = number ? names_.position_of(*number) : std::nullopt;
   if (position) return *position;
-  throw InputError(line.where + ": found '" + name(line) + "'; expected a node number " + names_.range() +
-                   (numbering_ == Numbering::kFile
-                        ? " (the mesh file's own; --numbering position counts from 0)"
-                        : " (positions in the mesh file)"));
+  const bool own = numbering_ == Numbering::kFile;
+  throw InputError(line.where + ": found '" + name(line) + "'; expected a node number " +
+                   (own ? "of the mesh file's own, " : "") + names_.range() +
+                   (own ? " (--numbering position counts from 0)" : ", by position"));
 }
 
 }  // namespace omentum::organ

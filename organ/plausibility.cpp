@@ -59,7 +59,7 @@ std::vector<std::string> implausible(const geometry::TetraMesh& mesh, const phys
   }
   if (!kPoisson.holds(material.poisson)) {
     found.push_back(
-        text("Poisson's ratio is %g; tissue has 0 to 0.495 here (above, linear tetrahedra lock and "
+        text("Poisson's ratio is %g; expected 0 to 0.495 (above, linear tetrahedra lock and "
              "the organ is too stiff; 0.45 to 0.49 is usual)",
              material.poisson));
   }
