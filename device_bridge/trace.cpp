@@ -1,6 +1,7 @@
 #include "device_bridge/trace.h"
 
 #include "device_bridge/hand_model.h"
+#include "geometry/file_kind.h"
 
 #include <algorithm>
 #include <array>
@@ -21,6 +22,7 @@ constexpr double kUnitTolerance = 1e-3;  // three written digits of a quaternion
 constexpr int kTool = 9;                 // the optional column
 constexpr std::array<std::string_view, 10> kColumns{"t_s", "px", "py", "pz",   "qw",
                                                     "qx",  "qy", "qz", "grip", "tool"};
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // what spreadsheets put in front of UTF-8
 constexpr const char* kHeader = "t_s,px,py,pz,qw,qx,qy,qz,grip";
 
 std::string quoted(std::string_view text) {
@@ -49,6 +51,9 @@ class TraceReader {
       throw std::runtime_error(file.string() + ": found no readable file, expected a trace (" + kHeader +
                                ")");
     }
+    if (const std::string found = geometry::foreign_kind(file); !found.empty()) {
+      throw std::runtime_error(file.string() + ": found " + found + ", expected a trace (" + kHeader + ")");
+    }
   }
 
   std::map<std::uint32_t, Trace> read() {
@@ -68,7 +73,7 @@ class TraceReader {
 
   bool next_line() {
     while (std::getline(in_, line_)) {
-      ++line_number_;
+      if (++line_number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
       const auto text = line_.find_first_not_of(" \t\r");
       if (text != std::string::npos && line_[text] != '#') return true;
     }

@@ -22,9 +22,10 @@ struct TracePoint {
 using Trace = std::vector<TracePoint>;
 
 /// Reads `t_s,px,py,pz,qw,qx,qy,qz,grip`, with a header line that names the columns (in any order) and an
-/// optional column `tool` (else 0): a trace per tool. Empty lines and lines that begin with # are passed
-/// over. Throws std::runtime_error "FILE:LINE: found ..., expected ..." for a wrong header, a field that is
-/// no number, times that do not grow, or an orientation whose length is not 1 within 1e-3.
+/// optional column `tool` (else 0): a trace per tool. Empty lines, lines that begin with # and a byte order
+/// mark are passed over. Throws std::runtime_error "FILE:LINE: found ..., expected ..." for a file of another
+/// kind (compressed, UTF-16 ...), a wrong header, a field that is no number, times that do not grow, or an
+/// orientation whose length is not 1 within 1e-3.
 std::map<std::uint32_t, Trace> read_trace(const std::filesystem::path& file);
 
 /// Where the hand is at time `t_s`: on the straight line between two points, turning evenly between their

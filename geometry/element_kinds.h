@@ -17,17 +17,19 @@ enum class ElementKind {
   kHexahedron,
   kPrism,
   kPyramid,
-  kOther
+  kPolygon,
+  kPolyhedron,
+  kOther  // of a type that is not known here
 };
 
 /// Elements by kind, [ElementKind].
-using ElementCounts = std::array<std::size_t, 9>;
+using ElementCounts = std::array<std::size_t, 11>;
 
 /// "12 hexahedra and 24 quadrangles": those of which there are any, solid ones first; empty when there is
 /// none.
 std::string describe_elements(const ElementCounts& counts);
 
-/// The same of those that fill space.
+/// The same of those that fill space, or might: of a type that is not known here.
 std::string describe_solids(const ElementCounts& counts);
 
 /// A Gmsh element type: its kind, and how many nodes it has (0: a type that is not known here). The first

@@ -42,8 +42,8 @@ class GmshReader {
 
   std::size_t checked_count(std::int64_t value, const char* expected) const;
   void add_node(std::int64_t number, const Vec3& position);
-  void read_element_nodes(std::int64_t type);
-  std::int32_t index_of(std::int64_t number) const;
+  void read_element_nodes(std::int64_t element, std::int64_t type);
+  std::int32_t index_of(std::int64_t number, std::int64_t element) const;
 
   FileCursor in_;
   RawMesh mesh_;
@@ -103,6 +103,7 @@ void GmshReader::add_node(std::int64_t number, const Vec3& position) {
     in_.fail("node number " + std::to_string(number) + " twice", "each once");
   }
   mesh_.positions.push_back(position);
+  mesh_.node_numbers.push_back(number);
 }
 
 void GmshReader::read_nodes_1_and_2() {
@@ -145,42 +146,43 @@ void GmshReader::read_nodes_4() {
   in_.word("$EndNodes");
 }
 
-std::int32_t GmshReader::index_of(std::int64_t number) const {
+std::int32_t GmshReader::index_of(std::int64_t number, std::int64_t element) const {
   const auto found = index_of_number_.find(number);
   if (found == index_of_number_.end()) {
-    in_.fail("node number " + std::to_string(number) + " in tetrahedron " +
-                 std::to_string(mesh_.tetrahedra.size()),
+    in_.fail("node number " + std::to_string(number) + " in tetrahedron " + std::to_string(element),
              "the number of a node listed before");
   }
   return found->second;
 }
 
-void GmshReader::read_element_nodes(std::int64_t type) {
+void GmshReader::read_element_nodes(std::int64_t element, std::int64_t type) {
   const auto [kind, count] = gmsh_element(type);
-  if (count == 0) in_.fail("element type " + std::to_string(type), "a type from 1 to 31");
+  if (count == 0)
+    in_.fail("element type " + std::to_string(type), "one that Gmsh's manual lists (1 to 31, 92, 93)");
   const bool solid = kind == ElementKind::kTetrahedron;
   std::array<std::int32_t, kCorners> tetrahedron{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const std::int64_t node = number("a node of an element");
-    if (solid && i < kCorners) tetrahedron[i] = index_of(node);
+    if (solid && i < kCorners) tetrahedron[i] = index_of(node, element);
   }
   if (!solid) {
     ++mesh_.others[static_cast<std::size_t>(kind)];
     return;
   }
   mesh_.tetrahedra.push_back(tetrahedron);
+  mesh_.tetrahedron_numbers.push_back(element);
   if (static_cast<std::size_t>(count) > kCorners) ++mesh_.curved;
 }
 
 void GmshReader::read_elements_1() {
   const std::size_t count = in_.count("the number of elements");
   for (std::size_t i = 0; i < count; ++i) {
-    in_.integer("an element number");
+    const std::int64_t element = in_.integer("an element number");
     const std::int64_t type = in_.integer("an element type");
     in_.integer("a physical region");
     in_.integer("an elementary region");
     in_.integer("the number of nodes of an element");
-    read_element_nodes(type);
+    read_element_nodes(element, type);
   }
   in_.word("$ENDELM");
 }
@@ -190,16 +192,16 @@ void GmshReader::read_elements_2() {
   if (binary_) in_.rest_of_line();
   for (std::size_t i = 0; i < count;) {
     // Binary files group elements of one type behind a header; text has one per line, number first.
-    std::int64_t in_group = 1;
-    if (!binary_) integer("an element number");
+    std::int64_t in_group = 1, element = 0;
+    if (!binary_) element = integer("an element number");
     const std::int64_t type = integer("an element type");
     if (binary_) in_group = integer("the number of elements in this group");
     const std::size_t tags = checked_count(integer("the number of tags"), "the number of tags");
     if (in_group < 1) in_.fail(std::to_string(in_group) + " elements in a group", "at least 1");
     for (std::int64_t e = 0; e < in_group; ++e, ++i) {
-      if (binary_) integer("an element number");
+      if (binary_) element = integer("an element number");
       for (std::size_t t = 0; t < tags; ++t) integer("a tag of an element");
-      read_element_nodes(type);
+      read_element_nodes(element, type);
     }
   }
   in_.word("$EndElements");
@@ -221,8 +223,8 @@ void GmshReader::read_elements_4() {
     const std::size_t in_block =
         checked_count(size("the number of elements in this block"), "a number of elements");
     for (std::size_t e = 0; e < in_block; ++e) {
-      number("an element number");
-      read_element_nodes(type);
+      const std::int64_t element = number("an element number");
+      read_element_nodes(element, type);
     }
   }
   in_.word("$EndElements");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace omentum::geometry {
 namespace {
@@ -22,8 +23,12 @@ constexpr std::size_t kNamed = 5;
 
 class Checker {
  public:
-  Checker(const RawMesh& raw, double metres_per_unit, double merge_m)
-      : raw_(raw), tetrahedra_(raw.tetrahedra), merge_m_(merge_m) {
+  Checker(const RawMesh& raw, double metres_per_unit, const CheckOptions& options)
+      : raw_(raw),
+        tetrahedra_(raw.tetrahedra),
+        options_(options),
+        node_names_(raw.node_numbers, raw.positions.size(), options.numbering),
+        tetrahedron_names_(raw.tetrahedron_numbers, raw.tetrahedra.size(), options.numbering) {
     scale_positions(metres_per_unit);
   }
 
@@ -40,11 +45,22 @@ class Checker {
   void orient();
   void check_repeated();
   void drop_unused_nodes();
+  void keep_file_numbers();
 
   std::vector<std::int32_t> used_nodes() const;
-  void warn_of_what_is_not_read();
+  void treat_what_is_not_read();
+  std::string numbered(const FileNumbers& names, const Offenders& which) const;
+  std::string node_name(std::int32_t node) const {
+    return "node " + std::to_string(node_names_.of(static_cast<std::size_t>(node)));
+  }
   const Vec3& position(std::int32_t node) const { return positions_[static_cast<std::size_t>(node)]; }
-  void refuse(const char* thing, Offenders which, const std::string& what);
+  void refuse(const char* thing, const FileNumbers& names, Offenders which, const std::string& what);
+  void refuse_tetrahedra(const Offenders& which, const std::string& what) {
+    refuse("tetrahedra", tetrahedron_names_, which, what);
+  }
+  void refuse_nodes(const Offenders& which, const std::string& what) {
+    refuse("nodes", node_names_, which, what);
+  }
   void warn(std::size_t count, const char* singular, const char* plural);
   [[noreturn]] void throw_reasons() const;
   void stop_if_refused() const {
@@ -54,25 +70,26 @@ class Checker {
   const RawMesh& raw_;
   std::vector<Vec3> positions_;                          // all nodes of the file, m
   std::vector<std::array<std::int32_t, 4>> tetrahedra_;  // positively oriented after orient()
-  double merge_m_;                                       // 0: nodes are not merged
+  CheckOptions options_;
+  FileNumbers node_names_, tetrahedron_names_;  // for messages
   std::vector<std::string> reasons_;
   CheckedMesh result_;
 };
 
-std::string numbered(const Offenders& which) {
+std::string Checker::numbered(const FileNumbers& names, const Offenders& which) const {
   std::string text;
   for (std::size_t i = 0; i < std::min(which.size(), kNamed); ++i) {
-    text += (i == 0 ? " " : ", ") + std::to_string(which[i]);
+    text += (i == 0 ? " " : ", ") + std::to_string(names.of(which[i]));
   }
   if (which.size() > kNamed) text += ", ... (" + std::to_string(which.size()) + " in all)";
   return text;
 }
 
-void Checker::refuse(const char* thing, Offenders which, const std::string& what) {
+void Checker::refuse(const char* thing, const FileNumbers& names, Offenders which, const std::string& what) {
   if (which.empty()) return;
   std::sort(which.begin(), which.end());
   which.erase(std::unique(which.begin(), which.end()), which.end());
-  reasons_.push_back(thing + numbered(which) + ": " + what);
+  reasons_.push_back(thing + numbered(names, which) + ": " + what);
 }
 
 void Checker::warn(std::size_t count, const char* singular, const char* plural) {
@@ -92,8 +109,8 @@ void Checker::scale_positions(double metres_per_unit) {
     throw InputError(raw_.source + ": found the scale " + std::to_string(metres_per_unit) +
                      " metres per unit, expected a positive number");
   }
-  if (!(merge_m_ >= 0) || !std::isfinite(merge_m_)) {
-    throw InputError(raw_.source + ": found the merging distance " + std::to_string(merge_m_) +
+  if (!(options_.merge_m >= 0) || !std::isfinite(options_.merge_m)) {
+    throw InputError(raw_.source + ": found the merging distance " + std::to_string(options_.merge_m) +
                      " m, expected a positive number");
   }
   positions_.reserve(raw_.positions.size());
@@ -106,8 +123,9 @@ void Checker::check_node_numbers() const {
     const auto& v = raw_.tetrahedra[t];
     for (int i = 0; i < 4; ++i) {
       if (v[i] < 0 || v[i] >= count) {
-        throw InputError(raw_.source + ": tetrahedron " + std::to_string(t) + " names node " +
-                         std::to_string(v[i]) + ", expected 0 to " + std::to_string(count - 1));
+        throw InputError(raw_.source + ": tetrahedron " + std::to_string(tetrahedron_names_.of(t)) +
+                         " names node " + std::to_string(v[i]) + ", expected 0 to " +
+                         std::to_string(count - 1));
       }
     }
   }
@@ -123,7 +141,7 @@ void Checker::check_finite() const {
   for (const auto& tetrahedron : raw_.tetrahedra) {
     for (const std::int32_t node : tetrahedron) {
       if (!position(node).allFinite())
-        throw InputError(raw_.source + ": the position of node " + std::to_string(node) + " is not finite");
+        throw InputError(raw_.source + ": the position of " + node_name(node) + " is not finite");
     }
   }
 }
@@ -141,9 +159,9 @@ std::vector<std::int32_t> Checker::used_nodes() const {
 }
 
 void Checker::merge_twins() {
-  if (merge_m_ == 0) return;
+  if (options_.merge_m == 0) return;
   const std::vector<std::int32_t> first =
-      first_of_twins(find_twins(positions_, used_nodes(), merge_m_), positions_.size());
+      first_of_twins(find_twins(positions_, used_nodes(), options_.merge_m), positions_.size());
   Offenders collapsed;
   for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
     auto& v = tetrahedra_[t];
@@ -152,7 +170,7 @@ void Checker::merge_twins() {
     std::ranges::sort(sorted);
     if (std::ranges::adjacent_find(sorted) != sorted.end()) collapsed.push_back(t);
   }
-  refuse("tetrahedra", collapsed, "with nodes that are no farther apart than what is merged");
+  refuse_tetrahedra(collapsed, "with nodes that are no farther apart than what is merged");
   for (std::size_t n = 0; n < first.size(); ++n) {
     const auto node = static_cast<std::int32_t>(n);
     if (first[n] != node) result_.merged.push_back({node, first[n]});
@@ -170,7 +188,7 @@ void Checker::check_twins() {
   const auto pairs = find_twins(positions_, nodes, kSamePlace * (high - low).norm());
   if (pairs.empty()) return;
   // what else is wrong may follow from it
-  reasons_.insert(reasons_.begin(), describe_twins(pairs, kNamed));
+  reasons_.insert(reasons_.begin(), describe_twins(pairs, node_names_, kNamed));
 }
 
 // Height over the largest face, as a fraction of the longest edge.
@@ -199,7 +217,7 @@ void Checker::orient() {
       ++reordered;
     }
   }
-  refuse("tetrahedra", flat, "zero volume (height below 1e-6 of the longest edge)");
+  refuse_tetrahedra(flat, "zero volume (height below 1e-6 of the longest edge)");
   warn(reordered, "tetrahedron was listed in negative order and is reordered",
        "tetrahedra were listed in negative order and are reordered");
 }
@@ -216,7 +234,7 @@ void Checker::check_repeated() {
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first == sorted[i - 1].first) repeated.push_back(sorted[i].second);
   }
-  refuse("tetrahedra", repeated, "repeating the nodes of an earlier one");
+  refuse_tetrahedra(repeated, "repeating the nodes of an earlier one");
 }
 
 void Checker::drop_unused_nodes() {
@@ -239,6 +257,17 @@ void Checker::drop_unused_nodes() {
        "node belongs to no tetrahedron and is dropped", "nodes belong to no tetrahedron and are dropped");
 }
 
+void Checker::keep_file_numbers() {
+  const auto all = [](const std::vector<std::int64_t>& own, std::size_t count) {
+    if (!own.empty()) return own;
+    std::vector<std::int64_t> from_zero(count);
+    std::iota(from_zero.begin(), from_zero.end(), 0);
+    return from_zero;
+  };
+  result_.mesh.node_numbers = all(raw_.node_numbers, raw_.positions.size());
+  result_.mesh.tetrahedron_numbers = all(raw_.tetrahedron_numbers, raw_.tetrahedra.size());
+}
+
 // Elements first: without volume, or among copies, neighbours mean nothing.
 void Checker::check_elements() {
   check_node_numbers();
@@ -252,47 +281,55 @@ void Checker::check_elements() {
 void Checker::check_neighbours() {
   const std::vector<FaceSide> sides = collect_face_sides(tetrahedra_);
   const Offenders parts = separate_parts(sides, tetrahedra_.size());
-  if (parts.size() > 1) refuse("tetrahedra", parts, "in parts that no faces connect");
+  if (parts.size() > 1) refuse_tetrahedra(parts, "in parts that no faces connect");
   const FaceFaults faults = find_face_faults(sides, tetrahedra_.size());
-  refuse("tetrahedra", faults.crowded, "sharing a face with more than one other (non-manifold)");
-  refuse("tetrahedra", faults.inside_out, "turned inside out against most of their neighbours (overlapping)");
-  refuse("tetrahedra", faults.folded, "on the same side of a shared face (overlapping)");
-  refuse("tetrahedra", touching_along_edges(sides), "touching along an edge only (non-manifold boundary)");
-  refuse("nodes", pinched_nodes(sides, tetrahedra_, positions_.size()),
-         "joining regions that touch there in a point or an edge only (non-manifold)");
+  refuse_tetrahedra(faults.crowded, "sharing a face with more than one other (non-manifold)");
+  refuse_tetrahedra(faults.inside_out, "turned inside out against most of their neighbours (overlapping)");
+  refuse_tetrahedra(faults.folded, "on the same side of a shared face (overlapping)");
+  refuse_tetrahedra(touching_along_edges(sides), "touching along an edge only (non-manifold boundary)");
+  refuse_nodes(pinched_nodes(sides, tetrahedra_, positions_.size()),
+               "joining regions that touch there in a point or an edge only (non-manifold)");
   if (!reasons_.empty()) check_twins();
   stop_if_refused();
-  refuse("nodes", pinched_boundary_nodes(sides, positions_.size()),
-         "joining boundary faces that touch there in a point only (non-manifold boundary)");
-  refuse("tetrahedra", winding_around_edges(positions_, tetrahedra_),
-         "winding around a shared edge more than once (overlapping)");
-  refuse("tetrahedra", crossing_at_boundary(positions_, sides),
-         "boundary faces pass through each other (overlapping)");
-  refuse("tetrahedra", covered_at_boundary(positions_, tetrahedra_, sides),
-         "at the boundary lying inside another one (overlapping)");
+  refuse_nodes(pinched_boundary_nodes(sides, positions_.size()),
+               "joining boundary faces that touch there in a point only (non-manifold boundary)");
+  refuse_tetrahedra(winding_around_edges(positions_, tetrahedra_),
+                    "winding around a shared edge more than once (overlapping)");
+  refuse_tetrahedra(crossing_at_boundary(positions_, sides),
+                    "boundary faces pass through each other (overlapping)");
+  refuse_tetrahedra(covered_at_boundary(positions_, tetrahedra_, sides),
+                    "at the boundary lying inside another one (overlapping)");
   check_twins();
   stop_if_refused();
 }
 
-void Checker::warn_of_what_is_not_read() {
+// Surfaces, lines and points beside the tetrahedra take no room; what does must not vanish in silence.
+void Checker::treat_what_is_not_read() {
   warn(raw_.curved, "tetrahedron has more than four nodes: its corners alone are read",
        "tetrahedra have more than four nodes: their corners alone are read");
   const std::string solids = describe_solids(raw_.others);
-  if (!solids.empty()) result_.warnings.push_back(raw_.source + ": not read, no tetrahedra: " + solids);
+  if (solids.empty()) return;
+  if (!options_.ignore_other_cells) {
+    throw InputError(
+        raw_.source + ": found " + solids + " besides the tetrahedra, expected tetrahedra alone: " +
+        "the organ would lack what they fill (organ_build --ignore-other-cells leaves them out)");
+  }
+  result_.warnings.push_back(raw_.source + ": not read, no tetrahedra: " + solids);
 }
 
 CheckedMesh Checker::run() {
-  warn_of_what_is_not_read();
+  treat_what_is_not_read();
   check_elements();
   check_neighbours();
   drop_unused_nodes();
+  keep_file_numbers();
   return std::move(result_);
 }
 
 }  // namespace
 
-CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit, double merge_m) {
-  return Checker(raw, metres_per_unit, merge_m).run();
+CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit, const CheckOptions& options) {
+  return Checker(raw, metres_per_unit, options).run();
 }
 
 }  // namespace omentum::geometry

@@ -1,25 +1,49 @@
+#include "geometry/file_kind.h"
 #include "geometry/mesh_formats.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 
 namespace omentum::geometry {
 
-RawMesh read_mesh(const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
-  RawMesh mesh;
-  if (extension == ".msh") {
-    mesh = read_gmsh(file);
-  } else if (extension == ".vtk") {
-    mesh = read_vtk_legacy(file);
-  } else if (extension == ".vtu") {
-    mesh = read_vtu(file);
-  } else if (extension == ".node" || extension == ".ele") {
-    mesh = read_tetgen(file);
-  } else {
-    throw InputError(file.string() + ": found the extension '" + extension +
+namespace {
+
+std::string small(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+// What the contents say goes before what the name says; a name alone says what was meant.
+RawMesh read_by_kind(const std::filesystem::path& file) {
+  const std::string extension = small(file.extension().string());
+  const bool known = extension == ".msh" || extension == ".vtk" || extension == ".vtu";
+  if (extension == ".node" || extension == ".ele") return read_tetgen(file);
+  if (!known) {
+    throw InputError(file.string() + ": found the extension '" + file.extension().string() +
                      "', expected .msh, .vtk, .vtu, .node or .ele");
   }
+  if (const std::string found = foreign_kind(file); !found.empty())
+    throw InputError(file.string() + ": found " + found + ", expected a mesh of Gmsh or VTK");
+  const MeshKind meant = extension == ".msh"   ? MeshKind::kGmsh
+                         : extension == ".vtk" ? MeshKind::kVtkLegacy
+                                               : MeshKind::kVtkXml;
+  switch (mesh_kind(file_head(file)).value_or(meant)) {
+    case MeshKind::kGmsh:
+      return read_gmsh(file);
+    case MeshKind::kVtkLegacy:
+      return read_vtk_legacy(file);
+    case MeshKind::kVtkXml:
+      return read_vtu(file);
+  }
+  throw InputError(file.string() + ": is no mesh");  // not reached
+}
+
+}  // namespace
+
+RawMesh read_mesh(const std::filesystem::path& file) {
+  RawMesh mesh = read_by_kind(file);
   if (mesh.tetrahedra.empty()) {
     const std::string others = describe_elements(mesh.others);
     throw InputError(mesh.source + ": found no tetrahedra" + (others.empty() ? "" : ", but " + others) +

@@ -1,7 +1,9 @@
 // TetGen's .node and .ele: https://wias-berlin.de/software/tetgen/fformats.html
 #include "geometry/file_cursor.h"
+#include "geometry/file_kind.h"
 #include "geometry/mesh_formats.h"
 
+#include <cctype>
 #include <limits>
 
 namespace omentum::geometry {
@@ -36,6 +38,7 @@ std::int64_t read_nodes(FileCursor& in, RawMesh& mesh) {
     }
     const double x = in.real("x of a node"), y = in.real("y of a node"), z = in.real("z of a node");
     mesh.positions.emplace_back(x, y, z);
+    mesh.node_numbers.push_back(number);
     in.rest_of_line();
   }
   return first;
@@ -50,29 +53,50 @@ void read_tetrahedra(FileCursor& in, std::int64_t first, RawMesh& mesh) {
   in.rest_of_line();
   for (std::size_t t = 0; t < count; ++t) {
     skip_comments(in);
-    in.integer("a tetrahedron's number");
+    const std::int64_t own_number = in.integer("a tetrahedron's number");
     std::array<std::int32_t, 4> tetrahedron{};
     for (std::int32_t& node : tetrahedron) {
       const std::int64_t number = in.integer("a node of a tetrahedron");
       if (number < first || number - first >= std::ssize(mesh.positions)) {
-        in.fail("node number " + std::to_string(number) + " in tetrahedron " + std::to_string(t),
+        in.fail("node number " + std::to_string(number) + " in tetrahedron " + std::to_string(own_number),
                 "a number of the .node file");
       }
       node = static_cast<std::int32_t>(number - first);
     }
     mesh.tetrahedra.push_back(tetrahedron);
+    mesh.tetrahedron_numbers.push_back(own_number);
     in.rest_of_line();
   }
 }
 
 }  // namespace
 
+std::array<std::filesystem::path, 2> tetgen_pair(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  const bool capitals = extension.size() > 1 && std::isupper(static_cast<unsigned char>(extension[1]));
+  const auto beside = [&](const char* small, const char* capital) {
+    const auto with = [&](const char* other) { return std::filesystem::path(file).replace_extension(other); };
+    const std::filesystem::path likely = with(capitals ? capital : small),
+                                other = with(capitals ? small : capital);
+    return !std::filesystem::exists(likely) && std::filesystem::exists(other) ? other : likely;
+  };
+  std::array<std::filesystem::path, 2> pair = {beside(".node", ".NODE"), beside(".ele", ".ELE")};
+  const bool is_node = extension.size() == 5;
+  pair[is_node ? 0 : 1] = file;
+  return pair;
+}
+
 RawMesh read_tetgen(const std::filesystem::path& file) {
   RawMesh mesh;
   mesh.source = file.string();
-  FileCursor nodes(std::filesystem::path(file).replace_extension(".node"));
+  const auto [node_file, element_file] = tetgen_pair(file);
+  for (const std::filesystem::path& part : {node_file, element_file}) {
+    if (const std::string found = foreign_kind(part); !found.empty())
+      throw InputError(part.string() + ": found " + found + ", expected TetGen's .node and .ele (text)");
+  }
+  FileCursor nodes(node_file);
   const std::int64_t first = read_nodes(nodes, mesh);
-  FileCursor elements(std::filesystem::path(file).replace_extension(".ele"));
+  FileCursor elements(element_file);
   read_tetrahedra(elements, first, mesh);
   return mesh;
 }

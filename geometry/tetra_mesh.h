@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/element_kinds.h"
+#include "geometry/file_numbers.h"
 #include "geometry/types.h"
 
 #include <filesystem>
@@ -22,15 +23,24 @@ struct RawMesh {
   std::vector<std::array<std::int32_t, 4>> tetrahedra;  // 0-based positions in `positions`: corners
   std::size_t curved = 0;                               // of them have nodes between their corners too
   ElementCounts others{};                               // elements that are no tetrahedra
+  std::vector<std::int64_t> node_numbers{};             // the file's own, [positions]; empty: from 0
+  std::vector<std::int64_t> tetrahedron_numbers{};      // the file's own, [tetrahedra]; empty: from 0
 };
 
 /// A valid mesh: every node used, every tetrahedron positively oriented, no duplicate or overlapping
 /// element, connected through faces, boundary closed and manifold. Positions in metres.
 struct TetraMesh {
-  std::vector<Vec3> positions;          // [N], m
-  std::vector<Tetrahedron> tetrahedra;  // [T], in the file's order
-  std::vector<std::int32_t> file_node;  // [N], 0-based number in the mesh file
-  std::int32_t file_node_count = 0;     // nodes in the file, unused ones included
+  std::vector<Vec3> positions;                    // [N], m
+  std::vector<Tetrahedron> tetrahedra;            // [T], in the file's order
+  std::vector<std::int32_t> file_node;            // [N], position in the mesh file, from 0
+  std::int32_t file_node_count = 0;               // nodes in the file, unused ones included
+  std::vector<std::int64_t> node_numbers;         // [file_node_count], what the file calls its nodes
+  std::vector<std::int64_t> tetrahedron_numbers;  // [T], and its tetrahedra
+
+  /// What the nodes of the file are called, by position in it.
+  FileNumbers names_of_nodes(Numbering numbering) const {
+    return {node_numbers, static_cast<std::size_t>(file_node_count), numbering};
+  }
 };
 
 /// Bad input: the message names file, place and expectation. Programs end with exit code 2.
@@ -39,7 +49,7 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A node of the file whose place another one takes; 0-based numbers in the file.
+/// A node of the file whose place another one takes; positions in the file, from 0.
 struct MergedNode {
   std::int32_t dropped, kept;
 };
@@ -50,22 +60,32 @@ struct CheckedMesh {
   std::vector<MergedNode> merged;     // by `dropped`, ascending; nodes that were merged on demand
 };
 
-/// Reads .msh (Gmsh 1, 2.2, 4.0, 4.1; ASCII and binary where the format has it), .vtk (legacy, ASCII and
-/// binary), .vtu (ASCII, base64, raw; zlib, LZ4 and LZMA) and .node/.ele (either name). Of tetrahedra with
-/// ten nodes or more the corners are read. Other elements are counted, not read. Throws InputError naming
-/// file, line or section, and what was expected; without any tetrahedron, what the file holds instead.
+/// Reads by contents, where they begin as one of these does, else by extension (capitals or not): .msh (Gmsh
+/// 1, 2.2, 4.0, 4.1; ASCII and binary where the format has it), .vtk (legacy, ASCII and binary), .vtu (ASCII,
+/// base64, raw; zlib, LZ4 and LZMA) and .node/.ele (either name). Of tetrahedra with ten nodes or more the
+/// corners are read. Other elements are counted, not read. Throws InputError naming file, line or section,
+/// and what was expected; without any tetrahedron, what the file holds instead; for a file of another kind,
+/// which (file_kind.h).
 RawMesh read_mesh(const std::filesystem::path& file);
 
 /// Writes Gmsh 2.2 ASCII, positions in metres.
 void write_mesh(const TetraMesh& mesh, const std::filesystem::path& file);
 
+/// What check_mesh is asked for besides.
+struct CheckOptions {
+  double merge_m = 0;                      // > 0: nodes at most so far apart become the first of them, m
+  Numbering numbering = Numbering::kFile;  // of nodes and tetrahedra in messages
+  bool ignore_other_cells = false;         // other elements that fill space are left out, with a warning
+};
+
 /// Scales to metres, drops unused nodes and reorders negatively listed tetrahedra (both with a
 /// warning that counts them); throws InputError naming the elements otherwise: zero volume (height
 /// below 1e-6 of the longest edge), repeated or overlapping elements, non-manifold or open boundary,
 /// disconnected parts, nodes at the same place (an inner crack, or parts glued by copying), non-finite
-/// positions, node numbers out of range. `merge_m` > 0: nodes at most so far apart, m, become the first of
-/// them, with a warning; throws where that would collapse a tetrahedron.
-CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit, double merge_m = 0);
+/// positions, node numbers out of range; and, unless they are to be ignored, other elements that fill space,
+/// by kind and count: without them the organ would be another one. Merging warns, and throws where it would
+/// collapse a tetrahedron.
+CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit, const CheckOptions& options = {});
 
 /// Signed volume, m^3: positive when d lies on the side of (a,b,c) its right-handed normal points to.
 inline double signed_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

@@ -38,14 +38,17 @@ std::vector<std::pair<std::int32_t, std::int32_t>> find_twins(std::span<const Ve
   return pairs;
 }
 
-std::string describe_twins(std::span<const std::pair<std::int32_t, std::int32_t>> pairs, std::size_t named) {
+std::string describe_twins(std::span<const std::pair<std::int32_t, std::int32_t>> pairs,
+                           const FileNumbers& names, std::size_t named) {
+  const auto name = [&](std::int32_t node) {
+    return std::to_string(names.of(static_cast<std::size_t>(node)));
+  };
   std::string text =
       std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
       " of nodes at the same place (a crack, or parts glued by copying; organ_build --merge METRES "
       "makes one of each)";
   for (std::size_t i = 0; i < std::min(pairs.size(), named); ++i) {
-    text += (i == 0 ? ": nodes " : ", ") + std::to_string(pairs[i].first) + " and " +
-            std::to_string(pairs[i].second);
+    text += (i == 0 ? ": nodes " : ", ") + name(pairs[i].first) + " and " + name(pairs[i].second);
   }
   return text + (pairs.size() > named ? ", ..." : "");
 }

@@ -25,7 +25,7 @@ std::span<const std::int64_t> nodes_of(const VtkCells& cells, std::size_t c) {
 
 }  // namespace
 
-void append_tetrahedra(const VtkCells& cells, std::size_t first_node, RawMesh& mesh) {
+void append_tetrahedra(const VtkCells& cells, std::size_t first_node, std::size_t first_cell, RawMesh& mesh) {
   const auto node_count = static_cast<std::int64_t>(mesh.positions.size() - first_node);
   for (std::size_t c = 0; c < cells.types.size(); ++c) {
     const ElementKind kind = vtk_kind(cells.types[c]);
@@ -33,8 +33,7 @@ void append_tetrahedra(const VtkCells& cells, std::size_t first_node, RawMesh& m
       ++mesh.others[static_cast<std::size_t>(kind)];
       continue;
     }
-    const std::string name =
-        "tetrahedron " + std::to_string(mesh.tetrahedra.size()) + " (cell " + std::to_string(c) + ")";
+    const std::string name = "tetrahedron " + std::to_string(first_cell + c);
     const std::span<const std::int64_t> nodes = nodes_of(cells, c);
     if (!has_count_of(cells.types[c], nodes.size())) {
       throw InputError(mesh.source + ": " + name + " has not the nodes of a cell of type " +
@@ -49,6 +48,7 @@ void append_tetrahedra(const VtkCells& cells, std::size_t first_node, RawMesh& m
       tetrahedron[i] = static_cast<std::int32_t>(static_cast<std::int64_t>(first_node) + nodes[i]);
     }
     mesh.tetrahedra.push_back(tetrahedron);
+    mesh.tetrahedron_numbers.push_back(static_cast<std::int64_t>(first_cell + c));
     if (nodes.size() > kCorners) ++mesh.curved;
   }
 }

@@ -13,8 +13,9 @@ struct VtkCells {
 };
 
 /// Appends the corners of the tetrahedra (type 10; 24 and others of higher order) to `mesh`, whose positions
-/// from `first_node` on the cells count, and counts what else there is. Throws InputError naming the
-/// tetrahedron when its nodes do not exist or are not as many as its type has.
-void append_tetrahedra(const VtkCells& cells, std::size_t first_node, RawMesh& mesh);
+/// from `first_node` on the cells count, and counts what else there is. The cells are numbered from
+/// `first_cell` on, as all of a file are, of whatever kind. Throws InputError naming the cell when its nodes
+/// do not exist or are not as many as its type has.
+void append_tetrahedra(const VtkCells& cells, std::size_t first_node, std::size_t first_cell, RawMesh& mesh);
 
 }  // namespace omentum::geometry

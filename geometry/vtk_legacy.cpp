@@ -53,7 +53,7 @@ RawMesh VtkReader::read() {
       in_.fail(keyword, "POINTS, CELLS, CELL_TYPES, FIELD or METADATA");
     }
   }
-  append_tetrahedra(cells_, 0, mesh_);
+  append_tetrahedra(cells_, 0, 0, mesh_);
   return std::move(mesh_);
 }
 

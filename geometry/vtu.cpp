@@ -49,10 +49,13 @@ RawMesh read_vtu(const std::filesystem::path& file) {
   const VtuArrays arrays(file);
   RawMesh mesh;
   mesh.source = file.string();
+  std::size_t first_cell = 0;  // of a piece: the numbers go on from one to the next
   for (const pugi::xml_node piece : child_of(arrays, arrays.root(), "UnstructuredGrid").children("Piece")) {
     const std::size_t first_node = mesh.positions.size();
     read_points(arrays, piece, mesh);
-    append_tetrahedra(read_cells(arrays, piece), first_node, mesh);
+    const VtkCells cells = read_cells(arrays, piece);
+    append_tetrahedra(cells, first_node, first_cell, mesh);
+    first_cell += cells.types.size();
   }
   return mesh;
 }

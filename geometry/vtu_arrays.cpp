@@ -17,13 +17,23 @@ namespace {
 
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-std::string decode_base64(std::string_view text) {
+// The first `count` bytes that the text codes, or fewer. Padding ends a piece, behind which another one may
+// follow: some writers code the header, or each block, apart, and others all of it in one. Blanks and line
+// breaks code nothing.
+std::string decode_base64(std::string_view text, std::size_t count) {
   std::string bytes;
+  bytes.reserve(std::min(count, text.size()));
   std::uint32_t bits = 0;
   int held = 0;
   for (const char c : text) {
+    if (bytes.size() == count) break;
+    if (c == ' ' || c == '\t' || c == '\r' || c == '\n') continue;
+    if (c == '=') {
+      held = 0;
+      continue;
+    }
     const std::size_t value = kBase64.find(c);
-    if (value == std::string_view::npos) break;  // padding
+    if (value == std::string_view::npos) break;
     bits = (bits << 6) | static_cast<std::uint32_t>(value);
     if ((held += 6) < 8) continue;
     held -= 8;
@@ -184,21 +194,12 @@ VtuArrays::Coded VtuArrays::coded(pugi::xml_node array) const {
   return {std::string_view(appended_).substr(offset), appended_base64_};
 }
 
-std::string VtuArrays::peek(Coded data, std::size_t count) const {
-  return take(data, count);
-}
-
-// The next `count` bytes. What base64 codes in one piece must be taken in one piece.
-std::string VtuArrays::take(Coded& data, std::size_t count) const {
-  const std::size_t coded_size = data.base64 ? (count + 2) / 3 * 4 : count;
-  if (count > data.text.size() || coded_size > data.text.size()) {
-    fail("an array that ends early", std::to_string(count) + " more bytes");
-  }
-  const std::string_view piece = data.text.substr(0, coded_size);
-  data.text.remove_prefix(coded_size);
-  std::string bytes = data.base64 ? decode_base64(piece) : std::string(piece);
-  if (bytes.size() < count) fail("text that is not base64", "base64");
-  bytes.resize(count);
+std::string VtuArrays::first_bytes(Coded data, std::size_t count) const {
+  if (count > data.text.size()) fail("an array that ends early", std::to_string(count) + " bytes");
+  if (!data.base64) return std::string(data.text.substr(0, count));
+  std::string bytes = decode_base64(data.text, count);
+  if (bytes.size() < count)
+    fail("an array that ends early or is not base64", std::to_string(count) + " bytes in base64");
   return bytes;
 }
 
@@ -210,25 +211,27 @@ std::size_t VtuArrays::header_word(std::string_view bytes, std::size_t index) co
 
 std::string VtuArrays::bytes_of(Coded data) const {
   if (codec_ != BlockCodec::kNone) return inflate_blocks(data);
-  const std::size_t size = header_word(peek(data, word_size_), 0);
+  const std::size_t size = header_word(first_bytes(data, word_size_), 0);
   if (size > data.text.size())
     fail("an array of " + std::to_string(size) + " bytes", "no more than the file holds");
-  return take(data, word_size_ + size).substr(word_size_);
+  return first_bytes(data, word_size_ + size).substr(word_size_);
 }
 
 // Header: number of blocks, size of a block, size of the last one (0: whole), then each block's compressed
 // size.
 std::string VtuArrays::inflate_blocks(Coded data) const {
-  const std::size_t blocks = header_word(peek(data, word_size_), 0);
+  const std::size_t blocks = header_word(first_bytes(data, word_size_), 0);
   if (blocks > data.text.size() / word_size_)
     fail(std::to_string(blocks) + " blocks", "no more than the file holds");
-  const std::string header = take(data, (3 + blocks) * word_size_);
+  if (blocks == 0) return {};
+  const std::size_t header_size = (3 + blocks) * word_size_;
+  const std::string header = first_bytes(data, header_size);
   const std::size_t block_size = header_word(header, 1), last_size = header_word(header, 2);
   std::size_t coded_size = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     coded_size += std::min(header_word(header, 3 + b), data.text.size() + 1);
   }
-  const std::string coded = take(data, coded_size);
+  const std::string coded = first_bytes(data, header_size + coded_size).substr(header_size);
   std::string result;
   std::size_t at = 0;
   for (std::size_t b = 0; b < blocks; ++b) {

@@ -28,7 +28,7 @@ class VtuArrays {
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
 
  private:
-  // What is left of an array's coded bytes, and how it is coded.
+  // An array's coded bytes, what follows them, and how they are coded.
   struct Coded {
     std::string_view text;
     bool base64;
@@ -46,8 +46,7 @@ class VtuArrays {
   Coded coded(pugi::xml_node array) const;
   std::string bytes_of(Coded data) const;
   std::string inflate_blocks(Coded data) const;
-  std::string peek(Coded data, std::size_t count) const;
-  std::string take(Coded& data, std::size_t count) const;
+  std::string first_bytes(Coded data, std::size_t count) const;
   std::size_t header_word(std::string_view bytes, std::size_t index) const;
 
   std::string name_;

@@ -32,7 +32,7 @@ struct HapticModel {
   geometry::Surface surface;
   std::vector<Vec3> rest;  // [S] m
   physics::SurfaceCompliance compliance;
-  std::vector<std::uint32_t> file_node;  // [S] number in the mesh file
+  std::vector<std::uint32_t> file_node;  // [S] place in the mesh file, from 0
   std::vector<ToolModel> tools;          // their points together: at most physics::kMaxContacts
   double friction = 0;                   // Coulomb coefficient
   ContactMode mode = ContactMode::kPoint;

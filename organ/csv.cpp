@@ -1,5 +1,6 @@
 #include "organ/csv.h"
 
+#include "geometry/file_kind.h"
 #include "geometry/tetra_mesh.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string_view>
 
 namespace omentum::organ {
@@ -27,10 +29,58 @@ std::optional<T> parse_whole(const std::string& field) {
   return value;
 }
 
+// What some programs put around names.
+std::string unquoted(const std::string& field) {
+  const bool quoted = field.size() > 1 && field.front() == '"' && field.back() == '"';
+  return quoted ? field.substr(1, field.size() - 2) : field;
+}
+
 // A name of a column, not a number gone wrong.
 bool is_name(const std::string& field) {
-  if (field.empty() || !std::isalpha(static_cast<unsigned char>(field[0]))) return false;
-  return !parse_whole<double>(field);
+  const std::string name = unquoted(field);
+  if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) return false;
+  return !parse_whole<double>(name);
+}
+
+// "Node ID" as "nodeid".
+std::string bare(const std::string& field) {
+  std::string name;
+  for (const char c : field) {
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+constexpr std::string_view kNumbering = "numbering:";
+
+// What a comment says of the table's numbers, if anything.
+std::optional<geometry::Numbering> stated_numbering(const std::string& comment) {
+  const std::size_t at = comment.find(kNumbering);
+  if (at == std::string::npos) return std::nullopt;
+  std::istringstream rest(comment.substr(at + kNumbering.size()));
+  std::string word;
+  rest >> word;
+  if (word == "file") return geometry::Numbering::kFile;
+  if (word == "position") return geometry::Numbering::kPosition;
+  return std::nullopt;
+}
+
+// A pipe is opened once, and not looked into.
+std::ifstream open_text(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file))
+    throw geometry::InputError(file.string() + ": cannot be read; expected a CSV file");
+  if (const std::string found = geometry::foreign_kind(file); !found.empty())
+    throw geometry::InputError(file.string() + ": found " + found + "; expected a CSV file");
+  return in;
+}
+
+void require_width(const CsvTable& table, const CsvLine& line) {
+  if (!table.header || table.header->fields.size() == line.fields.size()) return;
+  throw geometry::InputError(line.where + ": found " + std::to_string(line.fields.size()) +
+                             " fields; expected " + std::to_string(table.header->fields.size()) +
+                             ", as in the header");
 }
 
 }  // namespace
@@ -40,8 +90,8 @@ std::optional<double> parse_number(const std::string& field) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-std::optional<std::int32_t> parse_integer(const std::string& field) {
-  return parse_whole<std::int32_t>(field);
+std::optional<std::int64_t> parse_integer(const std::string& field) {
+  return parse_whole<std::int64_t>(field);
 }
 
 std::vector<std::string> split_fields(const std::string& line) {
@@ -58,25 +108,49 @@ std::vector<std::string> split_fields(const std::string& line) {
   return fields;
 }
 
-std::vector<CsvLine> read_csv(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw geometry::InputError(file.string() + ": cannot be read; expected a CSV file");
-  }
-  std::vector<CsvLine> lines;
+CsvTable read_csv(const std::filesystem::path& file) {
+  std::ifstream in = open_text(file);
+  CsvTable table;
   std::string text;
   bool first = true;
   for (int number = 1; std::getline(in, text); ++number) {
     if (number == 1 && text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-    std::vector<std::string> fields = split_fields(text);
-    if (fields[0].empty() && fields.size() == 1) continue;
-    if (fields[0].rfind('#', 0) == 0) continue;
-    const bool header = first && std::ranges::all_of(fields, is_name);
+    CsvLine line{file.string() + ":" + std::to_string(number), split_fields(text)};
+    if (line.fields[0].empty() && line.fields.size() == 1) continue;
+    if (line.fields[0].starts_with('#')) {
+      if (const auto said = stated_numbering(text)) table.numbering = said;
+      continue;
+    }
+    const bool header = first && std::ranges::all_of(line.fields, is_name);
     first = false;
-    if (!header) lines.push_back({file.string() + ":" + std::to_string(number), std::move(fields)});
+    if (header) {
+      table.header = std::move(line);
+      continue;
+    }
+    require_width(table, line);
+    table.lines.push_back(std::move(line));
   }
-  if (lines.empty()) throw geometry::InputError(file.string() + ": holds no numbers");
-  return lines;
+  if (table.lines.empty()) throw geometry::InputError(file.string() + ": holds no numbers");
+  return table;
+}
+
+std::string numbering_comment(geometry::Numbering numbering) {
+  return "# " + std::string(kNumbering) +
+         (numbering == geometry::Numbering::kFile ? " file (the mesh file's own node numbers)\n"
+                                                  : " position (places in the mesh file, from 0)\n");
+}
+
+std::size_t find_column(const CsvLine& header, std::span<const char* const> names, const char* expected) {
+  std::vector<std::size_t> found;
+  std::string text;
+  for (std::size_t i = 0; i < header.fields.size(); ++i) {
+    text += (i == 0 ? "" : ",") + header.fields[i];
+    const std::string name = bare(header.fields[i]);
+    if (std::ranges::any_of(names, [&](const char* known) { return name == known; })) found.push_back(i);
+  }
+  if (found.size() == 1) return found[0];
+  throw geometry::InputError(header.where + ": found " + (found.empty() ? "the header '" : "several in '") +
+                             text + "'; expected one column " + expected);
 }
 
 }  // namespace omentum::organ

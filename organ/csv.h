@@ -1,9 +1,12 @@
 // Small tables of numbers as users write them.
 #pragma once
 
+#include "geometry/file_numbers.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,16 +18,31 @@ struct CsvLine {
   std::vector<std::string> fields;  // without blanks around them
 };
 
-/// The lines of a CSV file; empty ones, those that begin with '#', a byte order mark and a header
-/// (a first line of names: fields that begin with a letter, but are not nan or inf) are left out. Throws
-/// geometry::InputError when the file cannot be read or holds no line.
-std::vector<CsvLine> read_csv(const std::filesystem::path& file);
+struct CsvTable {
+  std::optional<CsvLine> header;
+  std::vector<CsvLine> lines;                    // at least one; each as wide as the header
+  std::optional<geometry::Numbering> numbering;  // that a comment "# numbering: file" (or position) says
+};
+
+/// Reads a CSV file. Empty lines, those that begin with '#' and a byte order mark are passed over. A first
+/// line all of whose fields begin with a letter (in quotes or not), but are not nan or inf, is a header: what
+/// reads the table must find its columns in it. Throws geometry::InputError when the file cannot be read, is
+/// none (compressed, UTF-16 ...), holds no line of numbers, or has a line that is not as wide as its header.
+CsvTable read_csv(const std::filesystem::path& file);
+
+/// The comment line, with its end, that says which numbers a table holds.
+std::string numbering_comment(geometry::Numbering numbering);
+
+/// The column that has one of `names` (small letters alone: capitals, quotes, blanks and signs of the header
+/// do not count). Throws geometry::InputError with the header's place when none has, or several have;
+/// `expected`: in words.
+std::size_t find_column(const CsvLine& header, std::span<const char* const> names, const char* expected);
 
 /// The fields of "a, b, c".
 std::vector<std::string> split_fields(const std::string& line);
 
 /// A whole field as a finite number, or nothing.
 std::optional<double> parse_number(const std::string& field);
-std::optional<std::int32_t> parse_integer(const std::string& field);
+std::optional<std::int64_t> parse_integer(const std::string& field);
 
 }  // namespace omentum::organ

@@ -1,5 +1,7 @@
 #include "organ/hdf5_file.h"
 
+#include "geometry/file_kind.h"
+
 #include <hdf5.h>
 
 #include <algorithm>
@@ -51,6 +53,10 @@ hid_t type_of<double>() {
 template <>
 hid_t type_of<std::int32_t>() {
   return H5T_NATIVE_INT32;
+}
+template <>
+hid_t type_of<std::int64_t>() {
+  return H5T_NATIVE_INT64;
 }
 template <>
 hid_t type_of<std::uint8_t>() {
@@ -122,8 +128,14 @@ Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
   if (::access(file.c_str(), mode == Mode::kRead ? R_OK : R_OK | W_OK) != 0)
     fail(std::string("cannot be opened: ") + std::strerror(errno));
   file_ = H5Fopen(file.c_str(), mode == Mode::kRead ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access);
-  if (file_ < 0)
-    fail("is not a whole HDF5 file (damaged, truncated or of another kind); expected an organ file");
+  if (file_ >= 0) return;
+  const std::string head = geometry::file_head(file);
+  std::string kind = geometry::mesh_kind(head) ? "a mesh (organ_build makes an organ file of it)"
+                                               : geometry::foreign_kind(file);
+  if (head.starts_with("\x89HDF")) kind.clear();
+  fail("is not a whole HDF5 file (" +
+       (kind.empty() ? "damaged, truncated or of another kind" : "found " + kind) +
+       "); expected an organ file");
 }
 
 Hdf5File::~Hdf5File() {
@@ -263,10 +275,13 @@ std::int32_t Hdf5File::read_count(const std::string& attribute, std::int32_t low
 template void Hdf5File::write(const std::string&, std::span<const double>, const std::vector<std::uint64_t>&);
 template void Hdf5File::write(const std::string&, std::span<const std::int32_t>,
                               const std::vector<std::uint64_t>&);
+template void Hdf5File::write(const std::string&, std::span<const std::int64_t>,
+                              const std::vector<std::uint64_t>&);
 template void Hdf5File::write(const std::string&, std::span<const std::uint8_t>,
                               const std::vector<std::uint64_t>&);
 template std::vector<double> Hdf5File::read(const std::string&, std::uint64_t) const;
 template std::vector<std::int32_t> Hdf5File::read(const std::string&, std::uint64_t) const;
+template std::vector<std::int64_t> Hdf5File::read(const std::string&, std::uint64_t) const;
 template std::vector<std::uint8_t> Hdf5File::read(const std::string&, std::uint64_t) const;
 template Extent Hdf5File::reserve<float>(const std::string&, const std::vector<std::uint64_t>&);
 template Extent Hdf5File::reserve<double>(const std::string&, const std::vector<std::uint64_t>&);

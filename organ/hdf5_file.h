@@ -32,7 +32,7 @@ class Hdf5File {
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
-  /// T is float, double, std::int32_t or std::uint8_t. Intermediate groups are made.
+  /// T is float, double, std::int32_t, std::int64_t or std::uint8_t. Intermediate groups are made.
   template <class T>
   void write(const std::string& dataset, std::span<const T> values, const std::vector<std::uint64_t>& shape);
   /// Rows of `columns` numbers each; a list where `columns` is 0. Throws unless the dataset has that shape

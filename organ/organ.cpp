@@ -65,6 +65,8 @@ Organ read_contents(const Hdf5File& hdf5, const std::filesystem::path& file) {
   organ.mesh.tetrahedra = read_as<geometry::Tetrahedron, std::int32_t>(hdf5, layout::kTetrahedra);
   organ.mesh.file_node = hdf5.read<std::int32_t>(layout::kFileNode, 0);
   organ.mesh.file_node_count = hdf5.read_count(layout::kFileNodes, 4);
+  organ.mesh.node_numbers = hdf5.read<std::int64_t>(layout::kNodeNumbers, 0);
+  organ.mesh.tetrahedron_numbers = hdf5.read<std::int64_t>(layout::kTetrahedronNumbers, 0);
   organ.surface.node = read_as<geometry::NodeId, std::int32_t>(hdf5, layout::kSurfaceNode);
   organ.surface.triangles = read_as<geometry::Triangle, std::int32_t>(hdf5, layout::kTriangles);
   organ.surface.tetrahedron = read_as<geometry::TetId, std::int32_t>(hdf5, layout::kBehind);

@@ -29,7 +29,8 @@ struct Organ {
                      // supports, storage, format version
   Storage storage = Storage::kFloat;  // of the tensors in the file; in memory they are float
 
-  std::vector<SurfaceId> surface_of_file_node() const;  // [file_node_count], invalid where none
+  std::vector<SurfaceId> surface_of_file_node()
+      const;  // [file_node_count], by position in the file; invalid where none
 };
 
 enum class Load { kMeshOnly, kWithTensors };

@@ -70,6 +70,9 @@ void Checker::check_sizes() const {
   require(triangles >= 4 && triangles <= kMostNodes, layout::kTriangles, triangles,
           "is the last; expected 4 to 2^31 / 3");
   require_count(mesh_.file_node.size(), nodes, layout::kFileNode);
+  require_count(mesh_.node_numbers.size(), static_cast<std::size_t>(mesh_.file_node_count),
+                layout::kNodeNumbers);
+  require_count(mesh_.tetrahedron_numbers.size(), mesh_.tetrahedra.size(), layout::kTetrahedronNumbers);
   require_count(fixed_.size(), nodes, layout::kFixed);
   require_count(surface_.tetrahedron.size(), triangles, layout::kBehind);
   require_count(surface_.fan_start.size(), surface_.node.size() + 1, layout::kFanStart);

@@ -57,6 +57,8 @@ std::string organ_hash(const Organ& organ) {
   sha.add_list(organ.mesh.tetrahedra);
   sha.add_list(organ.mesh.file_node);
   sha.add(organ.mesh.file_node_count);
+  sha.add_list(organ.mesh.node_numbers);
+  sha.add_list(organ.mesh.tetrahedron_numbers);
   sha.add_list(organ.surface.node);
   sha.add_list(organ.surface.triangles);
   sha.add_list(organ.surface.tetrahedron);

@@ -6,9 +6,9 @@
 namespace omentum::organ {
 
 /// The organ file's layout and the numerics behind its tensors. A file of another version is built again.
-inline constexpr int kFormatVersion = 2;
+inline constexpr int kFormatVersion = 3;
 
-/// SHA-256, hexadecimal, over format version, storage, mesh (with the file's numbering), surface order,
+/// SHA-256, hexadecimal, over format version, storage, mesh (with the file's own numbers), surface order,
 /// material and supports.
 std::string organ_hash(const Organ& organ);
 

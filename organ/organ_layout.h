@@ -20,15 +20,17 @@ inline constexpr const char* kChecksum = "tensors_xxh3";  // TensorChecksum over
 inline constexpr const char* kFormatName = "omentum organ";
 
 // Datasets.
-inline constexpr const char* kPositions = "mesh/positions";     // [N][3] double, m
-inline constexpr const char* kTetrahedra = "mesh/tetrahedra";   // [T][4] int32
-inline constexpr const char* kFileNode = "mesh/file_node";      // [N] int32
-inline constexpr const char* kSurfaceNode = "surface/node";     // [S] int32
-inline constexpr const char* kTriangles = "surface/triangles";  // [F][3] int32
-inline constexpr const char* kBehind = "surface/tetrahedron";   // [F] int32
-inline constexpr const char* kFanStart = "surface/fan_start";   // [S+1] int32
-inline constexpr const char* kFan = "surface/fan";              // [3F] int32
-inline constexpr const char* kFixed = "supports/fixed";         // [N] uint8
+inline constexpr const char* kPositions = "mesh/positions";                     // [N][3] double, m
+inline constexpr const char* kTetrahedra = "mesh/tetrahedra";                   // [T][4] int32
+inline constexpr const char* kFileNode = "mesh/file_node";                      // [N] int32
+inline constexpr const char* kNodeNumbers = "mesh/node_numbers";                // [file_node_count] int64
+inline constexpr const char* kTetrahedronNumbers = "mesh/tetrahedron_numbers";  // [T] int64
+inline constexpr const char* kSurfaceNode = "surface/node";                     // [S] int32
+inline constexpr const char* kTriangles = "surface/triangles";                  // [F][3] int32
+inline constexpr const char* kBehind = "surface/tetrahedron";                   // [F] int32
+inline constexpr const char* kFanStart = "surface/fan_start";                   // [S+1] int32
+inline constexpr const char* kFan = "surface/fan";                              // [3F] int32
+inline constexpr const char* kFixed = "supports/fixed";                         // [N] uint8
 inline constexpr const char* kCompliance =
     "tensors/compliance";                                 // [mobile][clusters][9][16] float or double, m/N
 inline constexpr const char* kBounds = "tensors/bounds";  // [mobile][clusters] float, m/N

@@ -1,6 +1,7 @@
 #include "organ/support_spec.h"
 
 #include "organ/csv.h"
+#include "organ/node_column.h"
 
 #include <cstdio>
 #include <functional>
@@ -80,21 +81,29 @@ Match box_match(const Spec& spec) {
   };
 }
 
-// Which numbers of the mesh file a CSV lists, [file_node_count].
-std::vector<bool> listed_nodes(const Spec& spec, const TetraMesh& mesh,
-                               std::span<const geometry::MergedNode> merged) {
-  std::vector<bool> listed(mesh.file_node_count);
-  for (const CsvLine& line : read_csv(spec.place)) {
-    for (const std::string& field : line.fields) {
-      const auto number = parse_integer(field);
-      if (!number || *number < 0 || *number >= mesh.file_node_count) {
-        throw InputError(line.where + ": found '" + field + "'; expected a node number from 0 to " +
-                         std::to_string(mesh.file_node_count - 1));
-      }
-      listed[*number] = true;
+// What SPECs are about.
+struct SupportedMesh {
+  const TetraMesh& mesh;
+  std::span<const geometry::MergedNode> merged;
+  geometry::Numbering numbering;
+};
+
+// Which nodes of the mesh file a CSV lists, by position, [file_node_count].
+std::vector<bool> listed_nodes(const Spec& spec, const SupportedMesh& supported) {
+  std::vector<bool> listed(supported.mesh.file_node_count);
+  const CsvTable table = read_csv(spec.place);
+  const NodeColumn nodes(table, supported.mesh, supported.numbering);
+  for (const CsvLine& line : table.lines) {
+    // which of several columns holds nodes is not for guessing
+    if (!table.header && line.fields.size() > 1) {
+      throw InputError(
+          line.where + ": found " + std::to_string(line.fields.size()) +
+          " columns without a header; expected one node number a line, or a first line that calls "
+          "a column node or id");
     }
+    listed[nodes.position(line)] = true;
   }
-  for (const auto& [dropped, kept] : merged) {
+  for (const auto& [dropped, kept] : supported.merged) {
     if (listed[dropped]) listed[kept] = true;
   }
   return listed;
@@ -116,8 +125,8 @@ std::string extent_of(const TetraMesh& mesh) {
   return text + " m";
 }
 
-void add_supports(const Spec& spec, const TetraMesh& mesh, std::span<const geometry::MergedNode> merged,
-                  physics::FixedComponents& fixed) {
+void add_supports(const Spec& spec, const SupportedMesh& supported, physics::FixedComponents& fixed) {
+  const TetraMesh& mesh = supported.mesh;
   std::vector<bool> listed;
   Match matches;
   if (starts_with(spec.place, "plane:")) {
@@ -125,7 +134,7 @@ void add_supports(const Spec& spec, const TetraMesh& mesh, std::span<const geome
   } else if (starts_with(spec.place, "box:")) {
     matches = box_match(spec);
   } else {
-    listed = listed_nodes(spec, mesh, merged);
+    listed = listed_nodes(spec, supported);
   }
   std::int32_t held = 0;
   for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
@@ -139,9 +148,11 @@ void add_supports(const Spec& spec, const TetraMesh& mesh, std::span<const geome
 }  // namespace
 
 physics::FixedComponents parse_supports(std::span<const std::string> specs, const TetraMesh& mesh,
-                                        std::span<const geometry::MergedNode> merged) {
+                                        std::span<const geometry::MergedNode> merged,
+                                        geometry::Numbering numbering) {
   physics::FixedComponents fixed(mesh.positions.size(), 0);
-  for (const std::string& spec : specs) add_supports(split_components(spec), mesh, merged, fixed);
+  for (const std::string& spec : specs)
+    add_supports(split_components(spec), {mesh, merged, numbering}, fixed);
   return fixed;
 }
 

@@ -24,7 +24,7 @@ struct ToolNow {
   double grip_rad = 0;
   Vec3 force_n = Vec3::Zero();
   std::size_t contact_organ = 0;
-  std::vector<std::uint32_t> contact_nodes;  // mesh file numbers
+  std::vector<std::uint32_t> contact_nodes;  // places in the mesh file, from 0
   std::vector<float> contact_forces_n;       // on each of them
 };
 

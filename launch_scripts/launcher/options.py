@@ -58,7 +58,8 @@ def build_parser():
     add("--device", default="virtual", metavar="KIND", help="virtual, none or trace:FILE (default: virtual)")
     add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's")
     add("--scale", type=float, metavar="METRES_PER_UNIT", help="of that mesh (default: found from its size)")
-    add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them")
+    add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them "
+        "(a CSV has the mesh file's own node numbers)")
     add("--rate-hz", type=float, metavar="HZ", help="rate of the haptic loop (default: 1000)")
     add("--headless", action="store_true", help="write pictures instead of opening a window")
     add("--domain", type=int, metavar="N", help="DDS domain, 0..230 (default: a free one)")

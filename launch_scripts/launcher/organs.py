@@ -8,10 +8,22 @@ import time
 from .cache import PATIENCE_S, Cache
 from .errors import Refusal
 
+SMALLEST_ORGAN_M = 0.01  # organ_build warns of what is smaller
 LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to be in millimetres
 # Of a foreign mesh's length, where --fixed is not given: an organ is held at an edge (ligaments), but lies on its whole
 # underside; held at its lowest tip only, it would rock under the hand.
 SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
+
+
+told_warnings = set()  # without the program's name: organ_build and scene_prepare say the same of one organ
+
+
+def pass_on_warnings(messages):
+    for line in messages.strip().splitlines():
+        _, is_warning, sentence = line.partition("warning: ")
+        if is_warning and sentence not in told_warnings:
+            told_warnings.add(sentence)
+            print(line, flush=True)
 
 
 def run_tool(options, arguments, doing):
@@ -38,9 +50,7 @@ def run_tool(options, arguments, doing):
     if process.returncode != 0:
         lines = err.strip().splitlines() or [f"{arguments[0]} ended with code {process.returncode}"]
         raise Refusal(lines[-1])
-    for line in err.strip().splitlines():
-        if "warning" in line:
-            print(line, flush=True)
+    pass_on_warnings(err)
     if told:
         print(f"run: {doing}: done after {time.monotonic() - begin:.1f} s", flush=True)
     return out
@@ -71,16 +81,24 @@ def support_spec(measured, scale, scene_fixed):
     return f"plane:{axis}{side}{at:.6g}"
 
 
+def guessed_scale(name, measured):
+    """Metres, or millimetres where metres would make a giant; said with its reason, since it is a guess."""
+    largest = max(high - low for low, high in zip(measured["min"], measured["max"]))
+    scale = 0.001 if largest > LARGEST_ORGAN_M else 1.0
+    taken, why = (("millimetres", f"in metres it would be longer than {LARGEST_ORGAN_M:g} m") if scale != 1.0 else
+                  ("metres", f"that makes it no longer than {LARGEST_ORGAN_M:g} m"))
+    kind = "warning: " if scale != 1.0 or largest < SMALLEST_ORGAN_M else ""
+    print(f"run: {kind}{name} is {largest:.4g} units long: taken as {taken}, since {why}: an organ of "
+          f"{1000 * scale * largest:.4g} mm (--scale says otherwise)", flush=True)
+    return scale
+
+
 def foreign_terms(options, spec):
     """Scale and supports of a user's mesh: given, or found and said."""
     measured = json.loads(run_tool(options, ["scene_prepare", "--measure", options.organ], "measuring the mesh"))
     scale = options.scale
     if scale is None:
-        largest = max(high - low for low, high in zip(measured["min"], measured["max"]))
-        scale = 0.001 if largest > LARGEST_ORGAN_M else 1.0
-        if scale != 1.0:
-            print(f"run: warning: {options.organ.name} is {largest:.4g} units long: taken as millimetres "
-                  "(--scale says otherwise)", flush=True)
+        scale = guessed_scale(options.organ.name, measured)
     fixed = options.fixed or support_spec(measured, scale, spec["fixed"])
     if not options.fixed:
         print(f"run: {options.organ.name} is supported at {fixed} (--fixed says otherwise)", flush=True)
@@ -104,8 +122,8 @@ def build_organ(options, cache, mesh, name, spec, scale, fixed):
     terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
              "--scale", scale, "--fixed", fixed]
     inputs = [mesh, *support_files(fixed)]
-    if mesh.suffix in (".node", ".ele"):
-        inputs += [mesh.with_suffix(".node"), mesh.with_suffix(".ele")]
+    if mesh.suffix.lower() in (".node", ".ele"):
+        inputs += [mesh.with_suffix(suffix) for suffix in (".node", ".ele", ".NODE", ".ELE")]
     return cache.get(f"{name}.h5", ["organ", program, *terms, *inputs],
                      lambda file: run_tool(options, ["organ_build", mesh, "-o", file, *terms],
                                            f"precomputing the force tensors of {mesh.name}"))
@@ -114,11 +132,11 @@ def build_organ(options, cache, mesh, name, spec, scale, fixed):
 def organ_file(options, cache, spec):
     """The organ file of the session's first organ."""
     if options.organ:
-        if options.organ.suffix == ".h5":
+        if options.organ.suffix.lower() == ".h5":
             return options.organ
         scale, fixed = foreign_terms(options, spec)
         return build_organ(options, cache, options.organ, options.organ.stem, spec, scale, fixed)
-    if spec["file"] or spec["mesh"].endswith(".h5"):
+    if spec["file"] or spec["mesh"].lower().endswith(".h5"):
         return pathlib.Path(spec["file"] or spec["mesh"])
     kind, _, size = spec["mesh"].partition(":")
     mesh = phantom_mesh(options, cache, size) if kind == "phantom" else pathlib.Path(spec["mesh"])

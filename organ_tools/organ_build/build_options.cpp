@@ -1,5 +1,7 @@
 #include "organ_tools/organ_build/build_options.h"
 
+#include "organ_tools/numbering_option.h"
+
 namespace omentum::organ_tools {
 namespace {
 
@@ -23,15 +25,23 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
   line.option("--scale", command.metres_per_unit, "metres per unit of the mesh file (0.001 for millimetres)")
       .required()
       .type_name("METRES");
-  line.option("--merge", command.merge_m,
+  line.option("--merge", command.check.merge_m,
               "makes one node of those that are at most so far apart, m: for parts glued by copying")
       .not_negative()
       .type_name("METRES");
-  line.option("--fixed", command.fixed,
-              "what holds the organ; repeat for a union: FILE.csv of node numbers, plane:x<0.03 or "
-              "box:x0,y0,z0,x1,y1,z1 in metres, each optionally with :xz for single components")
+  line.option(
+          "--fixed", command.fixed,
+          "what holds the organ; repeat for a union: FILE.csv of node numbers (one a line, or the column "
+          "that "
+          "a header calls node or id), plane:x<0.03 or box:x0,y0,z0,x1,y1,z1 in metres, each optionally with "
+          ":xz for single components")
       .required()
       .type_name("SPEC");
+  add_numbering_option(line, command.check.numbering);
+  line.flag(
+      "--ignore-other-cells", command.check.ignore_other_cells,
+      "leaves out hexahedra, prisms and other cells that fill space but are no tetrahedra, where these are "
+      "refused; surface and line cells are always left out");
   line.option(
           "--store", [&](const std::string& text) { return parse_storage(text, command.storage); },
           "precision of the stored tensors: float (default) or double")
@@ -55,7 +65,7 @@ void require_offered(const BuildCommand& command) {
 
 void require_own_output(const BuildCommand& command) {
   // .node and .ele are one mesh, named by either
-  for (const char* extension : {"", ".node", ".ele"}) {
+  for (const char* extension : {"", ".node", ".ele", ".NODE", ".ELE"}) {
     const std::filesystem::path input =
         *extension == '\0' ? command.mesh : std::filesystem::path(command.mesh).replace_extension(extension);
     std::error_code absent;

@@ -15,7 +15,7 @@ struct BuildCommand {
   std::filesystem::path output;
   physics::Material material;
   double metres_per_unit = 0;
-  double merge_m = 0;  // 0: nodes at the same place are refused
+  geometry::CheckOptions check;
   std::vector<std::string> fixed;
   organ::Storage storage = organ::Storage::kFloat;
   std::string name;  // empty: the output file's stem

@@ -1,5 +1,6 @@
 // organ_build: a tetrahedral mesh, a material and supports become an organ file with its force tensors.
 #include "organ/build_organ.h"
+#include "organ/plausibility.h"
 #include "organ/support_spec.h"
 #include "organ_tools/fast_blas.h"
 #include "organ_tools/organ_build/build_options.h"
@@ -25,12 +26,15 @@ void warn(const std::string& what) {
 
 organ::Organ read_organ(const organ_tools::BuildCommand& command) {
   geometry::CheckedMesh checked =
-      geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit, command.merge_m);
+      geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit, command.check);
   for (const std::string& warning : checked.warnings) warn(warning);
-  physics::FixedComponents fixed = organ::parse_supports(command.fixed, checked.mesh, checked.merged);
+  physics::FixedComponents fixed =
+      organ::parse_supports(command.fixed, checked.mesh, checked.merged, command.check.numbering);
   const std::string name = command.name.empty() ? command.output.stem().string() : command.name;
-  return organ::make_organ(name, std::move(checked.mesh), command.material, std::move(fixed),
-                           command.storage);
+  organ::Organ made =
+      organ::make_organ(name, std::move(checked.mesh), command.material, std::move(fixed), command.storage);
+  for (const std::string& sentence : organ::implausible(made.mesh, made.material)) warn(sentence);
+  return made;
 }
 
 void print_summary(const organ::Organ& organ, const organ::BuildResult& built,

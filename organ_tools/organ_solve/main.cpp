@@ -1,6 +1,7 @@
 // organ_solve: imposed displacements in, displacements of every node and holding forces out.
 #include "organ/csv.h"
 #include "organ_tools/fast_blas.h"
+#include "organ_tools/numbering_option.h"
 #include "organ_tools/organ_solve/imposed_csv.h"
 #include "organ_tools/organ_solve/solution_csv.h"
 #include "organ_tools/organ_solve/solve_models.h"
@@ -19,12 +20,14 @@ struct SolveCommand {
   std::string gravity;
   std::string removed;
   std::string prefix;
+  geometry::Numbering numbering = geometry::Numbering::kFile;
 };
 
 void add_options(runtime::CommandLine& line, SolveCommand& command) {
   line.option("organ", command.organ, "organ file").required().type_name("ORGAN.h5");
-  line.option("--imposed", command.imposed, "CSV: node,ux,uy,uz (node of the mesh file from 0, m)")
+  line.option("--imposed", command.imposed, "CSV: node,ux,uy,uz (m), in this order or as a header names them")
       .type_name("FILE");
+  organ_tools::add_numbering_option(line, command.numbering);
   line.option("--model", command.model, "tensors or direct").type_name("MODEL").show_default();
   line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
   line.option("--remove", command.removed, "removed tetrahedra: not part of this version").type_name("FILE");
@@ -67,17 +70,18 @@ void solve(const SolveCommand& command) {
   const geometry::Vec3 gravity = parse_gravity(command.gravity);
   const organ::Organ organ = organ::load_organ(command.organ, organ::Load::kMeshOnly);
   std::vector<physics::ImposedDisplacement> imposed;
-  if (!command.imposed.empty()) imposed = organ_tools::read_imposed(command.imposed, organ);
+  if (!command.imposed.empty())
+    imposed = organ_tools::read_imposed(command.imposed, organ, command.numbering);
   if (const std::string note = organ_tools::fast_blas_note(); !note.empty())
     std::cerr << "organ_solve: " << note << std::endl;
   std::string warning;
   const physics::StaticSolution solution =
-      command.model == "direct"
-          ? organ_tools::solve_directly(organ, imposed, gravity)
-          : organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity, warning);
-  organ_tools::require_sensible(organ, imposed, solution);
+      command.model == "direct" ? organ_tools::solve_directly(organ, imposed, gravity)
+                                : organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity,
+                                                                  command.numbering, warning);
+  organ_tools::require_sensible(organ, imposed, solution, command.numbering);
   if (!warning.empty()) std::cerr << "organ_solve: warning: " << warning << std::endl;
-  organ_tools::write_solution(command.prefix, organ, imposed, solution);
+  organ_tools::write_solution(command.prefix, organ, imposed, solution, command.numbering);
 }
 
 }  // namespace

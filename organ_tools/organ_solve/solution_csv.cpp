@@ -1,5 +1,6 @@
 #include "organ_tools/organ_solve/solution_csv.h"
 
+#include "organ/csv.h"
 #include "organ/partial_file.h"
 
 #include <cerrno>
@@ -13,9 +14,10 @@ namespace {
 
 using geometry::Vec3;
 
-void append_row(std::string& text, std::int32_t node, const Vec3& v) {
-  char row[100];
-  std::snprintf(row, sizeof row, "%d,%.12e,%.12e,%.12e\n", node, v.x(), v.y(), v.z());
+void append_row(std::string& text, std::int64_t node, const Vec3& v) {
+  char row[120];
+  std::snprintf(row, sizeof row, "%lld,%.12e,%.12e,%.12e\n", static_cast<long long>(node), v.x(), v.y(),
+                v.z());
   text += row;
 }
 
@@ -30,18 +32,19 @@ void write(const organ::PartialFile& partial, const std::string& text) {
 }  // namespace
 
 void write_solution(const std::string& prefix, const organ::Organ& organ, Imposed imposed,
-                    const physics::StaticSolution& solution) {
+                    const physics::StaticSolution& solution, geometry::Numbering numbering) {
+  const geometry::FileNumbers names = organ.mesh.names_of_nodes(numbering);
   std::vector<Vec3> by_file_node(organ.mesh.file_node_count, Vec3::Zero());
   for (std::size_t n = 0; n < solution.displacements.size(); ++n) {
     by_file_node[organ.mesh.file_node[n]] = solution.displacements[n];
   }
-  std::string displacements = "node,ux,uy,uz\n";
+  std::string displacements = organ::numbering_comment(numbering) + "node,ux,uy,uz\n";
   for (std::size_t n = 0; n < by_file_node.size(); ++n) {
-    append_row(displacements, static_cast<std::int32_t>(n), by_file_node[n]);
+    append_row(displacements, names.of(n), by_file_node[n]);
   }
-  std::string forces = "node,fx,fy,fz\n";
+  std::string forces = organ::numbering_comment(numbering) + "node,fx,fy,fz\n";
   for (std::size_t i = 0; i < imposed.size(); ++i) {
-    append_row(forces, organ.mesh.file_node[imposed[i].node], solution.holding_forces[i]);
+    append_row(forces, names.of(organ.mesh.file_node[imposed[i].node]), solution.holding_forces[i]);
   }
   // nothing is in its place before both are whole
   organ::PartialFile u(prefix + ".u.csv"), f(prefix + ".f.csv");

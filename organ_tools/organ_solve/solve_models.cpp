@@ -24,15 +24,21 @@ std::vector<Vec3> loads_of(const organ::Organ& organ, const Vec3& gravity) {
   return physics::body_forces(organ.mesh, organ.material, gravity);
 }
 
+// What messages call a node.
+std::string name_of(const organ::Organ& organ, geometry::NodeId n, Numbering numbering) {
+  const auto position = static_cast<std::size_t>(organ.mesh.file_node[n]);
+  return "node " + std::to_string(organ.mesh.names_of_nodes(numbering).of(position));
+}
+
 // What the tensors have to add to `sag` at each imposed node.
 std::vector<physics::ImposedSurfaceNode> increments(const organ::Organ& organ, Imposed imposed,
-                                                    std::span<const Vec3> sag) {
+                                                    std::span<const Vec3> sag, Numbering numbering) {
   std::vector<physics::ImposedSurfaceNode> nodes;
   for (const physics::ImposedDisplacement& i : imposed) {
     const geometry::SurfaceId s = organ.surface.of_node[i.node];
     if (!s.valid()) {
       throw InputError(
-          "node " + std::to_string(organ.mesh.file_node[i.node]) +
+          name_of(organ, i.node, numbering) +
           " is inside the organ and has no tensors; expected nodes of the surface (or --model direct)");
     }
     nodes.push_back({s, i.displacement - (sag.empty() ? Vec3::Zero().eval() : sag[i.node])});
@@ -88,7 +94,8 @@ physics::StaticSolution solve_directly(const organ::Organ& organ, Imposed impose
 }
 
 physics::StaticSolution solve_with_tensors(const organ::Organ& organ, const std::filesystem::path& file,
-                                           Imposed imposed, const Vec3& gravity, std::string& warning) {
+                                           Imposed imposed, const Vec3& gravity, Numbering numbering,
+                                           std::string& warning) {
   const physics::Stiffness stiffness = physics::assemble_stiffness(organ.mesh, organ.material);
   const std::vector<Vec3> loads = loads_of(organ, gravity);
   std::vector<Vec3> displacements(organ.mesh.positions.size(), Vec3::Zero());
@@ -96,7 +103,8 @@ physics::StaticSolution solve_with_tensors(const organ::Organ& organ, const std:
 
   const organ::StoredTensors tensors = organ::map_tensors(file, organ);
   organ::require_whole(tensors, file);
-  physics::SurfaceSolution surface = superpose(organ, tensors, increments(organ, imposed, displacements));
+  physics::SurfaceSolution surface =
+      superpose(organ, tensors, increments(organ, imposed, displacements, numbering));
   for (std::size_t s = 0; s < surface.displacements.size(); ++s) {
     displacements[organ.surface.node[s]] += surface.displacements[s];
   }
@@ -109,9 +117,10 @@ physics::StaticSolution solve_with_tensors(const organ::Organ& organ, const std:
   return solution;
 }
 
-void require_sensible(const organ::Organ& organ, Imposed imposed, const physics::StaticSolution& solution) {
+void require_sensible(const organ::Organ& organ, Imposed imposed, const physics::StaticSolution& solution,
+                      Numbering numbering) {
   const auto refuse = [&](geometry::NodeId n, const std::string& what) {
-    throw InputError("node " + std::to_string(organ.mesh.file_node[n]) + ": " + what);
+    throw InputError(name_of(organ, n, numbering) + ": " + what);
   };
   for (std::size_t i = 0; i < imposed.size(); ++i) {
     if (!solution.holding_forces[i].allFinite()) refuse(imposed[i].node, "its force is beyond all numbers");

@@ -1,6 +1,8 @@
 // scene_prepare: fits a scene to an organ file. The launcher also asks it what a scene or a mesh holds.
+#include "organ/plausibility.h"
 #include "organ_tools/scene_prepare/scene_fit.h"
 #include "organ_tools/scene_prepare/scene_text.h"
+#include "organ_tools/scene_prepare/tip_size.h"
 #include "runtime/node_options.h"
 
 #include <Eigen/Geometry>
@@ -39,10 +41,18 @@ void write_whole(const std::string& text, const std::filesystem::path& file) {
   std::filesystem::rename(part, file);
 }
 
+void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const runtime::Scene& scene) {
+  for (const auto& sentences :
+       {organ::implausible(organ.mesh, organ.material), scene_prepare::smaller_than_tips(organ, scene)}) {
+    for (const std::string& sentence : sentences) std::cerr << "scene_prepare: warning: " << sentence << '\n';
+  }
+}
+
 void prepare(const Options& options) {
   runtime::Scene scene = runtime::load_scene(options.scene);
   scene.organs.front().file = options.organ;
   const organ::Organ organ = organ::load_organ(options.organ, organ::Load::kMeshOnly);
+  warn_of_what_can_hardly_be_meant(organ, scene);
   const scene_prepare::OrganSkin skin(organ);
   if (options.keep_points) {
     scene_prepare::project_hands(skin, scene);

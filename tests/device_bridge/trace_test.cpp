@@ -44,6 +44,22 @@ TEST_F(TraceFile, ColumnsMayComeInAnyOrderWithSpacesAndComments) {
   EXPECT_EQ(traces.at(0)[0].t_s, 3);
 }
 
+TEST_F(TraceFile, AByteOrderMarkIsPassedOver) {
+  for (const char* before : {"", "# saved by a spreadsheet\n"}) {
+    write("\xEF\xBB\xBF" + std::string(before) + kHeader + "0,1,2,3,1,0,0,0,0\n");
+    EXPECT_EQ(message(), "accepted");
+    EXPECT_EQ(read_trace(file).at(0)[0].position, Vec3(1, 2, 3));
+  }
+}
+
+TEST_F(TraceFile, AFileOfAnotherKindIsNamed) {
+  using namespace std::string_literals;
+  write("\x1f\x8b\x08\0\0"s);
+  EXPECT_THAT(message(), HasSubstr("found gzip-compressed data"));
+  write("\xff\xfet\0_\0s\0"s);
+  EXPECT_THAT(message(), HasSubstr("found UTF-16 text"));
+}
+
 TEST_F(TraceFile, WhatWasRecordedIsReadBack) {
   {
     TraceLog log(file);

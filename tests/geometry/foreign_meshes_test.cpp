@@ -149,12 +149,19 @@ TEST_F(ForeignMeshes, WithoutTetrahedraTheMessageSaysWhatThereIs) {
   EXPECT_THAT(refusal(put("empty.vtu", "")), HasSubstr("empty.vtu: is empty"));
 }
 
-TEST_F(ForeignMeshes, SolidElementsBesideTheTetrahedraAreWarnedOf) {
+TEST_F(ForeignMeshes, SolidElementsBesideTheTetrahedraAreRefusedUnlessTheyAreToBeIgnored) {
   const RawMesh raw =
       read_mesh(put("mixed.msh", kEightNodes + "$ELM\n3\n1 4 1 1 4 1 2 3 6\n2 6 1 1 6 1 3 4 5 7 8\n"
                                                "3 2 1 1 3 1 2 3\n$ENDELM\n"));
-  EXPECT_THAT(check_mesh(raw, 1).warnings, ElementsAre(AllOf(HasSubstr("not read"), HasSubstr("1 prism")),
-                                                       HasSubstr("4 nodes belong to no tetrahedron")));
+  try {
+    check_mesh(raw, 1);
+    FAIL() << "a prism must not vanish";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("found 1 prism besides the tetrahedra"));
+  }
+  EXPECT_THAT(check_mesh(raw, 1, {.ignore_other_cells = true}).warnings,
+              ElementsAre(AllOf(HasSubstr("not read"), HasSubstr("1 prism")),
+                          HasSubstr("4 nodes belong to no tetrahedron")));
 }
 
 // Numbers that a reader's arithmetic would overflow on, or that are none.

@@ -260,7 +260,7 @@ TEST(CheckMesh, PartsGluedByCopyingAreCountedAndMergedOnDemand) {
   for (std::size_t n = whole.positions.size(); n < shifted.positions.size(); ++n)
     shifted.positions[n].y() += 5e-7;
   for (const RawMesh& parts : {glued, shifted}) {
-    const CheckedMesh merged = check_mesh(parts, 1, 1e-6);
+    const CheckedMesh merged = check_mesh(parts, 1, {.merge_m = 1e-6});
     EXPECT_EQ(merged.mesh.positions, whole.positions);
     EXPECT_EQ(merged.mesh.tetrahedra, check_mesh(whole, 1).mesh.tetrahedra);
     EXPECT_EQ(merged.mesh.file_node_count, static_cast<std::int32_t>(parts.positions.size()));
@@ -273,13 +273,13 @@ TEST(CheckMesh, PartsGluedByCopyingAreCountedAndMergedOnDemand) {
 
 TEST(CheckMesh, MergingNeverCollapsesATetrahedron) {
   try {
-    check_mesh(glued_by_copying(), 1, 0.021);
+    check_mesh(glued_by_copying(), 1, {.merge_m = 0.021});
     FAIL() << "an edge of 20 mm is no rounding";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("no farther apart than what is merged"));
   }
   for (const double wrong : {-1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(check_mesh(glued_by_copying(), 1, wrong), InputError);
+    EXPECT_THROW(check_mesh(glued_by_copying(), 1, {.merge_m = wrong}), InputError);
 }
 
 TEST(CheckMesh, RefusesPositionsAndNumbersThatAreNone) {
@@ -379,7 +379,7 @@ TEST(BrokenRealMeshes, OneInvertedTetrahedronAmongNegativelyListedOnesIsNamed) {
   const std::filesystem::path file = test::data_file("tet_invalid/cleaver_all_negative.node");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
   RawMesh raw = read_mesh(file);
-  EXPECT_THAT(refusal(raw), HasSubstr("tetrahedra 16540: turned inside out"));
+  EXPECT_THAT(refusal(raw), HasSubstr("tetrahedra 16541: turned inside out"));
 }
 
 TEST(CrossingTriangles, FindsWhatBruteForceFinds) {

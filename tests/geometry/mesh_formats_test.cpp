@@ -69,6 +69,24 @@ class MeshFiles : public testing::Test {
   test::ScratchFolder folder_;
 };
 
+TEST_F(MeshFiles, ACompressedArrayOfNothingIsOne) {
+  const std::string nothing = "AAAAAA==";  // a header of one word, 0 blocks
+  const std::string piece =
+      "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><Points><DataArray type=\"Float32\" "
+      "format=\"binary\">" +
+      nothing + "</DataArray></Points><Cells>";
+  std::string arrays;
+  for (const char* name : {"connectivity", "offsets", "types"})
+    arrays += "<DataArray type=\"Int64\" Name=\"" + std::string(name) + "\" format=\"binary\">" + nothing +
+              "</DataArray>";
+  EXPECT_THAT(
+      refusal(
+          put(folder_ / "n.vtu",
+              "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid>" +
+                  piece + arrays + "</Cells></Piece></UnstructuredGrid></VTKFile>")),
+      HasSubstr("found no tetrahedra"));
+}
+
 TEST_F(MeshFiles, TetgenCountsFromZeroOrOneAndIsFoundByEitherName) {
   const RawMesh expected = example_mesh();
   for (const int first : {0, 1}) {
@@ -117,7 +135,7 @@ TEST_F(MeshFiles, MessagesNameFileLineAndExpectation) {
               HasSubstr("x.msh:4: found 'zero', expected y of a node"));
   EXPECT_THAT(
       refusal(put(folder_ / "e.msh", "$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 1 1 99\n$ENDELM\n")),
-      AllOf(HasSubstr("e.msh:7"), HasSubstr("node number 99 in tetrahedron 0")));
+      AllOf(HasSubstr("e.msh:7"), HasSubstr("node number 99 in tetrahedron 1")));
   EXPECT_THAT(refusal(put(folder_ / "t.msh", "$NOD\n1\n1 0 0 0\n$ENDNOD\n")),
               HasSubstr("found no tetrahedra"));
   EXPECT_THAT(refusal(put(folder_ / "v.msh", "$MeshFormat\n3 0 8\n")),

@@ -209,6 +209,7 @@ struct VtuCoding {
   bool base64;
   Packing packing;
   bool wide_header;
+  bool in_pieces = false;  // the header and each block in base64 of their own, lines broken
 };
 
 const char* compressor(Packing packing) {
@@ -244,16 +245,22 @@ std::string coded(const std::string& data, const VtuCoding& how) {
                            : Bytes().value(static_cast<std::uint32_t>(v)).content;
   };
   const auto as_text = [&](const std::string& bytes) { return how.base64 ? base64(bytes) : bytes; };
-  if (how.packing == Packing::kNone) return as_text(word(data.size()) + data);
+  if (how.packing == Packing::kNone) {
+    if (!how.in_pieces) return as_text(word(data.size()) + data);
+    std::string text = as_text(word(data.size())) + as_text(data);
+    for (std::size_t at = 76; at < text.size(); at += 77) text.insert(at, "\n");
+    return text;
+  }
   constexpr std::size_t kBlock = 200;  // so that there are several, the last one shorter
   std::string header, blocks;
   std::size_t count = 0;
   for (std::size_t at = 0; at < data.size(); at += kBlock, ++count) {
     const std::string packed = pack(data.substr(at, kBlock), how.packing);
     header += word(packed.size());
-    blocks += packed;
+    blocks += how.in_pieces ? as_text(packed) : packed;
   }
-  return as_text(word(count) + word(kBlock) + word(data.size() % kBlock) + header) + as_text(blocks);
+  return as_text(word(count) + word(kBlock) + word(data.size() % kBlock) + header) +
+         (how.in_pieces ? blocks : as_text(blocks));
 }
 
 std::string vtu(const RawMesh& m, const VtuCoding& how) {
@@ -351,6 +358,30 @@ const std::vector<Format>& formats() {
       {"VtuBase64Lzma", ".vtu",
        [](const RawMesh& m) {
          return vtu(m, {"binary", true, Packing::kLzma, true});
+       }},
+      {"VtuBase64HeaderApart", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"binary", true, Packing::kNone, false, true});
+       }},
+      {"VtuBase64WideHeaderApart", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"binary", true, Packing::kNone, true, true});
+       }},
+      {"VtuBase64ZlibInPieces", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"binary", true, Packing::kZlib, true, true});
+       }},
+      {"VtuAppendedBase64", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"appended", true, Packing::kNone, true});
+       }},
+      {"VtuAppendedBase64HeaderApart", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"appended", true, Packing::kNone, false, true});
+       }},
+      {"VtuAppendedBase64ZlibInPieces", ".vtu",
+       [](const RawMesh& m) {
+         return vtu(m, {"appended", true, Packing::kZlib, false, true});
        }},
       {"VtuAppendedRawLz4", ".vtu",
        [](const RawMesh& m) {

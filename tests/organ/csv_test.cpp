@@ -12,10 +12,11 @@ using testing::ElementsAre;
 
 class CsvTest : public testing::Test {
  protected:
-  std::vector<CsvLine> read(const std::string& text) {
-    std::ofstream(folder / "t.csv") << text;
+  CsvTable table(const std::string& text) {
+    std::ofstream(folder / "t.csv", std::ios::binary) << text;
     return read_csv(folder / "t.csv");
   }
+  std::vector<CsvLine> read(const std::string& text) { return table(text).lines; }
   test::ScratchFolder folder;
 };
 
@@ -46,6 +47,20 @@ TEST_F(CsvTest, AByteOrderMarkIsNotPartOfTheFirstField) {
   EXPECT_EQ(read("\xEF\xBB\xBFnode\n2\n").size(), 1u);
 }
 
+TEST_F(CsvTest, AHeaderIsKeptAndItsColumnsAreFound) {
+  const CsvTable t = table("# numbering: position\n\"Node ID\",x\n3,0\n");
+  ASSERT_TRUE(t.header);
+  EXPECT_EQ(t.numbering, geometry::Numbering::kPosition);
+  constexpr const char* kWanted[] = {"nodeid", "x"};
+  EXPECT_EQ(find_column(*t.header, std::span(kWanted).first(1), "named node"), 0u);
+  EXPECT_THROW(find_column(*t.header, kWanted, "named node"), geometry::InputError) << "two of them";
+  EXPECT_THROW(find_column(*table("u,v\n1,2\n").header, kWanted, "named node"), geometry::InputError);
+}
+
+TEST_F(CsvTest, ALineIsAsWideAsTheHeader) {
+  EXPECT_THROW(read("node,x\n1\n"), geometry::InputError);
+}
+
 TEST_F(CsvTest, AFileWithoutNumbersIsRefused) {
   EXPECT_THROW(read("node,ux\n"), geometry::InputError);
   EXPECT_THROW(read(""), geometry::InputError);
@@ -64,7 +79,8 @@ TEST(ParseNumberTest, TakesWholeFiniteNumbersOnly) {
   }
   EXPECT_EQ(parse_integer("42"), 42);
   EXPECT_FALSE(parse_integer("4.0"));
-  EXPECT_FALSE(parse_integer("99999999999"));
+  EXPECT_EQ(parse_integer("99999999999"), 99999999999);
+  EXPECT_FALSE(parse_integer("99999999999999999999"));
 }
 
 }  // namespace

@@ -85,6 +85,8 @@ class HostileOrganTest : public testing::Test {
       put<double>(hdf5, layout::kPositions, organ.mesh.positions, H5T_NATIVE_DOUBLE);
       put<std::int32_t>(hdf5, layout::kTetrahedra, organ.mesh.tetrahedra, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kFileNode, organ.mesh.file_node, H5T_NATIVE_INT32);
+      put<std::int64_t>(hdf5, layout::kNodeNumbers, organ.mesh.node_numbers, H5T_NATIVE_INT64);
+      put<std::int64_t>(hdf5, layout::kTetrahedronNumbers, organ.mesh.tetrahedron_numbers, H5T_NATIVE_INT64);
       put<std::int32_t>(hdf5, layout::kSurfaceNode, organ.surface.node, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kTriangles, organ.surface.triangles, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kBehind, organ.surface.tetrahedron, H5T_NATIVE_INT32);
@@ -121,6 +123,8 @@ class HostileOrganTest : public testing::Test {
     const std::size_t nodes = organ.mesh.positions.size();
     ASSERT_EQ(organ.fixed.size(), nodes);
     ASSERT_EQ(organ.mesh.file_node.size(), nodes);
+    ASSERT_EQ(organ.mesh.node_numbers.size(), static_cast<std::size_t>(organ.mesh.file_node_count));
+    ASSERT_EQ(organ.mesh.tetrahedron_numbers.size(), organ.mesh.tetrahedra.size());
     for (const auto n : organ.mesh.file_node)
       ASSERT_TRUE(below(n, static_cast<std::size_t>(organ.mesh.file_node_count)));
     for (const auto& tetrahedron : organ.mesh.tetrahedra) {
@@ -218,7 +222,7 @@ class Mutation {
   }
   void length(Organ& organ) {
     geometry::Surface& s = organ.surface;
-    switch (pick(9)) {
+    switch (pick(11)) {
       case 0:
         resize(organ.mesh.positions);
         break;
@@ -242,6 +246,12 @@ class Mutation {
         break;
       case 7:
         resize(s.fan);
+        break;
+      case 8:
+        resize(organ.mesh.node_numbers);
+        break;
+      case 9:
+        resize(organ.mesh.tetrahedron_numbers);
         break;
       default:
         resize(organ.fixed);
@@ -286,6 +296,8 @@ TEST_F(HostileOrganTest, WhatIsWrongIsNamed) {
   expect([](Organ& o) { o.mesh.tetrahedra[6][0] = NodeId(27); }, "row 6 of 'mesh/tetrahedra'");
   expect([](Organ& o) { std::swap(o.mesh.tetrahedra[6][0], o.mesh.tetrahedra[6][1]); }, "no positive volume");
   expect([](Organ& o) { o.mesh.file_node[1] = -3; }, "row 1 of 'mesh/file_node'");
+  expect([](Organ& o) { o.mesh.node_numbers.pop_back(); }, "'mesh/node_numbers' has 26 rows; expected 27");
+  expect([](Organ& o) { o.mesh.tetrahedron_numbers.pop_back(); }, "'mesh/tetrahedron_numbers'");
   expect([](Organ& o) { o.mesh.positions[9].y() = NAN; }, "row 9 of 'mesh/positions'");
   expect([](Organ& o) { o.fixed.back() = 8; }, "row 26 of 'supports/fixed'");
   expect([](Organ& o) { o.fixed.pop_back(); }, "'supports/fixed' has 26 rows; expected 27");
@@ -353,9 +365,10 @@ void write_in_oldest_format(const std::filesystem::path& from, const std::filesy
   hid_t made = H5Fcreate(to.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   for (const char* group : {"mesh", "surface", "supports", "tensors"})
     H5Gclose(H5Gcreate2(made, group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  for (const char* name : {layout::kPositions, layout::kTetrahedra, layout::kFileNode, layout::kSurfaceNode,
-                           layout::kTriangles, layout::kBehind, layout::kFanStart, layout::kFan,
-                           layout::kFixed, layout::kCompliance, layout::kBounds})
+  for (const char* name :
+       {layout::kPositions, layout::kTetrahedra, layout::kFileNode, layout::kNodeNumbers,
+        layout::kTetrahedronNumbers, layout::kSurfaceNode, layout::kTriangles, layout::kBehind,
+        layout::kFanStart, layout::kFan, layout::kFixed, layout::kCompliance, layout::kBounds})
     copy_dataset(old, made, name);
   EXPECT_GE(H5Aiterate2(old, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, copy_attribute, &made), 0);
   H5Fclose(made), H5Fclose(old), H5Pclose(access);

@@ -69,6 +69,8 @@ TEST_F(OrganFileTest, RoundTripKeepsEverything) {
   EXPECT_EQ(found.mesh.tetrahedra, made.mesh.tetrahedra);
   EXPECT_EQ(found.mesh.file_node, made.mesh.file_node);
   EXPECT_EQ(found.mesh.file_node_count, made.mesh.file_node_count);
+  EXPECT_EQ(found.mesh.node_numbers, made.mesh.node_numbers);
+  EXPECT_EQ(found.mesh.tetrahedron_numbers, made.mesh.tetrahedron_numbers);
   EXPECT_EQ(found.surface.node, made.surface.node);
   EXPECT_EQ(found.surface.of_node, made.surface.of_node);
   EXPECT_EQ(found.surface.triangles, made.surface.triangles);
@@ -149,6 +151,11 @@ TEST_F(OrganFileTest, HashChangesWithEverythingTheTensorsDependOn) {
   other = small_organ();
   std::swap(other.mesh.file_node[0], other.mesh.file_node[1]);
   EXPECT_NE(organ_hash(other), hash);
+  for (const bool nodes : {false, true}) {
+    other = small_organ();
+    (nodes ? other.mesh.node_numbers : other.mesh.tetrahedron_numbers)[3] += 100;
+    EXPECT_NE(organ_hash(other), hash) << "programs print them";
+  }
 }
 
 TEST_F(OrganFileTest, UpToDateFileIsLeftAndAChangedOrganIsNot) {

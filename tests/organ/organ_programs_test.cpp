@@ -130,7 +130,7 @@ TEST_F(OrganProgramsTest, SolveRefusesBadInput) {
                                       {"--gravity", "1,2"},
                                       {"-o", (folder / "absent" / "s").string()}}) {
     auto extended = arguments;
-    if (option == "-o") extended.resize(3);
+    if (option == "-o") extended.resize(5);
     extended.insert(extended.end(), {option, value});
     expect_refused("organ_solve", extended, option == "-o" ? "absent" : option + " " + value);
   }

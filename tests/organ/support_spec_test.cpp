@@ -69,11 +69,24 @@ TEST_F(SupportSpecTest, CsvListsNodesOfTheFile) {
   EXPECT_EQ(count(fixed, 0), 25);
 }
 
+TEST_F(SupportSpecTest, NumbersAreTheFilesOwnUnlessPositionsAreAskedFor) {
+  geometry::RawMesh raw = test::make_raw_box(2, 2, 2, {2, 2, 2});
+  for (int n = 0; n < 27; ++n) raw.node_numbers.push_back(1000 - 10 * n);
+  const geometry::TetraMesh own = geometry::check_mesh(raw, 1).mesh;
+  const std::vector<std::string> specs = {csv("740\n1000\n")};
+  const auto fixed = parse_supports(specs, own);
+  EXPECT_EQ(fixed[26] + fixed[0], 2 * physics::kPinned);
+  EXPECT_EQ(count(fixed, 0), 25);
+  const std::vector<std::string> by_position = {csv("26\n")};
+  EXPECT_THROW(parse_supports(by_position, own), geometry::InputError);
+  EXPECT_EQ(parse_supports(by_position, own, {}, geometry::Numbering::kPosition)[26], physics::kPinned);
+}
+
 TEST_F(SupportSpecTest, AMergedNodeHoldsTheOneThatTookItsPlace) {
   geometry::RawMesh raw = test::make_raw_box(2, 2, 2, {2, 2, 2});
   raw.positions.push_back(raw.positions[13]);
   for (auto& node : raw.tetrahedra[0]) node = node == 13 ? 27 : node;
-  const geometry::CheckedMesh checked = geometry::check_mesh(raw, 1, 1e-6);
+  const geometry::CheckedMesh checked = geometry::check_mesh(raw, 1, {.merge_m = 1e-6});
   ASSERT_EQ(checked.merged.size(), 1u);
   const std::vector<std::string> specs = {csv("27\n")};
   const auto fixed = parse_supports(specs, checked.mesh, checked.merged);

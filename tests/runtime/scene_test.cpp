@@ -124,6 +124,10 @@ TEST(Scene, DirectionsAreNormalized) {
   EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 1e-15);
 }
 
+TEST(Scene, AByteOrderMarkIsPassedOver) {
+  EXPECT_EQ(load_scene(write_scene("\xEF\xBB\xBF" + kGood)).name, "test");
+}
+
 TEST(Scene, AMissingFileIsNamed) {
   EXPECT_THAT(message_of("/nonexistent/x.toml"),
               AllOf(HasSubstr("/nonexistent/x.toml"), HasSubstr("no such file")));

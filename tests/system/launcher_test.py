@@ -3,7 +3,9 @@
 
 Environment: OMENTUM_BIN and OMENTUM_CACHE, as for launch_scripts/run. A single test: launcher_test.py Class.test
 """
+import contextlib
 import fcntl
+import io
 import json
 import os
 import pathlib
@@ -365,9 +367,9 @@ class Parts(unittest.TestCase):
         environment.start()
         self.addCleanup(environment.stop)
 
-    def build(self, fixed, name="liver"):
+    def build(self, fixed, name="liver", mesh=None):
         """What build_organ would take from the cache, made by a stand-in for organ_build."""
-        mesh = self.folder / "liver.msh"
+        mesh = mesh or self.folder / "liver.msh"
         mesh.touch()
         options = mock.Mock(programs=self.folder)
         spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1}
@@ -388,6 +390,35 @@ class Parts(unittest.TestCase):
         self.assertEqual(organs.relative_to(scene, "nodes.csv:xz"), str(self.folder / "scenes" / "nodes.csv:xz"))
         self.assertEqual(organs.relative_to(scene, "/else/nodes.csv"), "/else/nodes.csv")
         self.assertEqual(organs.relative_to(scene, "plane:y>0.05"), "plane:y>0.05")
+
+    def test_guess_of_the_scale_is_said_with_its_reason(self):
+        def guess(length):
+            with contextlib.redirect_stdout(io.StringIO()) as said:
+                scale = organs.guessed_scale("a.msh", {"min": [0, 0, 0], "max": [length, length / 2, 0]})
+            return scale, said.getvalue()
+
+        scale, said = guess(6.5)
+        self.assertEqual(scale, 0.001)
+        for part in ("warning: a.msh is 6.5 units long: taken as millimetres", "longer than 1 m", "an organ of 6.5 mm"):
+            self.assertIn(part, said)
+        scale, said = guess(0.0065)
+        self.assertEqual(scale, 1.0)
+        self.assertIn("warning: a.msh is 0.0065 units long: taken as metres", said)
+        self.assertNotIn("warning", guess(0.18)[1])
+
+    def test_a_warning_of_two_programs_is_said_once(self):
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            organs.pass_on_warnings("organ_build: warning: the organ is 3 m long\norgan_build: 34 %\n")
+            organs.pass_on_warnings("scene_prepare: warning: the organ is 3 m long\n")
+        self.assertEqual(said.getvalue(), "organ_build: warning: the organ is 3 m long\n")
+
+    def test_both_files_of_a_mesh_in_capitals_are_part_of_the_cache(self):
+        node = self.folder / "liver.NODE"
+        node.write_text("1")
+        first = self.build("plane:y>0", mesh=node)
+        self.assertEqual(self.build("plane:y>0", mesh=node), first)
+        (self.folder / "liver.ELE").write_text("another")
+        self.assertNotEqual(self.build("plane:y>0", mesh=node), first)
 
     def test_organ_of_another_name_is_another_file_and_takes_none_away(self):
         first = self.build("plane:y>0", "liver")

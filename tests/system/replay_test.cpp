@@ -106,8 +106,8 @@ Solved solve_directly(const std::string& organ_file, const Moment& moment) {
     csv << "node,ux,uy,uz\n";
     for (const auto& [node, u] : imposed) csv << node << ',' << u.x() << ',' << u.y() << ',' << u.z() << '\n';
   }
-  Process solve("organ_solve",
-                {organ_file, "--imposed", folder / "imposed.csv", "--model", "direct", "-o", folder / "out"});
+  Process solve("organ_solve", {organ_file, "--numbering", "position", "--imposed", folder / "imposed.csv",
+                                "--model", "direct", "-o", folder / "out"});
   EXPECT_EQ(solve.wait(), 0) << solve.messages();
   return {read_csv(folder / "out.u.csv"), read_csv(folder / "out.f.csv")};
 }
