@@ -1,5 +1,6 @@
 #include "transport/fast/entities.h"
 
+#include "transport/fast/complaints.h"
 #include "transport/settings.h"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -111,6 +112,7 @@ void set_common(Qos& qos, const TopicSpec& spec) {
 }  // namespace
 
 Entities::Entities(const BusOptions& options) : profile(options.profile) {
+  tell_complaints_once();
   turn_off_delivery_inside_the_process();
   auto* factory = dds::DomainParticipantFactory::get_instance();
   participant =
