@@ -20,6 +20,7 @@ namespace {
 // next
 constexpr const char* kGroup = "239.255.0.1";
 constexpr int kFirstPort = 7400, kPortsOfADomain = 250;
+constexpr char kNothing = 0;  // no message; an empty datagram would be complained of
 using Addresses = std::array<sockaddr_in, 2>;
 // A domain ends within this in most cases, and then no datagram is sent.
 constexpr std::chrono::milliseconds kPause{200};
@@ -46,7 +47,8 @@ void send_until(const std::stop_token& stop, const Addresses& addresses) {
   std::condition_variable_any wait;
   while (!wait.wait_for(lock, stop, kPause, [&] { return stop.stop_requested(); }))
     for (const sockaddr_in& to : addresses)
-      sendto(sender, nullptr, 0, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+      sendto(sender, &kNothing, sizeof kNothing, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
+             sizeof to);
   close(sender);
 }
 

@@ -5,7 +5,7 @@
 
 namespace omentum::transport::cyclone {
 
-/// As long as it lives, whoever waits for multicast of the domain hears an empty datagram often.
+/// As long as it lives, whoever waits for multicast of the domain hears a datagram of one byte often.
 /// Cyclone ends a receiving thread by a message that it sends to itself; where its interface is down or gone
 /// that message goes nowhere, and the end of the domain would wait for ever. These go through lo.
 class Awake {
