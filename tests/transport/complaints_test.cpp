@@ -2,11 +2,11 @@
 #include "transport/complaints.h"
 
 #include "transport/cyclone/complaints.h"
+#include "transport/cyclone/entities.h"
 #include "transport/fast/complaints.h"
+#include "transport/fast/entities.h"
 
-#include <dds/ddsrt/log.h>
 #include <gtest/gtest.h>
-#include <fastdds/dds/log/Log.hpp>
 
 #include <algorithm>
 #include <string>

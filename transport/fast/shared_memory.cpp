@@ -125,7 +125,7 @@ bool SharedMemory::remove_dead(const std::string& name) const {
 std::string SharedMemory::obstacle(int domain, std::uint64_t bytes) const {
   if (faccessat(AT_FDCWD, folder_.c_str(), R_OK | W_OK | X_OK, AT_EACCESS) != 0)
     return folder_.string() + " cannot be written to (" + std::strerror(errno) + ")";
-  if (const std::string lack = lack_of_space(bytes); !lack.empty()) return lack;
+  if (std::string lack = lack_of_space(bytes); !lack.empty()) return lack;
   return other_user(domain);
 }
 
