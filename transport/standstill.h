@@ -31,12 +31,14 @@ class Standstill {
 };
 
 /// A thread that looks often, and acts once the process goes on after a standstill: a stopped process, a
-/// suspended machine.
+/// suspended machine. Or once something else asks for it.
 class StandstillWatch {
  public:
   /// `act` runs on the watch's thread, which has the scheduling of the one that makes the watch. It must not
-  /// throw; when it returns false it is asked again at the next look.
-  StandstillWatch(std::chrono::nanoseconds longest, std::function<bool()> act);
+  /// throw; when it returns false it is asked again at the next look. `asks`, where there is one, is called
+  /// at every look and says whether to act too; likewise.
+  StandstillWatch(std::chrono::nanoseconds longest, std::function<bool()> act,
+                  std::function<bool()> asks = {});
   /// Waits for a running `act`.
   ~StandstillWatch() = default;
   StandstillWatch(const StandstillWatch&) = delete;
@@ -46,7 +48,7 @@ class StandstillWatch {
   void watch(const std::stop_token& stop);
 
   Standstill standstill_;
-  std::function<bool()> act_;
+  std::function<bool()> act_, asks_;
   std::mutex mutex_;  // nobody else's: a condition wants one
   std::condition_variable_any wait_;
   std::jthread thread_;  // last: ends before what it uses

@@ -1,4 +1,4 @@
-"""What Fast DDS processes leave in shared memory when they are killed: 17 MB each."""
+"""What Fast DDS processes leave in shared memory when they are killed: 8.5 MB each."""
 import contextlib
 import fcntl
 import os

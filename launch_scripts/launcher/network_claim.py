@@ -4,7 +4,7 @@ import signal
 import subprocess
 
 from .errors import Refusal
-from .processes import PR_SET_PDEATHSIG
+from .processes import PR_SET_PDEATHSIG, STOP_PATIENCE_S
 
 
 def end_with_launcher():
@@ -30,4 +30,8 @@ class NetworkClaim:
     def end(self):
         if self.process.poll() is None:
             self.process.terminate()
-            self.process.communicate()
+            try:
+                self.process.communicate(timeout=STOP_PATIENCE_S)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.communicate()

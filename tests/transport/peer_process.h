@@ -2,8 +2,11 @@
 #pragma once
 
 #include "tests/support/process.h"
+#include "tests/support/shared_memory_folder.h"
 #include "transport/bus.h"
 
+#include <fcntl.h>
+#include <grp.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <signal.h>
@@ -12,6 +15,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -40,20 +44,28 @@ inline bool has_lan() {
   return found;
 }
 
+/// How a peer lives on this machine, where it is not as this process does.
+struct PeerLife {
+  uid_t user = geteuid();                  // root may start another user's
+  bool has_own_shared_memory = false;      // as in a container; see SharedMemoryFolder
+  std::filesystem::path messages_to = {};  // a file for its stderr
+};
+
 /// The peer (peer.cpp), from the moment its writers exist until this object's end.
 class PeerProcess {
  public:
   PeerProcess(const std::string& what, transport::Vendor vendor, int domain,
-              transport::Profile profile = transport::Profile::kLoopback) {
+              transport::Profile profile = transport::Profile::kLoopback, const PeerLife& life = {}) {
     int to_peer[2], from_peer[2];
-    if (pipe(to_peer) != 0 || pipe(from_peer) != 0) throw std::runtime_error("no pipe");
+    if (pipe2(to_peer, O_CLOEXEC) != 0 || pipe2(from_peer, O_CLOEXEC) != 0)
+      throw std::runtime_error("no pipe");
     const std::string program = std::string(OMENTUM_BIN_DIR).append("/transport_peer");
     const std::string number = std::to_string(domain);
     pid_ = fork();
     if (pid_ == 0) {
       dup2(to_peer[0], STDIN_FILENO);
       dup2(from_peer[1], STDOUT_FILENO);
-      for (const int end : {to_peer[0], to_peer[1], from_peer[0], from_peer[1]}) close(end);
+      if (!begin(life)) _exit(127);
       execl(program.c_str(), program.c_str(), what.c_str(), word(vendor), number.c_str(), word(profile),
             nullptr);
       _exit(127);
@@ -91,6 +103,18 @@ class PeerProcess {
   }
 
  private:
+  // in the new process
+  static bool begin(const PeerLife& life) {
+    constexpr const char* kRoomForAll = "size=256m";
+    if (life.has_own_shared_memory && !SharedMemoryFolder::mount_here(kRoomForAll)) return false;
+    if (!life.messages_to.empty())
+      dup2(open(life.messages_to.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    if (life.user == geteuid()) return true;
+    const auto group = static_cast<gid_t>(life.user);
+    return setgroups(0, nullptr) == 0 && setresgid(group, group, group) == 0 &&
+           setresuid(life.user, life.user, life.user) == 0;
+  }
+
   pid_t pid_ = 0;
   int input_ = -1;
   int exit_code_ = 0;

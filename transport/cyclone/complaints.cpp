@@ -1,23 +1,19 @@
 #include "transport/cyclone/complaints.h"
 
+#include "transport/complaints.h"
+
 #include <dds/ddsrt/log.h>
 
-#include <cstdio>
 #include <map>
 #include <mutex>
-#include <set>
 #include <string>
-#include <utility>
 
 namespace omentum::transport::cyclone {
 
 namespace {
 
-using Place = std::pair<const char*, std::uint32_t>;  // in Cyclone's sources: a kind of message
-
 struct Complaints {
   std::mutex mutex;
-  std::set<Place> told_places;
   std::map<std::string, std::uint64_t, std::less<>> undecodable;  // by topic
 };
 
@@ -38,27 +34,39 @@ std::string_view undecodable_topic(std::string_view message) {
   return type == std::string_view::npos ? std::string_view{} : message.substr(0, type);
 }
 
-void tell(std::string_view message) {
-  while (!message.empty() && message.back() == '\n') message.remove_suffix(1);
-  std::fprintf(stderr, "Cyclone DDS: %.*s (further ones are not told)\n", static_cast<int>(message.size()),
-               message.data());
+// "ddsi_udp_conn_write to udp/ADDRESS:PORT failed ...": the address; empty for another message
+std::string_view unreachable_address(std::string_view message) {
+  constexpr std::string_view kBefore = "conn_write to udp/";
+  const std::size_t before = message.find(kBefore);
+  if (before == std::string_view::npos) return {};
+  message.remove_prefix(before + kBefore.size());
+  return message.substr(0, message.find(':'));
+}
+
+void complain_of_address(std::string_view address) {
+  complain_once("Cyclone DDS", address,
+                std::string(address) + " cannot be reached: nothing that is sent there arrives");
+}
+
+void complain_of_topic(std::string_view topic, std::string_view message) {
+  {
+    Complaints& all = complaints();
+    const std::lock_guard lock(all.mutex);
+    ++all.undecodable[std::string(topic)];
+  }
+  complain_once("Cyclone DDS", topic, message);
 }
 
 // on whatever thread complains
 void hear(void*, const dds_log_data_t* data) {
   const std::string_view message(data->message, data->size);
-  const std::string_view topic = undecodable_topic(message);
-  Complaints& all = complaints();
-  const std::lock_guard lock(all.mutex);
-  bool first = false;
-  if (topic.empty()) {
-    first = all.told_places.emplace(data->file, data->line).second;
-  } else {
-    const auto known = all.undecodable.find(topic);
-    first = known == all.undecodable.end();
-    ++(first ? all.undecodable[std::string(topic)] : known->second);
-  }
-  if (first) tell(message);
+  if (const std::string_view topic = undecodable_topic(message); !topic.empty())
+    return complain_of_topic(topic, message);
+  if (const std::string_view address = unreachable_address(message); !address.empty())
+    return complain_of_address(address);
+  // a place in Cyclone's sources is a kind of message
+  complain_once("Cyclone DDS", std::string(data->file).append(":").append(std::to_string(data->line)),
+                message);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "transport/cyclone/domain.h"
 
+#include "transport/cyclone/awake.h"
 #include "transport/cyclone/complaints.h"
 #include "transport/settings.h"
 #include "transport/topics.h"
@@ -104,6 +105,7 @@ Domain::~Domain() {
   const std::lock_guard lock(domains.mutex);
   const auto found = domains.by_id.find(id_);
   if (--found->second.users > 0) return;
+  const Awake receivers(id_);
   dds_delete(found->second.entity);
   domains.by_id.erase(found);
 }

@@ -1,5 +1,7 @@
 #include "transport/fast/entities.h"
 
+#include "transport/complaints.h"
+#include "transport/fast/complaints.h"
 #include "transport/settings.h"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -8,6 +10,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <optional>
 #include <stdexcept>
 
 namespace omentum::transport::fast {
@@ -17,8 +20,11 @@ namespace {
 namespace rtps = eprosima::fastdds::rtps;
 using eprosima::fastrtps::Duration_t;
 
-// Several 3 MB states in flight between processes; a full segment loses samples.
-constexpr std::uint32_t kSharedSegmentBytes = 16 * 1024 * 1024;
+// Two states of the largest size (3 MB) in flight between processes, and all else; a full segment loses
+// samples.
+constexpr std::uint32_t kSharedSegmentBytes = 8 * 1024 * 1024;
+// Of 52 kB each: two of our own, and two of each process that we write to.
+constexpr std::uint32_t kSharedPortsBytes = 1024 * 1024;
 // A reader that lost a sample learns of it within this; the default of 3 s would stall durable topics.
 constexpr int kHeartbeatMs = 50;
 // How many participants of one peer machine are looked for, by their ports.
@@ -35,7 +41,7 @@ Duration_t duration(std::chrono::milliseconds time) {
   return duration(static_cast<int>(time.count()));
 }
 
-void set_transports(dds::DomainParticipantQos& qos, Profile profile) {
+void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool shares_memory) {
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
@@ -46,7 +52,7 @@ void set_transports(dds::DomainParticipantQos& qos, Profile profile) {
   qos.transport().send_socket_buffer_size = kSocketBufferBytes;
   qos.transport().listen_socket_buffer_size = kSocketBufferBytes;
   qos.transport().user_transports.push_back(udp);
-  if (profile == Profile::kLoopback) {
+  if (shares_memory) {
     auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
     shared_memory->segment_size(kSharedSegmentBytes);
     shared_memory->healthy_check_timeout_ms(kFastMailboxMs);
@@ -67,14 +73,18 @@ void add_peers(dds::DomainParticipantQos& qos, const std::vector<std::string>& p
   }
 }
 
-dds::DomainParticipantQos participant_qos(const BusOptions& options) {
+dds::DomainParticipantQos participant_qos(const BusOptions& options, bool shares_memory) {
   dds::DomainParticipantQos qos;
   qos.name(options.name);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = duration(kFastLeaseMs);
   discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriodMs);
   discovery.initial_announcements.count = kFirstAnnouncements;
-  set_transports(qos, options.profile);
+  set_transports(qos, options.profile, shares_memory);
+  if (shares_memory) {
+    const std::string mark = SharedMemory().mark();  // see Neighbours
+    qos.user_data().data_vec({mark.begin(), mark.end()});
+  }
   if (options.profile == Profile::kLan) add_peers(qos, peers_from_environment());
   return qos;
 }
@@ -109,13 +119,39 @@ void set_common(Qos& qos, const TopicSpec& spec) {
   }
 }
 
+void tell_of_udp(const BusOptions& options, const std::string& reason) {
+  tell_once(options.name.empty() ? "Fast DDS" : options.name, "no shared memory",
+            "Fast DDS sends over UDP, not through shared memory: " + reason);
+}
+
+// removes what the dead left, and looks whether there is room among the living
+bool can_share_memory(const BusOptions& options) {
+  const SharedMemory memory;
+  memory.remove_leftovers();
+  const std::string obstacle = memory.obstacle(options.domain, kSharedSegmentBytes + kSharedPortsBytes);
+  if (!obstacle.empty()) tell_of_udp(options, obstacle);
+  return obstacle.empty();
+}
+
 }  // namespace
 
-Entities::Entities(const BusOptions& options) : profile(options.profile) {
+void tell_of_neighbour(const BusOptions& options) {
+  tell_of_udp(options, "another process of this domain is another user's, or has a /dev/shm of its own");
+}
+
+Entities::Entities(const BusOptions& options, bool may_share_memory) : profile(options.profile) {
+  tell_complaints_once();
   turn_off_delivery_inside_the_process();
+  std::optional<SharedMemoryTurn> turn;
+  if (may_share_memory && profile == Profile::kLoopback) {
+    turn.emplace();
+    shares_memory = can_share_memory(options);
+  }
   auto* factory = dds::DomainParticipantFactory::get_instance();
-  participant =
-      factory->create_participant(static_cast<std::uint32_t>(options.domain), participant_qos(options));
+  participant = factory->create_participant(static_cast<std::uint32_t>(options.domain),
+                                            participant_qos(options, shares_memory),
+                                            shares_memory ? &neighbours : nullptr, dds::StatusMask::none());
+  turn.reset();
   if (!participant)
     throw std::runtime_error("Fast DDS refused a participant in domain " + std::to_string(options.domain));
   publisher = participant->create_publisher(dds::PublisherQos());

@@ -189,7 +189,9 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
 
 Participant::Participant(const BusOptions& options)
     : membership_(std::make_unique<Membership>(options)),
-      watch_(std::make_unique<StandstillWatch>(kForgottenAfter, [this] { return membership_->renew(); })) {}
+      watch_(std::make_unique<StandstillWatch>(
+          kForgottenAfter, [this] { return membership_->renew(); },
+          [this] { return membership_->must_do_without_shared_memory(); })) {}
 
 Participant::~Participant() = default;
 
