@@ -21,6 +21,10 @@
 
 namespace omentum::device {
 
+/// haptic_node lets no force outlive its pose by more than 25 ms: of poses that come less often a hand feels
+/// next to nothing, Hz.
+inline constexpr double kSlowestRate_hz = 40;
+
 struct BridgeOptions {
   runtime::NodeOptions node;
   double seconds = 0;            // 0: until stopped

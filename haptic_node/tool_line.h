@@ -34,7 +34,8 @@ class ToolLine {
   // ---- the vendor's threads, one at a time for each message
 
   /// Whether the pose was accepted: then the loop has something to do. A sample that says itself that it is
-  /// none (`valid` down) is counted with the refused ones; any other refused one is a fault as well.
+  /// none (`valid` down) is counted with the refused ones; any other refused one is a fault as well, and so
+  /// are poses that come less often than kLongestInterval_s.
   bool hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept;
   void hear(const msg::DeviceInfo& info, const transport::WriterId& writer = {}) noexcept;
   /// A writer of DeviceInfo left, in whatever way. On the thread of its samples.
@@ -94,7 +95,7 @@ class ToolLine {
   ForceLimits limits_;
   runtime::FaultList& faults_;
   std::array<std::string, kPoseVerdicts> refusals_;  // texts, made beforehand
-  std::string force_fault_, source_fault_;
+  std::string force_fault_, source_fault_, slow_fault_;
 
   // the vendor's threads
   PoseGuard guard_;
