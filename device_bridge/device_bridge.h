@@ -45,6 +45,9 @@ class DeviceBridge {
 
   /// After run(): virtual_device's object of report.json (DESIGN 5).
   nlohmann::json report() const;
+  /// After run(), and after the report: throws std::runtime_error when lines of the log or the record were
+  /// lost, and why.
+  void require_written();
 
  private:
   void connect();

@@ -58,6 +58,7 @@ void run(const Options& options) {
   device::DeviceBridge bridge(options.bridge, make_devices(options, scene), loop);
   bridge.run();
   if (!options.bridge.node.report.empty()) runtime::write_report(bridge.report(), options.bridge.node.report);
+  bridge.require_written();
 }
 
 }  // namespace

@@ -70,7 +70,9 @@ class ToolLine {
   bool engaged() const noexcept { return engaged_; }
   /// Whether its device is told forces: as long as that, and a while longer that there is none.
   bool is_told() const noexcept { return told_; }
-  /// The newest pose that counts; seq 0 and stamp 0 before the first.
+  /// The newest pose that counts, all zeros before the first.
+  const msg::ToolPose& pose() const noexcept { return poses_.value().pose; }
+  /// What an answer to it echoes; seq 0 and stamp 0 before the first.
   msg::Echo echo() const noexcept;
   const ForceSafety& safety() const noexcept { return safety_; }
 

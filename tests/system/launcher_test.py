@@ -3,8 +3,10 @@
 
 Environment: OMENTUM_BIN and OMENTUM_CACHE, as for launch_scripts/run. A single test: launcher_test.py Class.test
 """
+import csv
 import fcntl
 import json
+import math
 import os
 import pathlib
 import pty
@@ -206,13 +208,26 @@ class Devices(LauncherTest):
 
 class Strangers(LauncherTest):
     def test_where_nobody_hears_anybody_the_session_says_so_and_fails(self):
-        """A network namespace of its own, whose lo is down."""
+        """A network namespace of its own, whose lo is down; Cyclone refuses to start there, Fast DDS does not."""
         if subprocess.run(["unshare", "-n", "true"], capture_output=True, check=False).returncode != 0:
             self.skipTest("no network namespaces here")
-        done = subprocess.run(["unshare", "-n", RUN, HOLD, "--headless", "--dds", "cyclone", "--seconds", "12", "--out", self.out],
+        done = subprocess.run(["unshare", "-n", RUN, HOLD, "--headless", "--dds", "fast", "--seconds", "12", "--out", self.out],
                               cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn("no answer ever came", done.stdout)
+
+    def test_pictures_that_a_full_disk_did_not_take_are_told_and_leave_nothing(self):
+        """A small file system in a mount namespace of its own."""
+        self.out.mkdir()
+        script = f"mount -t tmpfs -o size=200k none {self.out} && {RUN} {HOLD} --headless --seconds 5 --out {self.out}; " \
+                 f"echo code $?; ls {self.out}"
+        if subprocess.run(["unshare", "-m", "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("no mount namespaces here")
+        done = subprocess.run(["unshare", "-m", "sh", "-c", script], cwd=self.folder, capture_output=True, text=True,
+                              timeout=PATIENCE_S, check=False)
+        self.assertIn("code 1", done.stdout, done.stderr)
+        self.assertIn("No space left on device", done.stdout)
+        self.assertNotIn(".part", done.stdout.rpartition("code")[2])
 
 
 class RealOrgan(LauncherTest):
@@ -234,7 +249,11 @@ class PaperSplit(LauncherTest):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("split as in the paper", done.stdout)
         self.assertEqual(self.report()["nodes"]["haptic_node"]["loop"]["rate_hz"], 300)
-        self.assertTrue((self.out / "haptic_node.csv").is_file())
+        with open(self.out / "haptic_node.csv", encoding="utf-8") as log:
+            ticks = [line for line in csv.DictReader(log) if not line["tick"].startswith("#")]
+        felt = max(math.dist((0, 0, 0), [float(tick[f"tool0_f{axis}_n"]) for axis in "xyz"]) for tick in ticks)
+        self.assertAlmostEqual(felt, self.report()["nodes"]["haptic_node"]["force_n"]["max"], delta=1e-3)
+        self.assertTrue(any(int(tick["tool0_seq"]) > 0 and float(tick["tool0_qw"]) != 0 for tick in ticks))
 
 
 class Endings(LauncherTest):
