@@ -565,6 +565,20 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertIn("OMENTUM_CACHE", refusal)
         self.assertIn(str(self.folder / "cache"), refusal)
 
+    def test_a_checkout_of_another_user_names_the_way_out(self):
+        if os.geteuid() != 0 or not shutil.which("setpriv"):
+            self.skipTest("another user needs root and setpriv")
+        checkout = self.folder / "checkout"
+        shutil.copytree(REPOSITORY / "launch_scripts", checkout / "launch_scripts")
+        self.folder.chmod(0o755)
+        done = subprocess.run(["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "bash", "-c",
+                               "source launch_scripts/build.sh; build_preset release"], cwd=checkout, capture_output=True,
+                              text=True, timeout=PATIENCE_S, check=False)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("OMENTUM_BIN", done.stderr)
+        self.assertIn("OMENTUM_CACHE", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
     def test_a_report_replaces_files_only_and_says_why_it_cannot(self):
         target = self.folder / "far.json"
         link = self.folder / "report.json"
