@@ -1,12 +1,12 @@
 #include "benchmarks/bench_json.h"
 
+#include "files/whole_file.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -80,10 +80,7 @@ void Results::write() const {
   if (file_.empty()) return;
   nlohmann::json list = nlohmann::json::array();
   for (const Entry& entry : entries_) list.push_back(to_json(entry));
-  std::ofstream out(file_);
-  out << list.dump(2) << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(file_.string() + ": the figures cannot be written there");
+  files::write_whole(file_, list.dump(2) + '\n');
 }
 
 }  // namespace omentum::bench

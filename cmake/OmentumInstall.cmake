@@ -16,7 +16,7 @@ endif()
 
 set(omentum_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Omentum)
 
-install(TARGETS omentum_geometry omentum_physics omentum_organ EXPORT OmentumTargets
+install(TARGETS omentum_files omentum_geometry omentum_physics omentum_organ EXPORT OmentumTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 foreach(room geometry physics organ)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/omentum

@@ -78,6 +78,10 @@ void DeformLoop::run() {
   refusal_.throw_if_any();
 }
 
+void DeformLoop::require_written() {
+  if (log_) log_->finish();
+}
+
 void DeformLoop::serve_or_stand_by() {
   const bool other_serves = standby_.other_serves(runtime::steady_now_ns());
   if (other_serves && role_ != Role::kStandingBy) stand_by();

@@ -33,6 +33,8 @@ class DeformLoop {
   void run();
   /// After run(): the node's object of report.json (DESIGN 5).
   nlohmann::json report() const;
+  /// After run(), and after the report: throws std::runtime_error when lines of the log were lost, and why.
+  void require_written();
 
  private:
   void serve_or_stand_by();

@@ -19,5 +19,6 @@ int main(int argc, char** argv) {
     deform::DeformLoop loop(options, pace);
     loop.run();
     if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
+    loop.require_written();
   });
 }

@@ -108,6 +108,11 @@ void DeviceBridge::publish_status() {
   status_writer_->write(status_message_);
 }
 
+void DeviceBridge::require_written() {
+  if (log_) log_->finish();
+  if (record_) record_->finish();
+}
+
 nlohmann::json DeviceBridge::report() const {
   const AnswerReport answers = answers_.report();
   AnswerCounts counts;

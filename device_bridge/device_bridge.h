@@ -21,6 +21,10 @@
 
 namespace omentum::device {
 
+/// haptic_node lets no force outlive its pose by more than 25 ms: of poses that come less often a hand feels
+/// next to nothing, Hz.
+inline constexpr double kSlowestRate_hz = 40;
+
 struct BridgeOptions {
   runtime::NodeOptions node;
   double seconds = 0;            // 0: until stopped
@@ -41,6 +45,9 @@ class DeviceBridge {
 
   /// After run(): virtual_device's object of report.json (DESIGN 5).
   nlohmann::json report() const;
+  /// After run(), and after the report: throws std::runtime_error when lines of the log or the record were
+  /// lost, and why.
+  void require_written();
 
  private:
   void connect();

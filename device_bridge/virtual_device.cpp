@@ -58,6 +58,7 @@ void run(const Options& options) {
   device::DeviceBridge bridge(options.bridge, make_devices(options, scene), loop);
   bridge.run();
   if (!options.bridge.node.report.empty()) runtime::write_report(bridge.report(), options.bridge.node.report);
+  bridge.require_written();
 }
 
 }  // namespace
@@ -71,7 +72,9 @@ int main(int argc, char** argv) {
   line.option("--trace", options.trace, "play this recorded hand instead of the scene's script")
       .type_name("FILE");
   line.option("--record", options.bridge.record, "record the poses as a trace").type_name("FILE");
-  line.option("--rate-hz", options.rate_hz, "poses per second").between(10.0, 10000.0).show_default();
+  line.option("--rate-hz", options.rate_hz, "poses per second")
+      .between(device::kSlowestRate_hz, 10000.0)
+      .show_default();
   line.option("--seconds", options.bridge.seconds, "end after this time; 0: run until stopped")
       .between(0.0, 1e6)
       .show_default();

@@ -27,6 +27,9 @@ struct ForceLimits {
 /// However slow a device is, a pose older than this is stale, s: two and a half periods at 100 Hz, and a
 /// tenth of what a person needs to let go.
 inline constexpr double kLongestStale_s = 0.025;
+/// Poses that come less often than this are stale before the next one comes: hardly a force is left, s. A
+/// tenth is what the timers of a device of 40 Hz may be late by.
+inline constexpr double kLongestInterval_s = 1.1 * kLongestStale_s;
 
 // ---- pure filters
 // -----------------------------------------------------------------------------------------------

@@ -48,7 +48,7 @@ HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
       rivals_(msg::NODE_HAPTIC, status_.instance),
       served_(bits_of(setup_.tool_ids)) {
   if (!options.node.log.empty()) {
-    log_ = std::make_unique<runtime::LoopLog>(options.node.log);
+    log_ = std::make_unique<HapticLog>(options.node.log, setup_.tool_ids);
     loop_.log_to(*log_);
   }
   for (const std::uint32_t id : setup_.tool_ids) {
@@ -147,6 +147,10 @@ void HapticLoop::run() {
   refusal_.throw_if_any();
 }
 
+void HapticLoop::require_written() {
+  if (log_) log_->finish();
+}
+
 void HapticLoop::tick(std::int64_t now_ns) noexcept {
   const double elapsed_s = last_tick_ns_ == 0 ? 0 : 1e-9 * static_cast<double>(now_ns - last_tick_ns_);
   last_tick_ns_ = now_ns;
@@ -184,6 +188,7 @@ void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (!serves(i)) continue;
     const msg::ToolForce& force = lines_[i]->answer(outputs_[i], now_ns, dt_s, paused);
+    if (log_) note(i, force);
     if (lines_[i]->is_told() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
       lines_[i]->sent(force_writer_->write(lines_[i]->to_send(ticks_)));
       answered_ns_[i] = now_ns;
@@ -194,6 +199,12 @@ void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
     force_max_n_ = std::max(force_max_n_, newton);
     ++force_samples_;
   }
+}
+
+void HapticLoop::note(std::size_t line, const msg::ToolForce& force) noexcept {
+  const msg::ToolPose& pose = lines_[line]->pose();
+  log_->tool(line) = {pose.seq,    pose.stamp_ns, pose.position, pose.orientation,
+                      force.force, force.torque,  force.state};
 }
 
 void HapticLoop::publish_contacts(std::int64_t now_ns) noexcept {

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "haptic_node/contact_message.h"
+#include "haptic_node/haptic_log.h"
 #include "haptic_node/haptic_setup.h"
 #include "haptic_node/serving_claim.h"
 #include "haptic_node/tool_line.h"
 #include "node/loaded_scene.h"
 #include "node/refusal.h"
 #include "node/session_orders.h"
-#include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
 #include "runtime/realtime.h"
@@ -45,6 +45,8 @@ class HapticLoop {
   void run();
   /// After run(): the node's object of report.json (DESIGN 5).
   nlohmann::json report() const;
+  /// After run(), and after the report: throws std::runtime_error when lines of the log were lost, and why.
+  void require_written();
 
  private:
   // what the ordinary thread needs of the loop, a copy now and then
@@ -59,6 +61,7 @@ class HapticLoop {
   void answer(std::int64_t now_ns, double dt_s) noexcept;
   void publish_contacts(std::int64_t now_ns) noexcept;
   void account() noexcept;
+  void note(std::size_t line, const msg::ToolForce& force) noexcept;
 
   void hear(const msg::ToolPose& pose) noexcept;
   void hear(const msg::DeviceInfo& info, const transport::WriterId& writer) noexcept;
@@ -75,7 +78,7 @@ class HapticLoop {
   HapticSetup setup_;
   runtime::FaultList faults_;
   runtime::RateLoop& loop_;
-  std::unique_ptr<runtime::LoopLog> log_;
+  std::unique_ptr<HapticLog> log_;
   runtime::RealtimeGrant grant_;
 
   // the loop's thread

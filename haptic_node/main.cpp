@@ -21,5 +21,6 @@ int main(int argc, char** argv) {
     haptic::HapticLoop loop(options, pace);
     loop.run();
     if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
+    loop.require_written();
   });
 }

@@ -19,6 +19,8 @@ class PoseInterval {
 
   /// 0: not known yet.
   double seconds() const noexcept;
+  /// Whether the whole window was heard: what is said of a device then is no matter of its first poses.
+  bool is_settled() const noexcept { return count_ == kWindow; }
 
  private:
   std::array<std::int64_t, kWindow> intervals_ns_{};

@@ -16,6 +16,7 @@ namespace {
 // sampled contact gives.
 constexpr double kCutShare = 0.5;
 constexpr double kBelievedIntervals = 2;
+static_assert(kLongestStale_s == 1 / 40.0, "the fault says 40 times a second");
 
 }  // namespace
 
@@ -31,6 +32,7 @@ ToolLine::ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultLi
     refusals_[v] = tool + "pose refused: " + describe(static_cast<PoseVerdict>(v));
   }
   force_fault_ = tool + "force is not finite, held at zero until the fault is cleared";
+  slow_fault_ = tool + "poses come less than 40 times a second, too seldom for a force";
   source_fault_ = tool + "contact feeds the hand, its force is cut";
 }
 
@@ -49,6 +51,7 @@ bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
     interval_.restart(now_ns);
   } else {
     interval_.add(now_ns);
+    if (interval_.is_settled() && interval_.seconds() > kLongestInterval_s) faults_.raise(slow_fault_);
   }
   poses_.post({pose, now_ns, connections_, interval_.seconds()});
   return true;

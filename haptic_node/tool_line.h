@@ -34,7 +34,8 @@ class ToolLine {
   // ---- the vendor's threads, one at a time for each message
 
   /// Whether the pose was accepted: then the loop has something to do. A sample that says itself that it is
-  /// none (`valid` down) is counted with the refused ones; any other refused one is a fault as well.
+  /// none (`valid` down) is counted with the refused ones; any other refused one is a fault as well, and so
+  /// are poses that come less often than kLongestInterval_s.
   bool hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept;
   void hear(const msg::DeviceInfo& info, const transport::WriterId& writer = {}) noexcept;
   /// A writer of DeviceInfo left, in whatever way. On the thread of its samples.
@@ -69,7 +70,9 @@ class ToolLine {
   bool engaged() const noexcept { return engaged_; }
   /// Whether its device is told forces: as long as that, and a while longer that there is none.
   bool is_told() const noexcept { return told_; }
-  /// The newest pose that counts; seq 0 and stamp 0 before the first.
+  /// The newest pose that counts, all zeros before the first.
+  const msg::ToolPose& pose() const noexcept { return poses_.value().pose; }
+  /// What an answer to it echoes; seq 0 and stamp 0 before the first.
   msg::Echo echo() const noexcept;
   const ForceSafety& safety() const noexcept { return safety_; }
 
@@ -94,7 +97,7 @@ class ToolLine {
   ForceLimits limits_;
   runtime::FaultList& faults_;
   std::array<std::string, kPoseVerdicts> refusals_;  // texts, made beforehand
-  std::string force_fault_, source_fault_;
+  std::string force_fault_, source_fault_, slow_fault_;
 
   // the vendor's threads
   PoseGuard guard_;

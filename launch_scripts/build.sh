@@ -10,7 +10,11 @@ export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 # build_preset PRESET [TARGET ...]: without targets, those of the build preset. One at a time in a build folder.
 build_preset() {
   local preset=$1 waiting_s=8 begin=$SECONDS status=0 lock
-  mkdir -p build
+  if ! { mkdir -p build && touch "build/$preset.lock"; } 2>/dev/null; then
+    echo "build: $PWD/build cannot be written by $(id -un): clone the repository for yourself, or set OMENTUM_BIN to" \
+      "the folder of the built programs and OMENTUM_CACHE to a folder of yours" >&2
+    return 2
+  fi
   exec {lock}>>"build/$preset.lock"
   until flock --wait "$((SECONDS > begin ? waiting_s : 1))" "$lock"; do
     echo "build: waiting for process $(cat "build/$preset.lock"), which builds $preset too, $((SECONDS - begin)) s"

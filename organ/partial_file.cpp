@@ -1,5 +1,6 @@
 #include "organ/partial_file.h"
 
+#include "files/whole_file.h"
 #include "geometry/tetra_mesh.h"
 
 #include <cerrno>
@@ -62,6 +63,15 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
+// The end of the links that `file` is; refuses folders, devices, pipes and sockets.
+std::filesystem::path target_of(const std::filesystem::path& file) {
+  try {
+    return files::replaceable(file);
+  } catch (const std::runtime_error& refused) {
+    throw geometry::InputError(refused.what());
+  }
+}
+
 bool remove_if_abandoned(const std::filesystem::path& partial) {
   const int descriptor = open(partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0) return false;
@@ -73,9 +83,8 @@ bool remove_if_abandoned(const std::filesystem::path& partial) {
 }  // namespace
 
 PartialFile::PartialFile(std::filesystem::path file)
-    : file_(std::move(file)), partial_(file_.string() + kSuffix) {
+    : file_(target_of(file)), partial_(file_.string() + kSuffix) {
   remove_abandoned(folder_of(file_));
-  if (std::filesystem::is_directory(file_)) fail(file_, "cannot be replaced", EISDIR);
   lock_ = open_locked(partial_);
   if (ftruncate(lock_, 0) != 0) {
     const int error = errno;

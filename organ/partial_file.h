@@ -11,7 +11,8 @@ namespace omentum::organ {
 class PartialFile {
  public:
   /// Removes what dead processes left in the folder (remove_abandoned), then makes or takes over the partial
-  /// file. Throws geometry::InputError (folder missing, no permission, another process writes FILE).
+  /// file. A link stays one: its end is replaced. Throws geometry::InputError (FILE is no regular file,
+  /// folder missing, no permission, another process writes FILE).
   explicit PartialFile(std::filesystem::path file);
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;

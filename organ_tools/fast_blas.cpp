@@ -1,13 +1,16 @@
 #include "organ_tools/fast_blas.h"
 
 #include "physics/blas_kernels.h"
+#include "physics/blas_memory.h"
 #include "runtime/restart.h"
 
 #include <cstdlib>
+#include <iostream>
 
 namespace omentum::organ_tools {
 namespace {
 
+constexpr int kExitRefused = 2;
 constexpr const char* kAsked = "OPENBLAS_CORETYPE";
 constexpr const char* kChose = "OMENTUM_BLAS_CHOSE";  // from the program to itself, started anew
 
@@ -21,6 +24,14 @@ void start_with_fast_blas(char** argv) {
   setenv(kChose, chose.c_str(), 1);
   runtime::restart_with(kAsked, *better, argv);
   unsetenv(kChose);  // still here
+}
+
+void require_blas_memory(const char* program, int callers) {
+  if (physics::keep_blas_buffers(callers)) return;
+  std::cerr << program
+            << ": not enough memory: OpenBLAS needs 128 MiB of addresses for each thread (see ulimit -v)"
+            << std::endl;
+  std::_Exit(kExitRefused);
 }
 
 std::string fast_blas_note() {

@@ -10,6 +10,11 @@ namespace omentum::organ_tools {
 /// that variable is set: a person's choice stands, and there is no second time. To be called first in main.
 void start_with_fast_blas(char** argv);
 
+/// Ends the program with exit code 2 and a line where the system does not give OpenBLAS the memory that it
+/// takes for itself, which it would wait for without end. `callers`: threads of ours that call it at a time.
+/// After start_with_fast_blas.
+void require_blas_memory(const char* program, int callers);
+
 /// Says that it happened, in a line; empty when it did not.
 std::string fast_blas_note();
 

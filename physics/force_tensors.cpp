@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <numeric>
 #include <thread>
@@ -157,25 +158,37 @@ class BlockWriter {
 };
 
 // Hands out 0, 1, .. count - 1 to the workers, which call work(worker, item). Returns false when it was
-// stopped.
+// stopped. What a worker throws ends all of them, and is thrown here.
 template <class Work>
 bool share_out(int threads, std::int32_t count, const std::function<bool()>& stopped, Work work) {
   std::atomic<std::int32_t> next{0};
   std::atomic<bool> whole{true};
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto run = [&](int w) {
+    for (std::int32_t item; whole && (item = next++) < count;) {
+      if (stopped && stopped()) {
+        whole = false;
+        return;
+      }
+      work(w, item);
+    }
+  };
   {
     std::vector<std::jthread> workers;
     for (int w = 0; w < threads; ++w) {
       workers.emplace_back([&, w] {
-        for (std::int32_t item; (item = next++) < count;) {
-          if (stopped && stopped()) {
-            whole = false;
-            return;
-          }
-          work(w, item);
+        try {
+          run(w);
+        } catch (...) {
+          const std::lock_guard lock(failing);
+          failure = std::current_exception();
+          whole = false;
         }
       });
     }
   }
+  if (failure) std::rethrow_exception(failure);
   return whole;
 }
 

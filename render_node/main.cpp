@@ -51,5 +51,6 @@ int main(int argc, char** argv) {
     render::RenderLoop loop(options, *renderer, pace);
     loop.run();
     if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
+    loop.require_written();
   });
 }

@@ -19,12 +19,17 @@ PictureWriter::PictureWriter(std::filesystem::path folder, runtime::FaultList& f
 }
 
 PictureWriter::~PictureWriter() {
+  finish();
+}
+
+std::string PictureWriter::finish() {
   {
     const std::lock_guard lock(mutex_);
     end_ = true;
   }
   changed_.notify_one();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+  return failure_;
 }
 
 void PictureWriter::write(Picture picture, const std::string& name) {
@@ -57,6 +62,7 @@ void PictureWriter::write_now(const Job& job) {
     write_png(job.picture, folder_ / job.name);
   } catch (const std::exception& error) {
     faults_.raise(error.what());
+    if (failure_.empty()) failure_ = error.what();
   }
 }
 

@@ -24,6 +24,9 @@ class PictureWriter {
 
   /// `name`: of a file in the folder. Does not wait. Any thread.
   void write(Picture picture, const std::string& name);
+  /// Writes what waits; after the last write(). Why the first picture that failed did; empty when all are
+  /// there.
+  std::string finish();
 
  private:
   struct Job {
@@ -41,7 +44,8 @@ class PictureWriter {
   std::condition_variable changed_;
   std::deque<Job> jobs_;
   bool end_ = false;
-  std::thread thread_;  // last: it uses all of the above
+  std::string failure_;  // the thread's, until it is joined
+  std::thread thread_;   // last: it uses all of the above
 };
 
 }  // namespace omentum::render

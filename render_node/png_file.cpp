@@ -1,9 +1,11 @@
 #include "render_node/png_file.h"
 
+#include "files/whole_file.h"
+
 #include <png.h>
 
 #include <stdexcept>
-#include <system_error>
+#include <string>
 
 namespace omentum::render {
 
@@ -15,19 +17,16 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
   header.format = PNG_FORMAT_RGBA;
   header.flags = PNG_IMAGE_FLAG_FAST;  // a third of the time for a tenth more bytes
 
-  std::filesystem::path unfinished = file;
-  unfinished += ".part";
   const auto refuse = [&](const std::string& reason) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
     throw std::runtime_error(file.string() + ": cannot write the picture: " + reason);
   };
-  if (!png_image_write_to_file(&header, unfinished.c_str(), 0, picture.rgba.data(), 0, nullptr)) {
+  // in memory first: libpng gives no reason for what the disk refuses
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  std::string bytes(size, '\0');
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, picture.rgba.data(), 0, nullptr)) {
     refuse(header.message);
   }
-  std::error_code error;
-  std::filesystem::rename(unfinished, file, error);
-  if (error) refuse(error.message());
+  files::write_whole(file, {bytes.data(), size});
 }
 
 Picture read_png(const std::filesystem::path& file) {

@@ -81,6 +81,7 @@ void RenderLoop::run() {
     if (control_.due(time_s)) frame(false);
   }
   if (writer_) frame(true);
+  if (writer_) picture_failure_ = writer_->finish();
   writer_.reset();
 }
 
@@ -102,6 +103,11 @@ void RenderLoop::frame(bool last) {
   if (due.indent) take_close_up(*dent);
   draw(due.numbered);
   finish_frame(begin_ns, due.indent || !due.numbered.empty());
+}
+
+void RenderLoop::require_written() {
+  if (log_) log_->finish();
+  if (!picture_failure_.empty()) throw std::runtime_error(picture_failure_);
 }
 
 void RenderLoop::take_close_up(const Dent& deepest) {

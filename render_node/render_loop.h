@@ -41,6 +41,9 @@ class RenderLoop {
   /// After run(): the node's object of report.json (DESIGN 5), and `closed`: whether a person closed the
   /// window, and `deepest_dent_m` (dent.h).
   nlohmann::json report() const;
+  /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
+  /// lost, and why.
+  void require_written();
 
  private:
   struct Loaded {
@@ -75,6 +78,7 @@ class RenderLoop {
   PictureSchedule schedule_;
   std::unique_ptr<PictureWriter> writer_;
   std::unique_ptr<runtime::LoopLog> log_;
+  std::string picture_failure_;   // why the first of the pictures that were lost was
   runtime::TickAccount account_;  // frames, not the pace's ticks: a slow machine skips some of those
   bool closed_ = false;           // the window, by a person
   std::int64_t next_status_ns_ = 0;

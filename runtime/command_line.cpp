@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <system_error>
 
 namespace omentum::runtime {
 namespace {
@@ -97,6 +99,12 @@ int CommandLine::run(int argc, char** argv, const std::function<void()>& program
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app_->exit(e);
     return refuse(name, std::string(e.what()) + " (see " + name + " --help)");
+  } catch (const std::bad_alloc&) {
+    return refuse(name, "not enough memory (see ulimit -v, and the limit of a container)");
+  } catch (const std::system_error& e) {
+    const bool no_thread = e.code() == std::errc::resource_unavailable_try_again;
+    return refuse(
+        name, no_thread ? "not enough memory or processes for another thread (see ulimit -v, -u)" : e.what());
   } catch (const std::exception& e) {
     return refuse(name, e.what());
   }

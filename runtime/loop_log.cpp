@@ -3,10 +3,14 @@
 namespace omentum::runtime {
 
 LoopLog::LoopLog(const std::filesystem::path& file)
-    : SampleLog(file, "tick,start_ns,period_ns,compute_ns,cause",
-                [](std::ostream& out, std::uint64_t tick, const LoopSample& s) {
-                  out << tick << ',' << s.start_ns << ',' << s.period_ns << ',' << s.compute_ns << ','
-                      << s.cause << '\n';
-                }) {}
+    : samples_(file, kColumns, [](std::ostream& out, std::uint64_t tick, const LoopSample& sample) {
+        write_columns(out, tick, sample);
+        out << '\n';
+      }) {}
+
+void write_columns(std::ostream& out, std::uint64_t tick, const LoopSample& sample) {
+  out << tick << ',' << sample.start_ns << ',' << sample.period_ns << ',' << sample.compute_ns << ','
+      << sample.cause;
+}
 
 }  // namespace omentum::runtime

@@ -16,11 +16,30 @@ struct LoopSample {
   std::int32_t cause = 0;
 };
 
-/// Lines `tick,start_ns,period_ns,compute_ns,cause`. Give it to RateLoop::log_to.
-class LoopLog : public SampleLog<LoopSample> {
+/// What RateLoop tells of each of its ticks.
+class LoopObserver {
  public:
+  virtual ~LoopObserver() = default;
+  /// The loop's thread. Neither waits nor allocates.
+  virtual void push(const LoopSample& sample) noexcept = 0;
+};
+
+/// Lines `tick,start_ns,period_ns,compute_ns,cause`. Give it to RateLoop::log_to.
+class LoopLog : public LoopObserver {
+ public:
+  static constexpr const char* kColumns = "tick,start_ns,period_ns,compute_ns,cause";
+
   /// Throws std::runtime_error when `file` cannot be written.
   explicit LoopLog(const std::filesystem::path& file);
+  void push(const LoopSample& sample) noexcept override { samples_.push(sample); }
+  /// SampleLog::finish.
+  void finish() { samples_.finish(); }
+
+ private:
+  SampleLog<LoopSample> samples_;
 };
+
+/// The values of kColumns, without an end of line.
+void write_columns(std::ostream& out, std::uint64_t tick, const LoopSample& sample);
 
 }  // namespace omentum::runtime

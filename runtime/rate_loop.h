@@ -9,7 +9,7 @@
 
 namespace omentum::runtime {
 
-class LoopLog;
+class LoopObserver;
 
 /// Waits for the next tick. wake() (any thread, wait-free) ends the wait early: the arrival of a pose.
 /// Without wakes the tick comes at a fixed rate against absolute time (no drift). After a wake the fixed
@@ -27,7 +27,7 @@ class RateLoop {
   RateLoop& operator=(const RateLoop&) = delete;
 
   /// Every tick from now on goes to `log` as well, which must outlive the loop. Call before the first wait().
-  void log_to(LoopLog& log) { log_ = &log; }
+  void log_to(LoopObserver& log) { log_ = &log; }
 
   Cause wait() noexcept;        // also records the period
   void finish_tick() noexcept;  // records compute time and misses
@@ -45,7 +45,7 @@ class RateLoop {
   TickAccount account_;
   WakeGate gate_;
   Cause cause_ = Cause::kStopped;
-  LoopLog* log_ = nullptr;
+  LoopObserver* log_ = nullptr;
   std::atomic<std::uint32_t> wakes_{0};  // the futex word
   std::atomic<std::int64_t> last_wake_ns_{0};
   std::atomic<bool> stopped_{false};

@@ -1,12 +1,8 @@
 #include "runtime/report.h"
 
+#include "files/whole_file.h"
+
 #include <nlohmann/json.hpp>
-
-#include <fstream>
-#include <stdexcept>
-#include <system_error>
-
-#include <unistd.h>
 
 namespace omentum::runtime {
 
@@ -27,25 +23,7 @@ nlohmann::json to_json(const LoopRecord& record, double rate_hz) {
 }
 
 void write_report(const nlohmann::json& report, const std::filesystem::path& file) {
-  // the process id keeps two writers of one report from sharing a draft
-  std::filesystem::path draft = file;
-  draft += ".part" + std::to_string(getpid());
-  std::error_code error;
-  {
-    std::ofstream out(draft);
-    out << report.dump(2) << '\n';
-    out.close();
-    if (!out) {
-      std::filesystem::remove(draft, error);
-      throw std::runtime_error(file.string() + ": the report cannot be written there");
-    }
-  }
-  std::filesystem::rename(draft, file, error);
-  if (error) {
-    const std::string reason = error.message();
-    std::filesystem::remove(draft, error);
-    throw std::runtime_error(file.string() + ": the report cannot be written there (" + reason + ")");
-  }
+  files::write_whole(file, report.dump(2) + '\n');
 }
 
 }  // namespace omentum::runtime

@@ -13,8 +13,7 @@ namespace omentum::runtime {
 nlohmann::json to_json(const Percentiles& percentiles);
 /// {"rate_hz", "ticks", "missed", "period_us", "compute_us"}.
 nlohmann::json to_json(const LoopRecord& record, double rate_hz);
-/// Writes next to `file` and renames, so that a half-written report never looks finished. Throws
-/// std::runtime_error.
+/// Whole or not at all (write_whole). Throws std::runtime_error.
 void write_report(const nlohmann::json& report, const std::filesystem::path& file);
 
 }  // namespace omentum::runtime

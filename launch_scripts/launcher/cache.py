@@ -1,5 +1,6 @@
 """Precomputed files, kept by what they are made of."""
 import contextlib
+import errno
 import fcntl
 import hashlib
 import os
@@ -7,11 +8,13 @@ import pathlib
 import shutil
 import time
 
+from .errors import Refusal
 from .options import REPOSITORY
 
 PATIENCE_S = 2.0  # anything longer gets a line of progress
 POLL_S = 0.1
 KEPT_BYTES = 8 << 30  # of the most recently used; a liver of 26,000 nodes takes 3 GB
+NOT_OURS = (errno.EACCES, errno.EPERM, errno.EROFS)  # a cache of another user, or on a read-only disk
 IN_USE_S = 24 * 3600  # a session of today may start a node again, which needs its files
 
 
@@ -32,21 +35,35 @@ class Cache:
 
     def __init__(self):
         self.root = pathlib.Path(os.environ.get("OMENTUM_CACHE") or REPOSITORY / "build" / "cache").resolve()
-        self.root.mkdir(parents=True, exist_ok=True)
+        try:
+            self.root.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise self.refusal(error) from error
 
     def get(self, name, inputs, make):
         """The file `name` made of `inputs` (texts and files); make(path) writes it when it is not there.
 
         One launcher at a time makes files. The name belongs to the key: two organs of the same inputs are two files.
+        A cache that may only be read serves what it holds, without a lock. Raises Refusal when it does not hold it.
         """
         folder = self.root / digest(name, *inputs)
         file = folder / name
-        with self.locked(name):
-            if not file.exists():
-                self.make(folder, name, make)
-            os.utime(folder)
-            self.prune()
+        try:
+            with self.locked(name):
+                if not file.exists():
+                    self.make(folder, name, make)
+                with contextlib.suppress(PermissionError):  # another user's, who keeps it in use himself
+                    os.utime(folder)
+                self.prune()
+        except OSError as error:
+            if error.errno not in NOT_OURS:
+                raise
+            if not os.access(file, os.R_OK):
+                raise self.refusal(error) from error
         return file
+
+    def refusal(self, error):
+        return Refusal(f"the cache {self.root} cannot be written ({error.strerror}); OMENTUM_CACHE=FOLDER names another one")
 
     @staticmethod
     def make(folder, name, make):

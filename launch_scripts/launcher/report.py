@@ -4,6 +4,8 @@ import json
 import os
 import platform
 
+from .errors import Refusal
+
 PROTOCOL = 1  # idl/common.idl, PROTOCOL_VERSION
 NONE_US = {"p50": 0.0, "p99": 0.0, "p999": 0.0, "max": 0.0, "count": 0}
 NO_LOOP = {"rate_hz": 0.0, "ticks": 0, "missed": 0, "period_us": NONE_US, "compute_us": NONE_US}
@@ -15,6 +17,7 @@ FIELDS = {
     "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "closed": False, "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
+MEETING_S = 5.0  # two Fast participants may need 2.9 s to find each other, and haptic_node listens for one
 LEAST_STEAL = 0.001  # what is worth a line: a tick in a thousand
 LINKS = ("tool_to_force_us", "tool_to_organ_us", "tool_to_picture_us")
 
@@ -55,9 +58,30 @@ def merge(scene_name, seconds, machine, nodes, vendors):
 
 
 def write(report, file):
-    part = file.with_name(file.name + ".part")
-    part.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
-    part.replace(file)
+    """Whole or not at all; a link stays one. Raises Refusal."""
+    target = file.resolve()
+    if target.exists() and not target.is_file():
+        raise Refusal(f"{file}: cannot be written: it is no regular file")
+    part = target.with_name(target.name + ".part")
+    try:
+        part.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+        part.replace(target)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise Refusal(f"{file}: cannot be written: {error.strerror}") from error
+
+
+def seconds_of(node):
+    """For how long a node's loop ran."""
+    loop = node.get("loop", NO_LOOP)
+    return loop["ticks"] / loop["rate_hz"] if loop["rate_hz"] else 0.0
+
+
+def never_answered(report):
+    """Whether hand and haptic_node ran beside each other for MEETING_S or more, and no force ever came back."""
+    hand, haptic = report["nodes"].get("virtual_device"), report["nodes"].get("haptic_node")
+    return (hand is not None and haptic is not None and min(seconds_of(hand), seconds_of(haptic)) >= MEETING_S
+            and hand["sent"] > 0 and hand["round_trip_us"]["count"] == 0)
 
 
 def duration(us):
@@ -127,6 +151,9 @@ def summary(report):
         lines += [f"{name}: {fault}" for fault in node["faults"]]
         if node["exit"] is None:
             lines.append(f"{name} was not started: the session ended before")
+    if never_answered(report):
+        lines.append("no answer ever came to the hand: the processes did not hear each other (is the network interface lo "
+                     "up, and does nothing block UDP between them?)")
     if report["machine"]["steal_share"] >= LEAST_STEAL:
         lines.append(f"the hypervisor took {100 * report['machine']['steal_share']:.1f} % of the processors' time")
     if not report["machine"]["realtime"]:

@@ -97,7 +97,7 @@ class Session:
 
     # running
     def run(self):
-        """The exit code: 0; 1 when a node crashed; 2 when one refused to start, which then said why."""
+        """The exit code: 0; 1 when a node crashed or no answer ever came; 2 when one refused to start, which then said why."""
         self.announce()
         self.clear_out()
         begin, steal = time.monotonic(), StealWatch()
@@ -114,7 +114,7 @@ class Session:
         if code == processes.REFUSED:
             self.clear_out()  # a picture of a session that never was
         else:
-            self.finish(seconds, steal_share)
+            code = self.finish(seconds, steal_share)
         self.folder.cleanup()
         return code or (1 if any(node.failed() for node in self.nodes) else 0)
 
@@ -195,8 +195,10 @@ class Session:
 
     # the end
     def finish(self, seconds, steal_share):
+        """1 when hand and node never met, else 0."""
         machine = {"realtime": self.realtime, "steal_share": round(steal_share, 5)}
         merged = report.merge(self.name, seconds, machine, self.nodes, self.options.dds)
         report.write(merged, self.options.out / "report.json")
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)
+        return 1 if report.never_answered(merged) else 0

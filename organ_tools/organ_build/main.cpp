@@ -20,6 +20,10 @@ using namespace omentum;
 constexpr int kExitInterrupted = 130;  // what shells expect after Ctrl-C
 constexpr double kBytesPerMegabyte = 1e6;
 
+int default_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 void warn(const std::string& what) {
   std::cerr << "organ_build: warning: " << what << std::endl;
 }
@@ -54,6 +58,7 @@ void print_summary(const organ::Organ& organ, const organ::BuildResult& built,
 void build(const organ_tools::BuildCommand& command) {
   organ_tools::require_offered(command);
   organ_tools::require_own_output(command);
+  if (command.threads > default_threads()) organ_tools::require_blas_memory("organ_build", command.threads);
   if (const std::string warning = physics::blas_warning(); !warning.empty()) warn(warning);
   organ_tools::ProgressLine progress("organ_build");
   const organ::Organ organ = read_organ(command);
@@ -62,7 +67,7 @@ void build(const organ_tools::BuildCommand& command) {
 
   organ::BuildOptions options;
   options.force = command.force;
-  options.threads = command.threads > 0 ? command.threads : std::max(1u, std::thread::hardware_concurrency());
+  options.threads = command.threads > 0 ? command.threads : default_threads();
   options.on_progress = [&](const std::string& stage, double fraction) { progress(stage, fraction); };
   options.stopped = organ_tools::interrupted;
   print_summary(organ, organ::build_organ(organ, command.output, options), command.output);
@@ -72,6 +77,7 @@ void build(const organ_tools::BuildCommand& command) {
 
 int main(int argc, char** argv) {
   organ_tools::start_with_fast_blas(argv);
+  organ_tools::require_blas_memory("organ_build", default_threads());
   organ_tools::watch_for_interruption();
   runtime::CommandLine line("organ_build",
                             "Computes the force tensors of an organ from its mesh, material and supports.");

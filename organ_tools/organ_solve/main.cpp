@@ -88,6 +88,7 @@ void solve(const SolveCommand& command) {
 
 int main(int argc, char** argv) {
   organ_tools::start_with_fast_blas(argv);
+  organ_tools::require_blas_memory("organ_solve", 1);
   runtime::CommandLine line("organ_solve", "Solves an organ for imposed displacements and gravity.");
   SolveCommand command;
   add_options(line, command);

@@ -1,9 +1,9 @@
 // organ_phantom: makes the project's own liver, as a tetrahedral mesh and as a labelled volume.
+#include "files/whole_file.h"
 #include "organ_tools/phantom/label_volume.h"
 #include "organ_tools/phantom/tetrahedralize.h"
 #include "runtime/command_line.h"
 
-#include <unistd.h>
 #include <cstdio>
 
 namespace {
@@ -12,19 +12,11 @@ using namespace omentum;
 
 constexpr double kVoxelSpacing = 1.5e-3;  // m: that of a good abdominal scan
 
-// Writes beside the file and renames: whoever finds the file finds all of it.
 template <class Write>
 void write_whole(const std::filesystem::path& file, Write&& write) {
-  std::filesystem::path unfinished = file;
-  unfinished += ".unfinished" + std::to_string(::getpid());
-  try {
-    write(unfinished);
-    std::filesystem::rename(unfinished, file);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw;
-  }
+  files::WholeFile whole(file);
+  write(whole.draft());
+  whole.move_to_its_place();
 }
 
 }  // namespace

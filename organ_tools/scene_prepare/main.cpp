@@ -1,4 +1,5 @@
 // scene_prepare: fits a scene to an organ file. The launcher also asks it what a scene or a mesh holds.
+#include "files/whole_file.h"
 #include "organ/plausibility.h"
 #include "organ_tools/scene_prepare/scene_fit.h"
 #include "organ_tools/scene_prepare/scene_text.h"
@@ -8,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <iostream>
 
 namespace {
@@ -31,16 +31,6 @@ nlohmann::json measure(const std::filesystem::path& file) {
   return {{"min", corner(box.min())}, {"max", corner(box.max())}, {"tetrahedra", raw.tetrahedra.size()}};
 }
 
-/// Next to `file`, then renamed: a half-written scene never looks finished.
-void write_whole(const std::string& text, const std::filesystem::path& file) {
-  const std::filesystem::path part = file.string() + ".part";
-  std::ofstream out(part);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-  std::filesystem::rename(part, file);
-}
-
 void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const runtime::Scene& scene) {
   for (const auto& sentences :
        {organ::implausible(organ.mesh, organ.material), scene_prepare::smaller_than_tips(organ, scene)}) {
@@ -61,7 +51,7 @@ void prepare(const Options& options) {
     scene_prepare::name_after(organ.name, scene);
     for (const std::string& note : scene_prepare::place_hands(skin, scene)) std::cout << note << '\n';
   }
-  write_whole(scene_prepare::resolved_toml(scene), options.output);
+  files::write_whole(options.output, scene_prepare::resolved_toml(scene));
 }
 
 void run(const Options& options) {

@@ -41,6 +41,7 @@ TEST_F(VirtualDevice, BadInputIsOneLineAndExitCodeTwo) {
   expect_refused({"--scene", "/nonexistent.toml"}, "/nonexistent.toml");
   expect_refused({"--scene", kScene, "--dds", "zenoh"}, "zenoh");
   expect_refused({"--scene", kScene, "--rate-hz", "0"}, "--rate-hz");
+  expect_refused({"--scene", kScene, "--rate-hz", "39"}, "40");
   expect_refused({"--scene", kScene, "--seconds", "-1"}, "--seconds");
   expect_refused({"--scene", kScene, "--trace", "/nonexistent.csv"}, "/nonexistent.csv");
   expect_refused({"--scene", kScene, "--record", "/nonexistent/x.csv"}, "/nonexistent/x.csv");

@@ -434,5 +434,22 @@ TEST(HandInTheLoop, ForceIsContinuousOverEdges) {
   EXPECT_LE(run_hand(1000, 0).largest_step_n, 0.05);
 }
 
+TEST(ToolLine, ADeviceTooSlowForAForceIsAFaultNamedOnce) {
+  for (const int interval_ms : {25, 26, 30, 50, 100}) {
+    SCOPED_TRACE(interval_ms);
+    LineBench bench;
+    for (int i = 0; i < 20; ++i) bench.press_slowly({0.05, 0.05, 0.032}, interval_ms);
+    const std::vector<runtime::Fault> faults = bench.faults().list();
+    EXPECT_EQ(faults.size(), interval_ms <= 26 ? 0u : 1u);
+    if (!faults.empty()) EXPECT_NE(faults[0].text.find("tool 0: poses come less than 40"), std::string::npos);
+  }
+}
+
+TEST(ToolLine, PausesOfAFastDeviceAreNoSlowDevice) {
+  LineBench bench;
+  for (int i = 0; i < 60; ++i) bench.press_slowly({0.05, 0.05, 0.045}, i % 3 == 0 ? 60 : 1);
+  EXPECT_FALSE(bench.faults().any());
+}
+
 }  // namespace
 }  // namespace omentum::haptic_test

@@ -1,5 +1,7 @@
 #include "tests/organ/organ_programs.h"
 
+#include <sys/stat.h>
+
 namespace omentum::organ {
 namespace {
 
@@ -258,6 +260,52 @@ INSTANTIATE_TEST_SUITE_P(Meshes, RealOrganTest,
                                                           "tet/sofamcp_prostate.vtk",
                                                           "tet/sofaenv_gallbladder.vtk"),
                                           testing::Values("float", "double")));
+
+TEST_F(OrganProgramsTest, WhatIsNoRegularFileIsNeverReplaced) {
+  expect_refused("organ_build", with("-o", "/dev/null"), "a device");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  expect_refused("organ_build", with("-o", (folder / "pipe").string()), "a pipe");
+}
+
+TEST_F(OrganProgramsTest, ALinkedOrganIsBuiltWhereTheLinkLeads) {
+  std::filesystem::create_directory(folder / "far");
+  std::filesystem::create_symlink(folder / "far" / "organ.h5", organ);
+  build();
+  EXPECT_TRUE(std::filesystem::is_symlink(organ));
+  EXPECT_NO_THROW(load_organ(folder / "far" / "organ.h5", Load::kWithTensors));
+}
+
+// OpenBLAS asks for its buffers again without end where the system gives none.
+TEST_F(OrganProgramsTest, AnAddressSpaceLimitEndsInALineOrAnOrgan) {
+  constexpr int kKilled = 137;  // by timeout: it hung
+  for (const int megabytes : {100, 200, 300, 400, 500, 600, 700, 800, 1000, 1500, 2000, 3000}) {
+    SCOPED_TRACE(megabytes);
+    std::string command = "ulimit -v " + std::to_string(1024 * megabytes) + "; exec timeout -s KILL 30 " +
+                          OMENTUM_BIN_DIR "/organ_build";
+    for (const std::string& argument : build_arguments(mesh)) command += " '" + argument + "'";
+    Process limited("/bin/sh", {"-c", command + " --force"});
+    const int code = limited.wait();
+    EXPECT_NE(code, kKilled);
+    EXPECT_FALSE(std::filesystem::exists(partial));
+    if (code != 0) {
+      EXPECT_EQ(code, kBadInput);
+      EXPECT_THAT(limited.messages(), HasSubstr("emory"));
+    }
+  }
+}
+
+TEST_F(OrganProgramsTest, ASecondSignalAlwaysEndsIt) {
+  Process program("organ_build", build_arguments(large_mesh));
+  ASSERT_TRUE(test::comes_true([&] { return std::filesystem::exists(partial); }));
+  program.send(SIGSTOP);  // both wait for it before it can look at either
+  program.send(SIGINT);
+  program.send(SIGTERM);
+  program.send(SIGCONT);
+  const int code = program.wait();
+  EXPECT_TRUE(code == -SIGINT || code == -SIGTERM) << code;
+  EXPECT_FALSE(std::filesystem::exists(organ));
+}
 
 }  // namespace
 }  // namespace omentum::organ

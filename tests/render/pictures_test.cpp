@@ -135,6 +135,7 @@ TEST(PictureWriter, FailureIsAFaultNotAnEnd) {
     PictureWriter writer(folder.path(), faults);
     writer.write(chequered({8, 8}), "no_such_folder/a.png");
     writer.write(chequered({8, 8}), "b.png");
+    EXPECT_NE(writer.finish().find("no_such_folder/a.png"), std::string::npos);
   }
   EXPECT_TRUE(faults.any());
   EXPECT_TRUE(std::filesystem::exists(folder / "b.png"));

@@ -37,5 +37,17 @@ TEST(LoopLog, AFileThatCannotBeWrittenIsNamed) {
   }
 }
 
+TEST(LoopLog, LinesThatAFullDiskDidNotTakeAreTold) {
+  LoopLog log("/dev/full");
+  for (int i = 0; i < 5000; ++i) log.push({i * 1000, 1000, 7, 0});
+  try {
+    log.finish();
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("/dev/full: not all lines could be written: No space left"),
+              std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace omentum::runtime

@@ -9,12 +9,13 @@ import sys
 
 # what each room may use beside itself
 FLOORS = {
+    "files": set(),
     "geometry": set(),
     "physics": {"geometry"},
-    "organ": {"geometry", "physics"},
+    "organ": {"files", "geometry", "physics"},
     "idl": set(),
     "transport": {"idl"},
-    "runtime": set(),
+    "runtime": {"files"},
     "node": {"idl", "transport", "runtime"},
 }
 STANDING_ON = set(FLOORS)

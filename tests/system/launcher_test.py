@@ -4,9 +4,11 @@
 Environment: OMENTUM_BIN and OMENTUM_CACHE, as for launch_scripts/run. A single test: launcher_test.py Class.test
 """
 import contextlib
+import csv
 import fcntl
 import io
 import json
+import math
 import os
 import pathlib
 import pty
@@ -23,6 +25,7 @@ from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
+from launcher.errors import Refusal  # noqa: E402
 from launcher import cache, domain, machine, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
@@ -205,6 +208,30 @@ class Devices(LauncherTest):
         self.assertEqual(nodes["haptic_node"]["force_n"]["max"], 0)
 
 
+class Strangers(LauncherTest):
+    def test_where_nobody_hears_anybody_the_session_says_so_and_fails(self):
+        """A network namespace of its own, whose lo is down; Cyclone refuses to start there, Fast DDS does not."""
+        if subprocess.run(["unshare", "-n", "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("no network namespaces here")
+        done = subprocess.run(["unshare", "-n", RUN, HOLD, "--headless", "--dds", "fast", "--seconds", "12", "--out", self.out],
+                              cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("no answer ever came", done.stdout)
+
+    def test_pictures_that_a_full_disk_did_not_take_are_told_and_leave_nothing(self):
+        """A small file system in a mount namespace of its own."""
+        self.out.mkdir()
+        script = f"mount -t tmpfs -o size=200k none {self.out} && {RUN} {HOLD} --headless --seconds 5 --out {self.out}; " \
+                 f"echo code $?; ls {self.out}"
+        if subprocess.run(["unshare", "-m", "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("no mount namespaces here")
+        done = subprocess.run(["unshare", "-m", "sh", "-c", script], cwd=self.folder, capture_output=True, text=True,
+                              timeout=PATIENCE_S, check=False)
+        self.assertIn("code 1", done.stdout, done.stderr)
+        self.assertIn("No space left on device", done.stdout)
+        self.assertNotIn(".part", done.stdout.rpartition("code")[2])
+
+
 class RealOrgan(LauncherTest):
     def test_default_scene_on_a_real_liver(self):
         if not REAL_LIVER.is_file():
@@ -224,7 +251,11 @@ class PaperSplit(LauncherTest):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("split as in the paper", done.stdout)
         self.assertEqual(self.report()["nodes"]["haptic_node"]["loop"]["rate_hz"], 300)
-        self.assertTrue((self.out / "haptic_node.csv").is_file())
+        with open(self.out / "haptic_node.csv", encoding="utf-8") as log:
+            ticks = [line for line in csv.DictReader(log) if not line["tick"].startswith("#")]
+        felt = max(math.dist((0, 0, 0), [float(tick[f"tool0_f{axis}_n"]) for axis in "xyz"]) for tick in ticks)
+        self.assertAlmostEqual(felt, self.report()["nodes"]["haptic_node"]["force_n"]["max"], delta=1e-3)
+        self.assertTrue(any(int(tick["tool0_seq"]) > 0 and float(tick["tool0_qw"]) != 0 for tick in ticks))
 
 
 class Endings(LauncherTest):
@@ -531,6 +562,80 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertEqual(watch.share(), 0.1)
         stat.write_text("cpu  1000 0 60 8050\n")  # a kernel that does not count it
         self.assertEqual(machine.processor_times(stat.read_text())[0], 0)
+
+    def read_only_cache(self, said):
+        """What another user's session finds: the outcome of get() for a file that is there and for one that is not."""
+        if os.geteuid() != 0:
+            self.skipTest("another user's folders need root to make")
+        store = cache.Cache()
+        store.get("a.h5", [], lambda file: file.write_text("a"))
+        self.folder.chmod(0o755)
+        child = os.fork()
+        if child == 0:
+            code = 1
+            try:
+                os.setgid(65534)
+                os.setuid(65534)
+                held = cache.Cache().get("a.h5", [], None)
+                try:
+                    cache.Cache().get("b.h5", [], None)
+                except Refusal as refusal:
+                    said.write(f"{held}\n{refusal}")
+                    said.flush()
+                    code = 0
+            finally:
+                os._exit(code)
+        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+    def test_a_cache_of_another_user_serves_what_it_holds_and_names_the_way_out(self):
+        with open(self.folder / "said", "w+", encoding="utf-8") as said:
+            self.assertEqual(self.read_only_cache(said), 0)
+            said.seek(0)
+            held, refusal = said.read().splitlines()
+        self.assertTrue(held.endswith("a.h5"), held)
+        self.assertIn("OMENTUM_CACHE", refusal)
+        self.assertIn(str(self.folder / "cache"), refusal)
+
+    def test_a_checkout_of_another_user_names_the_way_out(self):
+        if os.geteuid() != 0 or not shutil.which("setpriv"):
+            self.skipTest("another user needs root and setpriv")
+        checkout = self.folder / "checkout"
+        shutil.copytree(REPOSITORY / "launch_scripts", checkout / "launch_scripts")
+        self.folder.chmod(0o755)
+        done = subprocess.run(["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "bash", "-c",
+                               "source launch_scripts/build.sh; build_preset release"], cwd=checkout, capture_output=True,
+                              text=True, timeout=PATIENCE_S, check=False)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("OMENTUM_BIN", done.stderr)
+        self.assertIn("OMENTUM_CACHE", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_a_report_replaces_files_only_and_says_why_it_cannot(self):
+        target = self.folder / "far.json"
+        link = self.folder / "report.json"
+        link.symlink_to(target)
+        report.write({"a": 1}, link)
+        self.assertTrue(link.is_symlink())
+        self.assertEqual(json.loads(target.read_text()), {"a": 1})
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        for place in (pipe, pathlib.Path("/dev/null"), self.folder / "absent" / "report.json"):
+            with self.assertRaises(Refusal) as refused:
+                report.write({}, place)
+            self.assertIn(str(place), str(refused.exception))
+        self.assertTrue(pipe.is_fifo())
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["far.json", "pipe", "report.json"])
+
+    def test_a_session_in_which_no_answer_came_is_told_from_one_that_was_short(self):
+        def met(seconds, answers):
+            loop = {**report.NO_LOOP, "rate_hz": 1000.0, "ticks": int(1000 * seconds)}
+            hand = {"loop": loop, "sent": loop["ticks"], "round_trip_us": {**report.NONE_US, "count": answers}}
+            return not report.never_answered({"nodes": {"haptic_node": {"loop": loop}, "virtual_device": hand}})
+
+        self.assertFalse(met(8, 0))
+        self.assertTrue(met(8, 1))
+        self.assertTrue(met(2, 0))
+        self.assertFalse(report.never_answered({"nodes": {"haptic_node": {}}}))
 
     def test_table_shows_the_devices_round_trip_and_losses(self):
         times = {**report.NONE_US, "p50": 180.0, "p99": 2500.0, "max": 9000.0, "count": 7}
