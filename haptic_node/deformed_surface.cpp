@@ -107,26 +107,43 @@ void DeformedSurface::restore_rest() noexcept {
   for (std::int32_t c = 0; c < clusters_; ++c) enclose(c);
 }
 
-void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
+DeformedSurface::ForceChange DeformedSurface::change_to(std::span<const SurfaceId> nodes,
+                                                        std::span<const Vec3> forces) const noexcept {
   assert(nodes.size() == forces.size() && nodes.size() <= kMaxForces);
-  std::array<const float*, 2 * kMaxForces> rows;
-  std::array<float, 2 * kMaxForces> changes;
-  int count = 0;
-  const auto add_change = [&](SurfaceId node, const Vec3& change) {
-    if (change.isZero(0)) return;
-    rows[count] = compliance_.bounds(node).data();
+  ForceChange change;
+  const auto add = [&](SurfaceId node, const Vec3& difference) {
+    if (difference.isZero(0)) return;
+    change.nodes[change.count] = node;
     // float rounding of the sums must not lose any of it
-    changes[count++] = static_cast<float>(change.norm() * 1.00001);
+    change.sizes_n[change.count++] = static_cast<float>(difference.norm() * 1.00001);
   };
+  std::array<bool, kMaxForces> goes_on{};
   for (std::size_t q = 0; q < nodes.size(); ++q) {
     const std::int16_t old = index_of_[nodes[q]];
-    add_change(nodes[q], old < 0 ? forces[q] : Vec3(forces[q] - forces_[old]));
-    index_of_[nodes[q]] = -1;
+    if (old >= 0) goes_on[old] = true;
+    add(nodes[q], old < 0 ? forces[q] : Vec3(forces[q] - forces_[old]));
   }
   for (std::size_t q = 0; q < nodes_.size(); ++q) {
-    if (index_of_[nodes_[q]] >= 0) add_change(nodes_[q], forces_[q]);
-    index_of_[nodes_[q]] = -1;
+    if (!goes_on[q]) add(nodes_[q], forces_[q]);
   }
+  return change;
+}
+
+double DeformedSurface::motion_bound(const SurfacePoint& point, const ForceChange& change) const noexcept {
+  const geometry::Triangle& t = surface_.triangles[point.triangle];
+  const auto mobile = std::ranges::find_if(t, [&](SurfaceId n) { return n < surface_.mobile_count; });
+  if (mobile == t.end()) return 0;
+  double sum = 0;
+  for (int i = 0; i < change.count; ++i)
+    sum += change.sizes_n[i] * compliance_.bounds(change.nodes[i])[*mobile / kClusterSize];
+  return sum;
+}
+
+void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
+  const ForceChange change = change_to(nodes, forces);
+  std::array<const float*, 2 * kMaxForces> rows;
+  for (int i = 0; i < change.count; ++i) rows[i] = compliance_.bounds(change.nodes[i]).data();
+  for (const SurfaceId node : nodes_) index_of_[node] = -1;
   nodes_.assign(nodes.begin(), nodes.end());
   forces_.assign(forces.begin(), forces.end());
   for (std::size_t q = 0; q < nodes_.size(); ++q) index_of_[nodes_[q]] = static_cast<std::int16_t>(q);
@@ -134,9 +151,9 @@ void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<con
   known_motion_ = entered_motion_ = 0;
   refreshed_ = 0;
   unbinned_.clear();
-  kernels::weighted_sum(rows.data(), changes.data(), count, clusters_, step_.data());
+  kernels::weighted_sum(rows.data(), change.sizes_n.data(), change.count, clusters_, step_.data());
   motion_ = step_;
-  if (count == 0) return;
+  if (change.count == 0) return;
   kernels::add_to_both(step_.data(), clusters_, moved_.data(), moved_since_binning_.data());
   ++version_;
 }

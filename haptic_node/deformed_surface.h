@@ -58,6 +58,17 @@ class DeformedSurface {
   /// The forces from now on: `nodes` mobile and distinct, at most kMaxForces, `forces` in N. Once per tick.
   void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
 
+  /// What other forces would change: nodes, and by how much each one's force, N.
+  struct ForceChange {
+    std::array<SurfaceId, 2 * kMaxForces> nodes;
+    std::array<float, 2 * kMaxForces> sizes_n;
+    int count = 0;
+  };
+  /// From the forces that are set to these; arguments as for set_forces.
+  ForceChange change_to(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) const noexcept;
+  /// How far at most the triangle of a material point goes by a change, m.
+  double motion_bound(const SurfacePoint& point, const ForceChange& change) const noexcept;
+
   /// Makes exact every cluster of which a triangle may be within kReach_m of the region.
   void evaluate(const Region& region) noexcept;
 

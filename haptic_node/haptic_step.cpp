@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_step.h"
 
+#include "haptic_node/contact_list.h"
 #include "haptic_node/contact_work.h"
 #include "haptic_node/lost_contact.h"
 
@@ -13,12 +14,15 @@ namespace {
 using Gaps = std::array<Vec3, physics::kMaxContacts>;
 using Forces = std::array<Vec3, physics::kMaxContacts>;
 
+// Of positions in float, m.
+constexpr double kRounding_m = 2e-6;
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-void pose_problem(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
+// Of the first contacts, so many.
+void pose_problem(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state, int count,
                   HapticWorkspace& work) {
-  const std::span<const ToolContact> contacts = state.active();
-  work.problem.count = static_cast<int>(contacts.size());
+  const std::span<const ToolContact> contacts = state.active().first(static_cast<std::size_t>(count));
+  work.problem.count = count;
   work.problem.friction = model.friction;
   for (int i = 0; i < work.problem.count; ++i) {
     const ToolContact& contact = contacts[i];
@@ -61,10 +65,12 @@ void share_force(const HapticModel& model, HapticState& state, const ToolContact
   }
 }
 
-void solve_points(const HapticModel& model, HapticState& state, HapticWorkspace& work, StepResult& result,
-                  Gaps& gaps) {
+void solve_points(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state, int count,
+                  HapticWorkspace& work, StepResult& result, Gaps& gaps) {
+  pose_problem(model, inputs, state, count, work);
+  state.node_force_count = 0;
   Forces forces;
-  const std::span<ToolContact> contacts = state.active();
+  const std::span<ToolContact> contacts = state.active().first(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < contacts.size(); ++i) forces[i] = contacts[i].force;
   const physics::ContactSolution solution = physics::solve_contacts(work.problem, forces, work.solver);
   result.status = solution.status;
@@ -76,6 +82,56 @@ void solve_points(const HapticModel& model, HapticState& state, HapticWorkspace&
     const Vec3 slip = gaps[i] - gaps[i].dot(contact.normal) * contact.normal;
     contact.sliding = slip.norm() > physics::kGapTolerance_m;
     if (contact.touches()) share_force(model, state, contact);
+  }
+}
+
+// All tools' forces on a node together.
+struct MergedForces {
+  std::array<SurfaceId, DeformedSurface::kMaxForces> nodes;
+  std::array<Vec3, DeformedSurface::kMaxForces> forces;
+  std::size_t count = 0;
+
+  explicit MergedForces(const HapticState& state) {
+    for (const NodeForce& entry : state.forces()) {
+      const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(count);
+      const auto at = static_cast<std::size_t>(std::find(nodes.begin(), end, entry.node) - nodes.begin());
+      if (at < count) {
+        forces[at] += entry.force;
+      } else {
+        nodes[count] = entry.node;
+        forces[count++] = entry.force;
+      }
+    }
+  }
+  std::span<const SurfaceId> at() const { return {nodes.data(), count}; }
+  std::span<const Vec3> all() const { return {forces.data(), count}; }
+};
+
+// Whether one of the open contacts behind the first `count` may touch under the forces that were solved for.
+bool may_close(const HapticState& state, int count, DeformedSurface& surface) {
+  const MergedForces merged(state);
+  const DeformedSurface::ForceChange change = surface.change_to(merged.at(), merged.all());
+  return std::ranges::any_of(
+      state.active().subspan(static_cast<std::size_t>(count)), [&](const auto& contact) {
+        return -depth_of(state, contact, surface) <= surface.motion_bound(contact.held, change) + kRounding_m;
+      });
+}
+
+// Solved without the contacts that stay open, which costs a fraction; with them where one may not.
+void solve_near_points(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
+                       int count, std::span<const Vec3> before, HapticWorkspace& work, StepResult& result,
+                       Gaps& gaps) {
+  solve_points(model, inputs, state, count, work, result, gaps);
+  if (count == state.contact_count) return;
+  if (may_close(state, count, work.surface)) {
+    for (int i = 0; i < count; ++i) state.contacts[i].force = before[i];
+    solve_points(model, inputs, state, state.contact_count, work, result, gaps);
+    return;
+  }
+  for (int i = count; i < state.contact_count; ++i) {
+    ToolContact& contact = state.contacts[i];
+    gaps[i] = -depth_of(state, contact, work.surface) * contact.normal;
+    contact.sliding = false;
   }
 }
 
@@ -174,23 +230,11 @@ bool anyone_let_go(const HapticState& state) {
   return std::ranges::any_of(state.tools, [](const ToolState& tool) { return tool.let_go; });
 }
 
-// The surface of the next tick: all tools' forces together.
+// The surface of the next tick.
 int hand_over_forces(const HapticState& state, DeformedSurface& surface) {
-  std::array<SurfaceId, DeformedSurface::kMaxForces> nodes;
-  std::array<Vec3, DeformedSurface::kMaxForces> forces;
-  int count = 0;
-  for (const NodeForce& entry : state.forces()) {
-    const auto at = std::find(nodes.begin(), nodes.begin() + count, entry.node) - nodes.begin();
-    if (at < count) {
-      forces[at] += entry.force;
-    } else {
-      nodes[count] = entry.node;
-      forces[count++] = entry.force;
-    }
-  }
-  const auto size = static_cast<std::size_t>(count);
-  surface.set_forces({nodes.data(), size}, {forces.data(), size});
-  return count;
+  const MergedForces merged(state);
+  surface.set_forces(merged.at(), merged.all());
+  return static_cast<int>(merged.count);
 }
 
 }  // namespace
@@ -210,14 +254,13 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   result.neighbourhood = work.surface.evaluated_nodes();
 
   state.node_force_count = 0;
-  const auto count = static_cast<std::size_t>(state.contact_count);
-  for (std::size_t i = 0; i < count; ++i) {
+  const int near = set_open_aside(state, work.surface);
+  for (int i = 0; i < state.contact_count; ++i) {
     before[i] = state.contacts[i].force;
     free_gaps[i] = free_gap(state, state.contacts[i], work.surface);
   }
   if (model.mode == ContactMode::kPoint) {
-    pose_problem(model, inputs, state, work);
-    solve_points(model, state, work, result, gaps);
+    solve_near_points(model, inputs, state, near, before, work, result, gaps);
   } else {
     solve_spread_contacts(model, state, work, gaps);
   }

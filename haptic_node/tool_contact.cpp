@@ -24,6 +24,11 @@ constexpr double kGraspGap_m = 1e-4;
 constexpr double kNear_m = 1e-3;
 constexpr double kReleaseGap_m = 1.5e-3;
 
+// An open contact is solved for when its gap is below so many of the tools' longest way in this tick, and
+// this, m: tissue goes hardly farther than what presses it.
+constexpr double kClosingWays = 3;
+constexpr double kRestless_m = 5e-5;
+
 // How far a point without room is looked around, m: this many times the room it had, and at least kNear_m. A
 // point that has 1 mm of room needs no look for the next 40 ticks at 25 mm/s.
 constexpr double kArmGrowth = 4;
@@ -201,6 +206,26 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
       }
     }
   }
+}
+
+int set_open_aside(HapticState& state, DeformedSurface& surface) noexcept {
+  double way_m = 0;
+  for (const ToolState& tool : state.tools) {
+    if (!tool.engaged) continue;
+    for (std::size_t p = 0; p < tool.now.size(); ++p)
+      way_m = std::max(way_m, (tool.now[p] - tool.before[p]).norm());
+  }
+  const double open_m = kClosingWays * way_m + kRestless_m;
+  const auto begin = state.contacts.begin();
+  int count = 0;
+  for (int i = 0; i < state.contact_count; ++i) {
+    const ToolContact& contact = state.contacts[i];
+    const bool holds = contact.touches() || contact.grasped || contact.sunken_m > 0;
+    if (!holds && depth_of(state, contact, surface) < -open_m) continue;
+    if (i > count) std::rotate(begin + count, begin + i, begin + i + 1);
+    ++count;
+  }
+  return count;
 }
 
 void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept {

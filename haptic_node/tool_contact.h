@@ -41,6 +41,10 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
 /// that the next tick may press them: who is in the problem before it touches begins at zero.
 void find_contacts(HapticState& state, DeformedSurface& surface) noexcept;
 
+/// Moves contacts that are open by more than what the tools' ways can close in this tick, as far as one can
+/// tell, behind the others. Returns how many others there are; they keep their order.
+int set_open_aside(HapticState& state, DeformedSurface& surface) noexcept;
+
 /// Lets go of contacts without force that are open by more than a hair.
 void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept;
 

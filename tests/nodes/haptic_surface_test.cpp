@@ -4,6 +4,7 @@
 #include "haptic_fixtures.h"
 
 #include <random>
+#include <set>
 
 namespace omentum::haptic_test {
 namespace {
@@ -55,6 +56,27 @@ TEST(DeformedSurface, EqualsTheSuperposedForcesWhereItIsAsked) {
     for (std::int32_t n = 0; n < block().surface.node_count(); n += 7) {
       EXPECT_LE((surface.position(SurfaceId(n)) - expected[n]).norm(), kPositionTolerance_m);
     }
+  }
+}
+
+// Forces that come, go and change: no corner of a triangle goes farther than its bound.
+TEST(DeformedSurface, NothingGoesFartherThanTheBoundOfAChange) {
+  std::mt19937 random(2);
+  DeformedSurface surface(block().surface, block().rest, block().compliance);
+  RandomForces before(block(), 6, 0.5, random);
+  for (int trial = 0; trial < 20; ++trial) {
+    RandomForces after(block(), 6, 0.5, random);
+    for (int same = 0; same < 3; ++same) after.nodes[same] = before.nodes[same];
+    if (std::set(after.nodes.begin(), after.nodes.end()).size() < after.nodes.size()) continue;
+    surface.set_forces(before.nodes, before.forces);
+    const DeformedSurface::ForceChange change = surface.change_to(after.nodes, after.forces);
+    const std::vector<Vec3> x = before.positions(block()), y = after.positions(block());
+    for (std::size_t t = 0; t < block().surface.triangles.size(); ++t) {
+      const double bound = surface.motion_bound({TriangleId(t), Vec3(1, 0, 0)}, change);
+      for (const SurfaceId n : block().surface.triangles[t])
+        EXPECT_LE((y[n] - x[n]).norm(), bound + kPositionTolerance_m);
+    }
+    before = after;
   }
 }
 
