@@ -38,12 +38,13 @@ inline constexpr double kMaxShare = 2;
 /// ticks are. It forgives less than a hundredth of the energy of 1 mm.
 inline constexpr double kShallow_m = 8e-5;
 
-/// By how much the dent of what a hand feels may be deeper than the tool is in it, m: energy beyond is let go
-/// of.
+/// How far a tool may be from the surface that it presses, m: the dent is the share times as deep as the tool
+/// is in it. Above it: energy beyond is let go of. Below it: from there on the tissue follows (borne_share).
 inline constexpr double kMostApart_m = 4e-3;
 
-/// How far the tissue that is told of may be from the tool that presses it, m (see borne_share).
-inline constexpr double kTissueApart_m = 2e-3;
+/// How far the side force may push a dent of centimetres aside, m, as if the tissue gave way sideways as
+/// inwards (it does so up to four times).
+inline constexpr double kMostAside_m = 1e-3;
 
 /// Over which way along the surface the share returns to one, m: the side force that does it stays below a
 /// tenth of the push in a dent of 6 mm, and what a press felt like elsewhere is forgotten three fingers away.
@@ -77,22 +78,18 @@ inline constexpr double kNoEnergy_j = 1e-12;
 /// it held is lost, and what the others then hold is no more than was put in. No allocation. Any thread.
 void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept;
 
-/// The part of a dent by which the tissue may be from its tool: all of it, but in deep presses.
-inline double apart(const ContactEnergy& tool) noexcept {
-  return kTissueApart_m / std::max(tool.depth_m, kTissueApart_m);
-}
-
 /// The share of the model's force that the tissue bears: the hand's, but in presses of centimetres never so
-/// much less or more than one that the tool would be deep in tissue, through a thin lobe that it bends away,
-/// or far before it.
+/// much less than one that the tool would be kMostApart_m deep in tissue, or through a thin lobe that it
+/// bends away.
 inline double borne_share(const ContactEnergy& tool) noexcept {
-  return std::clamp(tool.share, 1 - apart(tool), 1 + apart(tool));
+  return std::max(tool.share, 1 - kMostApart_m / std::max(tool.depth_m, kMostApart_m));
 }
 
-/// The side force that the tissue bears, N: the hand's, but for a push in a dent of centimetres only so much
-/// that the tissue, which gives way sideways more than inwards, goes no farther.
+/// The side force that the tissue bears under a push, N: the hand's, but in presses of centimetres only so
+/// much that the tissue stays with its tool.
 inline Vec3 borne_side(const ContactEnergy& tool, double push_n) noexcept {
-  const double most_n = 0.5 * apart(tool) * push_n, side_n = tool.side.norm();
+  const double most_n = push_n * kMostAside_m / std::max(tool.depth_m, kMostAside_m);
+  const double side_n = tool.side.norm();
   return side_n > most_n ? Vec3(most_n / side_n * tool.side) : tool.side;
 }
 
