@@ -109,10 +109,19 @@ std::string words(const std::vector<std::uint64_t>& shape) {
   return text;
 }
 
+// The system's, which HDF5 passes on in errno.
+std::string reason() {
+  return errno != 0 ? std::string(": ") + std::strerror(errno) : std::string(" (disk full?)");
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode) : path_(file) {
+  // HDF5 would clean up at exit, and crash where a full disk left a file half closed
+  static const bool left_alone = H5dont_atexit() >= 0;
+  static_cast<void>(left_alone);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  errno = 0;
   // what describes the data has checksums from this version of the format on: damage there is refused by
   // HDF5, whose older parts crash on it
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -147,7 +156,7 @@ void Hdf5File::fail(const std::string& what) const {
 }
 
 void Hdf5File::flush() {
-  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot be written (disk full?)");
+  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot be written" + reason());
 }
 
 template <class T>
@@ -156,7 +165,7 @@ void Hdf5File::write(const std::string& dataset, std::span<const T> values,
   const Handle data(create_dataset(file_, dataset, type_of<T>(), shape), H5Dclose);
   if (!data.ok() ||
       (!values.empty() && H5Dwrite(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
-    fail("dataset '" + dataset + "' cannot be written (disk full?)");
+    fail("dataset '" + dataset + "' cannot be written" + reason());
   }
 }
 
@@ -202,7 +211,7 @@ template <class T>
 Extent Hdf5File::reserve(const std::string& dataset, const std::vector<std::uint64_t>& shape) {
   const Handle data(create_dataset(file_, dataset, type_of<T>(), shape), H5Dclose);
   const haddr_t offset = data.ok() ? H5Dget_offset(data) : HADDR_UNDEF;
-  if (offset == HADDR_UNDEF) fail("dataset '" + dataset + "' cannot be made (disk full?)");
+  if (offset == HADDR_UNDEF) fail("dataset '" + dataset + "' cannot be made" + reason());
   return {offset, count_of(shape) * sizeof(T)};
 }
 

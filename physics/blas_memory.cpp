@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace omentum::physics {
 namespace {
@@ -29,6 +30,15 @@ bool is_there(std::size_t bytes) noexcept {
   return true;
 }
 
+// Takes a buffer for this thread, too.
+void multiply_with_all_threads() {
+  constexpr int kSize = 256;  // far above what OpenBLAS does alone
+  const std::vector<double> a(kSize * kSize, 1.0);
+  std::vector<double> c(kSize * kSize);
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, kSize, kSize, kSize, 1, a.data(), kSize, a.data(),
+              kSize, 0, c.data(), kSize);
+}
+
 }  // namespace
 
 bool keep_blas_buffers(int callers) noexcept {
@@ -38,10 +48,13 @@ bool keep_blas_buffers(int callers) noexcept {
   const auto take = reinterpret_cast<Take>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
   const auto give_back = reinterpret_cast<GiveBack>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
   if (take == nullptr || give_back == nullptr) return true;  // another BLAS, which has its own ways
-  // all at once, so that each is another one; given back they stay mapped
+  // all at once, so that each is another one; given back they stay mapped. A thread of OpenBLAS's own that
+  // only starts now would keep one of those: a product that it has to help with waits until it has its
+  // buffer.
   std::array<void*, kMostCallers> taken{};
-  for (int i = 0; i < count; ++i) taken[static_cast<std::size_t>(i)] = take(0);
-  for (int i = 0; i < count; ++i) give_back(taken[static_cast<std::size_t>(i)]);
+  for (int i = 1; i < count; ++i) taken[static_cast<std::size_t>(i)] = take(0);
+  multiply_with_all_threads();
+  for (int i = 1; i < count; ++i) give_back(taken[static_cast<std::size_t>(i)]);
   return true;
 }
 

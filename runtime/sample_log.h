@@ -1,6 +1,7 @@
 // Samples of a real-time loop as lines of a file.
 #pragma once
 
+#include "files/whole_file.h"
 #include "runtime/background.h"
 
 #include <atomic>
@@ -27,10 +28,11 @@ class SampleLog {
  public:
   using WriteLine = std::function<void(std::ostream&, std::uint64_t index, const T&)>;
 
-  /// `capacity`: samples that wait. Throws std::runtime_error when `file` cannot be written.
+  /// `capacity`: samples that wait. Throws std::runtime_error when `file` cannot be written, or is something
+  /// else than a file.
   SampleLog(const std::filesystem::path& file, const std::string& header, WriteLine write_line,
             std::uint64_t capacity = kCapacity)
-      : file_(file), out_(file), write_line_(std::move(write_line)), ring_(capacity) {
+      : file_(file), out_(files::replaceable(file)), write_line_(std::move(write_line)), ring_(capacity) {
     if (!out_) throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
     out_ << header << '\n';
     background_ = std::make_unique<Background>(kDrainPause, [this] { drain(); });

@@ -77,11 +77,17 @@ def seconds_of(node):
     return loop["ticks"] / loop["rate_hz"] if loop["rate_hz"] else 0.0
 
 
-def never_answered(report):
-    """Whether hand and haptic_node ran beside each other for MEETING_S or more, and no force ever came back."""
+def unanswered_s(report):
+    """How long hand and haptic_node ran beside each other without any force; 0 where there was one, or no hand."""
     hand, haptic = report["nodes"].get("virtual_device"), report["nodes"].get("haptic_node")
-    return (hand is not None and haptic is not None and min(seconds_of(hand), seconds_of(haptic)) >= MEETING_S
-            and hand["sent"] > 0 and hand["round_trip_us"]["count"] == 0)
+    if hand is None or haptic is None or hand["sent"] == 0 or hand["round_trip_us"]["count"] > 0:
+        return 0.0
+    return min(seconds_of(hand), seconds_of(haptic))
+
+
+def never_answered(report):
+    """Whether no force ever came back, though there was time for it."""
+    return unanswered_s(report) >= MEETING_S
 
 
 def duration(us):
@@ -154,6 +160,9 @@ def summary(report):
     if never_answered(report):
         lines.append("no answer ever came to the hand: the processes did not hear each other (is the network interface lo "
                      "up, and does nothing block UDP between them?)")
+    elif unanswered_s(report) > 0:
+        lines.append(f"no answer came to the hand: processes may need {MEETING_S:.0f} s to find each other, and the session "
+                     "ended before")
     if report["machine"]["steal_share"] >= LEAST_STEAL:
         lines.append(f"the hypervisor took {100 * report['machine']['steal_share']:.1f} % of the processors' time")
     if not report["machine"]["realtime"]:

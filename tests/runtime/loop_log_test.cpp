@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -37,16 +40,31 @@ TEST(LoopLog, AFileThatCannotBeWrittenIsNamed) {
   }
 }
 
+// A limit of the file's size does what a full disk does.
 TEST(LoopLog, LinesThatAFullDiskDidNotTakeAreTold) {
-  LoopLog log("/dev/full");
-  for (int i = 0; i < 5000; ++i) log.push({i * 1000, 1000, 7, 0});
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "omentum_full_loop_log.csv";
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{16 << 10, limit.rlim_max};
+  std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string told;
   try {
+    LoopLog log(file);
+    for (int i = 0; i < 5000; ++i) log.push({i * 1000, 1000, 7, 0});
     log.finish();
-    FAIL() << "no exception";
   } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("/dev/full: not all lines could be written: No space left"),
-              std::string::npos);
+    told = e.what();
   }
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::filesystem::remove(file);
+  EXPECT_NE(told.find(file.string() + ": not all lines could be written: File too large"), std::string::npos)
+      << told;
+}
+
+TEST(LoopLog, WhatIsNoFileIsRefused) {
+  EXPECT_THROW(LoopLog("/dev/full"), std::runtime_error);
+  EXPECT_THROW(LoopLog("/dev/null"), std::runtime_error);
 }
 
 }  // namespace
