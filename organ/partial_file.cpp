@@ -82,7 +82,7 @@ bool remove_if_abandoned(const std::filesystem::path& partial) {
 
 }  // namespace
 
-PartialFile::PartialFile(std::filesystem::path file)
+PartialFile::PartialFile(const std::filesystem::path& file)
     : file_(target_of(file)), partial_(file_.string() + kSuffix) {
   remove_abandoned(folder_of(file_));
   lock_ = open_locked(partial_);

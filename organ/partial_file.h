@@ -13,7 +13,7 @@ class PartialFile {
   /// Removes what dead processes left in the folder (remove_abandoned), then makes or takes over the partial
   /// file. A link stays one: its end is replaced. Throws geometry::InputError (FILE is no regular file,
   /// folder missing, no permission, another process writes FILE).
-  explicit PartialFile(std::filesystem::path file);
+  explicit PartialFile(const std::filesystem::path& file);
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
