@@ -43,7 +43,7 @@ inline constexpr double kShallow_m = 8e-5;
 inline constexpr double kMostApart_m = 4e-3;
 
 /// How far the side force may push a dent of centimetres aside, m, as if the tissue gave way sideways as
-/// inwards (it does so up to four times).
+/// inwards (twice as far was seen at a thin border).
 inline constexpr double kMostAside_m = 1e-3;
 
 /// Over which way along the surface the share returns to one, m: the side force that does it stays below a
