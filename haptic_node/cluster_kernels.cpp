@@ -59,17 +59,26 @@ void mark_meeting(const Boxes& boxes, const float* grow, const float* low, const
   }
 }
 
-void combine_blocks(const float* const* blocks, const double* weights, int count, double* sum) noexcept {
-  const auto widened = [](const float* p) {
-    return __builtin_convertvector(*reinterpret_cast<const HalfLanes*>(p), WideLanes);
-  };
-  WideLanes low{}, high{};
-  for (int q = 0; q < count; ++q) {
-    low += weights[q] * widened(blocks[q]);
-    high += weights[q] * widened(blocks[q] + kHalf);
+void combine_blocks(const float* blocks, std::ptrdiff_t pitch, const Weighted& rows, const Weighted& columns,
+                    double* sum) noexcept {
+  // the ninth by itself: a second vector for it would be empty but for one lane
+  WideLanes first{};
+  double last = 0;
+  for (int a = 0; a < rows.count; ++a) {
+    const float* row = blocks + rows.slots[a] * pitch;
+    WideLanes row_first{};
+    double row_last = 0;
+    for (int b = 0; b < columns.count; ++b) {
+      const float* block = row + columns.slots[b] * kBlockStride;
+      const double weight = columns.weights[b];
+      row_first += weight * __builtin_convertvector(*reinterpret_cast<const HalfLanes*>(block), WideLanes);
+      row_last += weight * block[kHalf];
+    }
+    first += rows.weights[a] * row_first;
+    last += rows.weights[a] * row_last;
   }
-  __builtin_memcpy(sum, &low, sizeof low);
-  __builtin_memcpy(sum + kHalf, &high, sizeof high);
+  __builtin_memcpy(sum, &first, sizeof first);
+  sum[kHalf] = last;
 }
 
 }  // namespace omentum::haptic::kernels

@@ -1,6 +1,7 @@
 // The innermost loops of the haptic step, on raw pointers: compiled for this machine's vector unit.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace omentum::haptic::kernels {
@@ -24,7 +25,16 @@ void mark_meeting(const Boxes& boxes, const float* grow, const float* low, const
 /// Floats of one 3x3 block: nine in use, column after column, and padding to one cache line.
 inline constexpr int kBlockStride = 16;
 
-/// sum[16] = sum_q weights[q] blocks[q], in double.
-void combine_blocks(const float* const* blocks, const double* weights, int count, double* sum) noexcept;
+/// Some slots, each with its weight.
+struct Weighted {
+  const int* slots;
+  const double* weights;
+  int count;
+};
+
+/// sum[9] = sum_ab u_a v_b block(a, b), in double, over the slots of rows and columns; `pitch`: floats
+/// between two rows of blocks.
+void combine_blocks(const float* blocks, std::ptrdiff_t pitch, const Weighted& rows, const Weighted& columns,
+                    double* sum) noexcept;
 
 }  // namespace omentum::haptic::kernels

@@ -1,7 +1,5 @@
 #include "haptic_node/contact_nodes.h"
 
-#include "haptic_node/cluster_kernels.h"
-
 #include <cassert>
 #include <memory>
 
@@ -71,20 +69,9 @@ Share share_of(const geometry::Surface& surface, const SurfacePoint& point, Cont
   return share;
 }
 
-Eigen::Matrix3d contact_compliance(const ContactNodes& nodes, const Share& i, const Share& j) noexcept {
-  std::array<const float*, 9> blocks;
-  std::array<double, 9> weights;
-  int count = 0;
-  for (int a = 0; a < i.count; ++a) {
-    for (int b = 0; b < j.count; ++b) {
-      blocks[count] = nodes.block(i.slot[a], j.slot[b]);
-      weights[count] = i.weight[a] * j.weight[b];
-      ++count;
-    }
-  }
-  std::array<double, kernels::kBlockStride> sum;
-  kernels::combine_blocks(blocks.data(), weights.data(), count, sum.data());
-  return Eigen::Map<const Eigen::Matrix3d>(sum.data());
+void find_compliance(const ContactNodes& nodes, const Share& i, const Share& j, Eigen::Matrix3d& W) noexcept {
+  nodes.combine({i.slot.data(), i.weight.data(), i.count}, {j.slot.data(), j.weight.data(), j.count},
+                W.data());
 }
 
 }  // namespace omentum::haptic

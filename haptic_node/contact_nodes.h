@@ -1,6 +1,7 @@
 // C_AA of the nodes in contact, kept between ticks: only nodes that enter are gathered.
 #pragma once
 
+#include "haptic_node/cluster_kernels.h"
 #include "haptic_node/deformed_surface.h"
 
 #include <vector>
@@ -27,6 +28,11 @@ class ContactNodes {
 
   /// C_nk between two slots as the kernels read it: nine floats, column after column, and padding.
   const float* block(int n, int k) const noexcept { return blocks_ + n * kPitch + k * kStride; }
+
+  /// sum[9]: the blocks between some slots and others, by both's weights.
+  void combine(const kernels::Weighted& rows, const kernels::Weighted& columns, double* sum) const noexcept {
+    kernels::combine_blocks(blocks_, kPitch, rows, columns, sum);
+  }
 
  private:
   static constexpr std::ptrdiff_t kStride = 16;
@@ -60,6 +66,6 @@ struct Share {
 Share share_of(const geometry::Surface& surface, const SurfacePoint& point, ContactNodes& nodes) noexcept;
 
 /// W_ij = sum_a sum_b k_a k_b C_ab over the vertices a of one contact and b of the other, m/N.
-Eigen::Matrix3d contact_compliance(const ContactNodes& nodes, const Share& i, const Share& j) noexcept;
+void find_compliance(const ContactNodes& nodes, const Share& i, const Share& j, Eigen::Matrix3d& W) noexcept;
 
 }  // namespace omentum::haptic

@@ -15,7 +15,7 @@ using geometry::kClusterSize;
 
 // Drift after which a cluster's box is drawn anew, m, and the part of the binning margin that it may be at
 // most: some ticks of a moving dent, little beside kReach_m.
-constexpr float kLooseBox_m = 5e-5f;
+constexpr float kLooseBox_m = 4e-4f;
 constexpr double kLoosePart = 0.25;
 // Clusters outside of all regions that are made exact in a tick, so that those inside know their neighbours.
 constexpr int kRefreshesPerTick = 4;
@@ -38,8 +38,8 @@ DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<con
       grid_(surface, rest, geometry::BucketGrid::suitable_slack(surface, rest)),
       binning_margin_(grid_.slack() / 2),
       loosest_(std::min(kLooseBox_m, static_cast<float>(kLoosePart * binning_margin_))) {
-  nodes_.reserve(kMaxForces);
-  forces_.reserve(kMaxForces);
+  for (auto* nodes : {&nodes_, &proposed_nodes_}) nodes->reserve(kMaxForces);
+  for (auto* forces : {&forces_, &proposed_forces_}) forces->reserve(kMaxForces);
   index_clusters();
   find_normals();
   find_other_side();
@@ -107,17 +107,19 @@ void DeformedSurface::restore_rest() noexcept {
   for (std::int32_t c = 0; c < clusters_; ++c) enclose(c);
 }
 
-DeformedSurface::ForceChange DeformedSurface::change_to(std::span<const SurfaceId> nodes,
-                                                        std::span<const Vec3> forces) const noexcept {
+void DeformedSurface::propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
   assert(nodes.size() == forces.size() && nodes.size() <= kMaxForces);
-  ForceChange change;
+  proposed_nodes_.assign(nodes.begin(), nodes.end());
+  proposed_forces_.assign(forces.begin(), forces.end());
+  change_.count = 0;
   const auto add = [&](SurfaceId node, const Vec3& difference) {
     if (difference.isZero(0)) return;
-    change.nodes[change.count] = node;
+    change_.nodes[change_.count] = node;
     // float rounding of the sums must not lose any of it
-    change.sizes_n[change.count++] = static_cast<float>(difference.norm() * 1.00001);
+    change_.sizes_n[change_.count++] = static_cast<float>(difference.norm() * 1.00001);
   };
-  std::array<bool, kMaxForces> goes_on{};
+  std::array<bool, kMaxForces> goes_on;
+  std::fill_n(goes_on.begin(), nodes_.size(), false);
   for (std::size_t q = 0; q < nodes.size(); ++q) {
     const std::int16_t old = index_of_[nodes[q]];
     if (old >= 0) goes_on[old] = true;
@@ -126,34 +128,32 @@ DeformedSurface::ForceChange DeformedSurface::change_to(std::span<const SurfaceI
   for (std::size_t q = 0; q < nodes_.size(); ++q) {
     if (!goes_on[q]) add(nodes_[q], forces_[q]);
   }
-  return change;
 }
 
-double DeformedSurface::motion_bound(const SurfacePoint& point, const ForceChange& change) const noexcept {
+double DeformedSurface::motion_bound(const SurfacePoint& point) const noexcept {
   const geometry::Triangle& t = surface_.triangles[point.triangle];
   const auto mobile = std::ranges::find_if(t, [&](SurfaceId n) { return n < surface_.mobile_count; });
   if (mobile == t.end()) return 0;
   double sum = 0;
-  for (int i = 0; i < change.count; ++i)
-    sum += change.sizes_n[i] * compliance_.bounds(change.nodes[i])[*mobile / kClusterSize];
+  for (int i = 0; i < change_.count; ++i)
+    sum += change_.sizes_n[i] * compliance_.bounds(change_.nodes[i])[*mobile / kClusterSize];
   return sum;
 }
 
-void DeformedSurface::set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
-  const ForceChange change = change_to(nodes, forces);
+void DeformedSurface::accept() noexcept {
   std::array<const float*, 2 * kMaxForces> rows;
-  for (int i = 0; i < change.count; ++i) rows[i] = compliance_.bounds(change.nodes[i]).data();
+  for (int i = 0; i < change_.count; ++i) rows[i] = compliance_.bounds(change_.nodes[i]).data();
   for (const SurfaceId node : nodes_) index_of_[node] = -1;
-  nodes_.assign(nodes.begin(), nodes.end());
-  forces_.assign(forces.begin(), forces.end());
+  nodes_.swap(proposed_nodes_);
+  forces_.swap(proposed_forces_);
   for (std::size_t q = 0; q < nodes_.size(); ++q) index_of_[nodes_[q]] = static_cast<std::int16_t>(q);
   evaluated_clusters_ = 0;
   known_motion_ = entered_motion_ = 0;
   refreshed_ = 0;
   unbinned_.clear();
-  kernels::weighted_sum(rows.data(), change.sizes_n.data(), change.count, clusters_, step_.data());
+  kernels::weighted_sum(rows.data(), change_.sizes_n.data(), change_.count, clusters_, step_.data());
   motion_ = step_;
-  if (change.count == 0) return;
+  if (change_.count == 0) return;
   kernels::add_to_both(step_.data(), clusters_, moved_.data(), moved_since_binning_.data());
   ++version_;
 }
@@ -180,8 +180,7 @@ void DeformedSurface::evaluate(const Region& region) noexcept {
   }
 }
 
-void DeformedSurface::ensure(std::int32_t cluster) noexcept {
-  if (fresh(cluster)) return;
+void DeformedSurface::make_exact(std::int32_t cluster) noexcept {
   superpose(cluster);
   learn_motion(cluster);
 }
@@ -265,23 +264,6 @@ void DeformedSurface::bin(std::int32_t cluster) noexcept {
 void DeformedSurface::bin_pending() noexcept {
   for (const std::int32_t c : unbinned_) bin(c);  // adds none: what bin() makes exact lies outside
   unbinned_.clear();
-}
-
-const Vec3& DeformedSurface::position(SurfaceId node) noexcept {
-  ensure(node / kClusterSize);
-  return positions_[node];
-}
-
-Vec3 DeformedSurface::position(const SurfacePoint& point) noexcept {
-  const geometry::Triangle& t = surface_.triangles[point.triangle];
-  const Vec3& k = point.barycentric;
-  return k[0] * position(t[0]) + k[1] * position(t[1]) + k[2] * position(t[2]);
-}
-
-Vec3 DeformedSurface::rest_position(const SurfacePoint& point) const noexcept {
-  const geometry::Triangle& t = surface_.triangles[point.triangle];
-  const Vec3& k = point.barycentric;
-  return k[0] * rest_[t[0]] + k[1] * rest_[t[1]] + k[2] * rest_[t[2]];
 }
 
 }  // namespace omentum::haptic

@@ -56,27 +56,36 @@ class DeformedSurface {
   void restore_rest() noexcept;
 
   /// The forces from now on: `nodes` mobile and distinct, at most kMaxForces, `forces` in N. Once per tick.
-  void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
+  void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
+    propose(nodes, forces);
+    accept();
+  }
 
-  /// What other forces would change: nodes, and by how much each one's force, N.
-  struct ForceChange {
-    std::array<SurfaceId, 2 * kMaxForces> nodes;
-    std::array<float, 2 * kMaxForces> sizes_n;
-    int count = 0;
-  };
-  /// From the forces that are set to these; arguments as for set_forces.
-  ForceChange change_to(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) const noexcept;
-  /// How far at most the triangle of a material point goes by a change, m.
-  double motion_bound(const SurfacePoint& point, const ForceChange& change) const noexcept;
+  /// The same in two steps: what may follow, any number of times, and that it does.
+  void propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
+  void accept() noexcept;
+  /// How far at most the triangle of a material point goes by what was proposed, m.
+  double motion_bound(const SurfacePoint& point) const noexcept;
 
   /// Makes exact every cluster of which a triangle may be within kReach_m of the region.
   void evaluate(const Region& region) noexcept;
 
   /// Exact positions, m; the node's cluster is evaluated when it was not.
-  const Vec3& position(SurfaceId node) noexcept;
-  Vec3 position(const SurfacePoint& point) noexcept;
+  const Vec3& position(SurfaceId node) noexcept {
+    ensure(node / geometry::kClusterSize);
+    return positions_[node];
+  }
+  Vec3 position(const SurfacePoint& point) noexcept {
+    const geometry::Triangle& t = surface_.triangles[point.triangle];
+    const Vec3& k = point.barycentric;
+    return k[0] * position(t[0]) + k[1] * position(t[1]) + k[2] * position(t[2]);
+  }
   /// Rest position X of a material point, m.
-  Vec3 rest_position(const SurfacePoint& point) const noexcept;
+  Vec3 rest_position(const SurfacePoint& point) const noexcept {
+    const geometry::Triangle& t = surface_.triangles[point.triangle];
+    const Vec3& k = point.barycentric;
+    return k[0] * rest_[t[0]] + k[1] * rest_[t[1]] + k[2] * rest_[t[2]];
+  }
 
   /// The direction in which tissue pushes at a material point, unit, outward: rest normals of the triangle's
   /// vertices (area-weighted over their fans), interpolated, so that it is continuous across edges. Of the
@@ -131,6 +140,8 @@ class DeformedSurface {
   /// triangle, always nearer: sliding without search.
   SurfacePoint slide(const SurfacePoint& from, const Vec3& p) noexcept;
 
+  /// Nodes that carry a force.
+  int loaded_nodes() const noexcept { return static_cast<int>(nodes_.size()); }
   /// Nodes superposed since the last set_forces.
   int evaluated_nodes() const noexcept { return evaluated_clusters_ * geometry::kClusterSize; }
 
@@ -142,6 +153,13 @@ class DeformedSurface {
 
   using Corners = std::array<const Vec3*, 3>;
 
+  // What a proposal changes: nodes, and by how much each one's force, N.
+  struct ForceChange {
+    std::array<SurfaceId, 2 * kMaxForces> nodes;
+    std::array<float, 2 * kMaxForces> sizes_n;
+    int count = 0;
+  };
+
   void index_clusters();
   void size_bounds();
   bool fresh(std::int32_t cluster) const noexcept {
@@ -152,7 +170,10 @@ class DeformedSurface {
     return fresh(t[0] / geometry::kClusterSize) && fresh(t[1] / geometry::kClusterSize) &&
            fresh(t[2] / geometry::kClusterSize);
   }
-  void ensure(std::int32_t cluster) noexcept;
+  void ensure(std::int32_t cluster) noexcept {
+    if (!fresh(cluster)) make_exact(cluster);
+  }
+  void make_exact(std::int32_t cluster) noexcept;
   void superpose(std::int32_t cluster) noexcept;
   void learn_motion(std::int32_t cluster) noexcept;
   void enclose(std::int32_t cluster) noexcept;
@@ -177,6 +198,7 @@ class DeformedSurface {
   std::vector<Vec3> normals_;                      // [S] at rest, unit
   std::vector<SurfacePoint> other_side_;           // [S] straight in from each node ...
   std::vector<double> thickness_;                  // ... and how far that is at rest, m; infinity: nowhere
+  std::vector<double> other_height_;               // ... and its height at rest along the node's normal, m
 
   std::vector<Vec3> positions_;             // [S] exact when last superposed
   std::vector<float> low_[3], high_[3];     // [clusters] box of all triangles that touch the cluster ...
@@ -190,8 +212,9 @@ class DeformedSurface {
   std::vector<std::uint32_t> cluster_version_;  // of the forces it was superposed with
   std::uint32_t version_ = 1;
 
-  std::vector<SurfaceId> nodes_;
-  std::vector<Vec3> forces_;
+  std::vector<SurfaceId> nodes_, proposed_nodes_;
+  std::vector<Vec3> forces_, proposed_forces_;
+  ForceChange change_;
   std::vector<std::int16_t> index_of_;  // [S] position in nodes_, -1
   geometry::BucketGrid grid_;
   double binning_margin_;

@@ -111,6 +111,7 @@ void DeformedSurface::find_other_side() {
     other_side_.push_back(leaves.last.point);
     thickness_.push_back(leaves.last.parameter >= 0 ? (1 - leaves.last.parameter) * across
                                                     : std::numeric_limits<double>::infinity());
+    other_height_.push_back(std::isinf(thickness_[n]) ? 0 : rest_position(other_side_[n]).dot(normals_[n]));
   }
 }
 
@@ -119,8 +120,9 @@ double DeformedSurface::tissue_ahead(const SurfacePoint& point, const Vec3& p) n
   point.barycentric.maxCoeff(&nearest);
   const SurfaceId n = surface_.triangles[point.triangle][nearest];
   if (std::isinf(thickness_[n])) return 1;
-  const auto way_to = [&](const Vec3& far) { return (p - far).dot(normals_[n]) / thickness_[n]; };
-  return way_to(rest_position(other_side_[n])) > 0 ? 1 : way_to(position(other_side_[n]));
+  const double height = p.dot(normals_[n]);
+  if (height > other_height_[n]) return 1;
+  return (height - position(other_side_[n]).dot(normals_[n])) / thickness_[n];
 }
 
 Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
@@ -129,7 +131,8 @@ Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
   const Vec3 sum = k[0] * normals_[t[0]] + k[1] * normals_[t[1]] + k[2] * normals_[t[2]];
   const double length = sum.norm();
   // on a blade two opposite normals may cancel: then the face's own
-  return length > 0 ? Vec3(sum / length) : area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]).normalized();
+  return length > 0 ? Vec3(1 / length * sum)
+                    : area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]).normalized();
 }
 
 std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) noexcept {

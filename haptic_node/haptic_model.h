@@ -112,6 +112,9 @@ struct HapticWorkspace {
   ContactNodes nodes;
   std::vector<ContactWork> works;  // [tools]
   std::array<Share, physics::kMaxContacts> shares;
+  // of the contacts, m and N: p - X without and with the tissue's displacement, the last tick's forces, and
+  // what the solver makes of them
+  std::array<Vec3, physics::kMaxContacts> free_gaps, gaps, before, forces;
   physics::ContactProblem problem;
   physics::ContactWorkspace solver;
   SpreadWorkspace spread;

@@ -2,6 +2,7 @@
 
 #include "haptic_node/contact_list.h"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -33,9 +34,10 @@ constexpr std::uint64_t kAskPeriod = 64;
 bool is_astray(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
   const Vec3 held = surface.position(contact.held);
   const Vec3 gap = at_the_surface(contact, tool.before) - held;
-  const double along = (gap - gap.dot(contact.normal) * contact.normal).norm();
+  const double squared_along = (gap - gap.dot(contact.normal) * contact.normal).squaredNorm();
+  if (squared_along <= kAstrayLeast_m * kAstrayLeast_m) return false;
   const double moved = (held - surface.rest_position(contact.held)).norm();
-  return along > std::clamp(kAstrayPart * moved, kAstrayLeast_m, kAstrayMost_m);
+  return std::sqrt(squared_along) > std::clamp(kAstrayPart * moved, kAstrayLeast_m, kAstrayMost_m);
 }
 
 // Whether the tool's point has gone through the organ: beyond where its far side is at rest, while most of

@@ -84,11 +84,14 @@ Region path_of(const ToolState& tool) {
   return region;
 }
 
-ToolContact* contact_of(HapticState& state, std::int32_t tool, std::int32_t point) {
+// Of each of a tool's points, if it has one.
+std::array<ToolContact*, physics::kMaxContacts> contacts_of(HapticState& state, std::size_t tool) {
+  std::array<ToolContact*, physics::kMaxContacts> contacts;
+  std::fill_n(contacts.begin(), state.tools[tool].now.size(), nullptr);
   for (ToolContact& contact : state.active()) {
-    if (contact.tool == tool && contact.point == point) return &contact;
+    if (contact.tool == static_cast<std::int32_t>(tool)) contacts[contact.point] = &contact;
   }
-  return nullptr;
+  return contacts;
 }
 
 // The surface point that tool point p met on its way, if any. Whoever has more room than tool and surface
@@ -186,9 +189,10 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     ToolState& tool = state.tools[i];
     if (!tool.engaged) continue;
+    const auto contacts = contacts_of(state, i);
     for (std::size_t p = 0; p < tool.now.size(); ++p) {
       if (tool.memory[p].ask_in > 0) continue;  // meet_appeared looks for it
-      ToolContact* known = contact_of(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
+      ToolContact* known = contacts[p];
       if (known && (known->touches() || known->grasped || known->sunken_m > 0)) {
         tool.memory[p].clearance_m = 0;
         continue;
@@ -209,13 +213,13 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
 }
 
 int set_open_aside(HapticState& state, DeformedSurface& surface) noexcept {
-  double way_m = 0;
+  double squared_way = 0;
   for (const ToolState& tool : state.tools) {
     if (!tool.engaged) continue;
     for (std::size_t p = 0; p < tool.now.size(); ++p)
-      way_m = std::max(way_m, (tool.now[p] - tool.before[p]).norm());
+      squared_way = std::max(squared_way, (tool.now[p] - tool.before[p]).squaredNorm());
   }
-  const double open_m = kClosingWays * way_m + kRestless_m;
+  const double open_m = kClosingWays * std::sqrt(squared_way) + kRestless_m;
   const auto begin = state.contacts.begin();
   int count = 0;
   for (int i = 0; i < state.contact_count; ++i) {

@@ -72,8 +72,15 @@ class Solver {
     int m = 0;
     for (int i = 0; i < problem_.count; ++i) {
       const PointContact& c = problem_.contacts[i];
-      unknowns_[i] = {local_axes(c.normal), m, c.bilateral || problem_.friction > 0 ? 3 : 1, c.bilateral};
-      m += unknowns_[i].size;
+      Unknowns& u = unknowns_[i];
+      u.first = m;
+      u.size = c.bilateral || problem_.friction > 0 ? 3 : 1;
+      u.bilateral = c.bilateral;
+      if (u.size == 3)
+        u.axes = local_axes(c.normal);
+      else
+        u.axes.col(0) = -c.normal;
+      m += u.size;
     }
     work_.A.resize(m, m);
     work_.q.resize(m);
@@ -296,19 +303,31 @@ class Solver {
 
 }  // namespace
 
-void limit_stiffness(ContactProblem& problem) noexcept {
-  std::array<double, kMaxContacts> root_c;
-  for (int i = 0; i < problem.count; ++i) {
-    const PointContact& contact = problem.contacts[i];
-    const double compliance = contact.normal.dot(problem.W(i, i) * contact.normal);
-    root_c[i] = std::sqrt(std::max(0.0, 1 / contact.max_stiffness_n_m - compliance));
-    for (int j = 0; j <= i; ++j) {
-      const double shared = root_c[i] * root_c[j];
-      if (shared == 0 || problem.contacts[j].body != contact.body) continue;
-      problem.W(i, j).diagonal().array() += shared;
-      if (j < i) problem.W(j, i).diagonal().array() += shared;
-    }
+void limit_stiffness(ContactProblem& problem, int i, int columns) noexcept {
+  const PointContact& contact = problem.contacts[i];
+  const double compliance = contact.normal.dot(problem.W(i, i) * contact.normal);
+  problem.root_c[i] = std::sqrt(std::max(0.0, 1 / contact.max_stiffness_n_m - compliance));
+  if (problem.root_c[i] == 0) return;
+  for (int j = 0; j < columns; ++j) {
+    const double shared = problem.root_c[i] * problem.root_c[j];
+    if (shared == 0 || problem.contacts[j].body != contact.body) continue;
+    problem.W(i, j).diagonal().array() += shared;
+    problem.W(j, i).diagonal().array() += shared;
   }
+  problem.W(i, i).diagonal().array() += problem.root_c[i] * problem.root_c[i];
+}
+
+void limit_stiffness(ContactProblem& problem) noexcept {
+  for (int i = 0; i < problem.count; ++i) limit_stiffness(problem, i, i);
+}
+
+Vec3 gap_of(const ContactProblem& problem, std::span<const Vec3> forces, int i) noexcept {
+  Vec3 gap = problem.contacts[i].free_gap;
+  if (i < std::ssize(forces)) gap -= kContactCompliance_m_n * forces[i];
+  for (std::size_t j = 0; j < forces.size(); ++j) {
+    if (!forces[j].isZero(0)) gap -= problem.W(i, static_cast<int>(j)) * forces[j];
+  }
+  return gap;
 }
 
 ContactSolution solve_contacts(const ContactProblem& problem, std::span<Vec3> forces,

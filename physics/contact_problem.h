@@ -46,7 +46,8 @@ struct ContactProblem {
   double friction = 0;  // mu >= 0
   std::array<PointContact, kMaxContacts> contacts;
   std::array<Eigen::Matrix3d, kMaxContacts * kMaxContacts>
-      compliance;  // W_ij = J C_AA J^T, m/N, symmetric as a whole
+      compliance;                           // W_ij = J C_AA J^T, m/N, symmetric as a whole
+  std::array<double, kMaxContacts> root_c;  // sqrt(c_i) of limit_stiffness
 
   Eigen::Matrix3d& W(int i, int j) { return compliance[static_cast<std::size_t>(i) * kMaxContacts + j]; }
   const Eigen::Matrix3d& W(int i, int j) const {
@@ -62,6 +63,11 @@ struct ContactProblem {
 /// touch; and c_i follows the point alone, so that no force jumps when another point begins to touch. Stays
 /// symmetric and positive semidefinite. No allocation.
 void limit_stiffness(ContactProblem& problem) noexcept;
+/// The same for contact i against itself and the first `columns`, which have theirs.
+void limit_stiffness(ContactProblem& problem, int i, int columns) noexcept;
+
+/// r_i under the forces of the first contacts, m. `forces`: lambda, N; the others' are zero.
+Vec3 gap_of(const ContactProblem& problem, std::span<const Vec3> forces, int i) noexcept;
 
 enum class ContactStatus : std::uint8_t {
   kConverged,       // every law holds within kGapTolerance_m
