@@ -19,9 +19,8 @@ haptic::ForceLimits limits_at(double rate_hz) {
 
 }  // namespace
 
-HandLine::HandLine(std::uint32_t tool, double rate_hz, const msg::DeviceInfo* device)
+HandLine::HandLine(std::uint32_t tool, double rate_hz)
     : line_(tool, limits_at(rate_hz), faults_), hold_(kMaxForce_n, kMaxTorque_nm), period_s_(1 / rate_hz) {
-  if (device) line_.hear(*device);
   pose_.tool = tool;
   pose_.valid = true;
 }

@@ -10,9 +10,8 @@ namespace omentum::haptic_test {
 /// late or lost. Keeps the account of what the hand really got.
 class HandLine {
  public:
-  /// `device`: what it says of itself. Without one it exerts the whole wrench within a table-top device's
-  /// limits.
-  HandLine(std::uint32_t tool, double rate_hz, const msg::DeviceInfo* device = nullptr);
+  /// The device exerts the whole wrench within a table-top device's limits.
+  HandLine(std::uint32_t tool, double rate_hz);
 
   /// What the device exerts from now on, until the next pose.
   const device::Wrench& exert(std::int64_t now_ns);

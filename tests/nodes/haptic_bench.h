@@ -58,9 +58,11 @@ inline Vec3 vector(const msg::Vec3& v) {
 /// haptic_node, and a device of this test's own.
 class NodeBench {
  public:
-  NodeBench(const BlockScene& scene, const std::string& node_vendor, transport::Vendor own)
+  NodeBench(const BlockScene& scene, const std::string& node_vendor, transport::Vendor own,
+            int rate_hz = 1000)
       : scene_(scene),
         vendor_(node_vendor),
+        rate_hz_(rate_hz),
         domain_(test::domain_of_test()),
         node_("haptic_node", arguments(scene.report())),
         bus_(transport::Bus::open({.vendor = own, .domain = domain_, .name = "test"})),
@@ -74,11 +76,13 @@ class NodeBench {
         statuses_(bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& s) { take(s); })) {}
 
   std::vector<std::string> arguments(const std::string& report) const {
-    return {"--scene",  scene_.scene(),          "--dds",    vendor_,
-            "--domain", std::to_string(domain_), "--report", report};
+    return {"--scene",   scene_.scene(),          "--dds",    vendor_,
+            "--domain",  std::to_string(domain_), "--report", report,
+            "--rate-hz", std::to_string(rate_hz_)};
   }
 
-  /// Sends the pose of tool 0 for as long as `wait` is false, at about 1 kHz. False when patience ends.
+  /// Sends the pose of tool 0 for as long as `wait` is false, at about the node's rate. False when patience
+  /// ends.
   template <class Condition>
   bool hold(const Vec3& tip, Condition&& wait) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -101,7 +105,7 @@ class NodeBench {
     pose.position = {.x = tip.x(), .y = tip.y(), .z = tip.z()};
     pose.orientation = {.w = 1, .x = 0, .y = 0, .z = 0};
     poses_->write(pose);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::microseconds(1'000'000 / rate_hz_));
   }
   void send(const msg::ToolPose& pose) { poses_->write(pose); }
   void send(const msg::DeviceInfo& info) { devices_->write(info); }
@@ -156,7 +160,7 @@ class NodeBench {
 
   const BlockScene& scene_;
   std::string vendor_;
-  int domain_;
+  int rate_hz_, domain_;
   test::Process node_;
   mutable std::mutex mutex_;
   std::optional<msg::ToolForce> force_;

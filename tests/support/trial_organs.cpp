@@ -60,7 +60,7 @@ const OrganRecipe& organ_recipe(const std::string& name) {
   throw std::invalid_argument("organ '" + name + "', expected one of " + known);
 }
 
-std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe) {
+std::optional<std::filesystem::path> trial_organ_file(const OrganRecipe& recipe) {
   std::optional<geometry::TetraMesh> mesh = mesh_of(recipe);
   if (!mesh) return std::nullopt;
   auto fixed = organ::parse_supports(std::array{recipe.fixed}, *mesh);
@@ -78,7 +78,13 @@ std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe) {
     organ::build_organ(organ, mine, options);
     std::filesystem::rename(mine, file);
   }
-  return organ::load_organ(file, organ::Load::kWithTensors);
+  return file;
+}
+
+std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe) {
+  const auto file = trial_organ_file(recipe);
+  if (!file) return std::nullopt;
+  return organ::load_organ(*file, organ::Load::kWithTensors);
 }
 
 std::vector<haptic::ToolModel> scene_tools(bool with_trocars) {

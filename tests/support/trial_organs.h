@@ -4,6 +4,7 @@
 #include "haptic_node/haptic_model.h"
 #include "organ/organ.h"
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,8 +25,10 @@ std::span<const OrganRecipe> organ_recipes();
 /// Throws std::invalid_argument, naming those that there are.
 const OrganRecipe& organ_recipe(const std::string& name);
 
-/// With its tensors; nothing where the data or the phantom's program are absent. The organ file is kept in
-/// the build folder. Throws geometry::InputError.
+/// Its organ file with tensors, kept in the build folder; nothing where the data or the phantom's program are
+/// absent. Throws geometry::InputError.
+std::optional<std::filesystem::path> trial_organ_file(const OrganRecipe& recipe);
+/// The same, loaded.
 std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe);
 
 /// The two tools of scenes/liver.toml, the right hand's probe first, with or without their trocars.
