@@ -264,9 +264,9 @@ TEST(CheckMesh, PartsGluedByCopyingAreCountedAndMergedOnDemand) {
     EXPECT_EQ(merged.mesh.positions, whole.positions);
     EXPECT_EQ(merged.mesh.tetrahedra, check_mesh(whole, 1).mesh.tetrahedra);
     EXPECT_EQ(merged.mesh.file_node_count, static_cast<std::int32_t>(parts.positions.size()));
-    ASSERT_EQ(merged.merged.size(), 16u);
-    EXPECT_EQ(merged.merged[0].dropped, static_cast<std::int32_t>(whole.positions.size()));
-    EXPECT_EQ(parts.positions[merged.merged[0].kept].x(), 0.04);
+    ASSERT_EQ(merged.mesh.merged.size(), 16u);
+    EXPECT_EQ(merged.mesh.merged[0].dropped, static_cast<std::int32_t>(whole.positions.size()));
+    EXPECT_EQ(parts.positions[merged.mesh.merged[0].kept].x(), 0.04);
     EXPECT_THAT(merged.warnings, testing::ElementsAre(HasSubstr("16 nodes were merged")));
   }
 }
