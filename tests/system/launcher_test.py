@@ -451,6 +451,13 @@ class Parts(unittest.TestCase):
         (self.folder / "liver.ELE").write_text("another")
         self.assertNotEqual(self.build("plane:y>0", mesh=node), first)
 
+    def test_organ_of_another_organ_build_is_made_again(self):
+        # whose format may be another
+        (self.folder / "organ_build").write_text("format 2")
+        first = self.build("plane:y>0")
+        (self.folder / "organ_build").write_text("format 3")
+        self.assertNotEqual(self.build("plane:y>0"), first)
+
     def test_organ_of_another_name_is_another_file_and_takes_none_away(self):
         first = self.build("plane:y>0", "liver")
         second = self.build("plane:y>0", "spleen")

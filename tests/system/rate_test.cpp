@@ -9,7 +9,6 @@
 namespace omentum::test {
 namespace {
 
-const std::string kScene = OMENTUM_HELD_SCENE;
 constexpr double kWithin = 0.02;  // the issue's
 constexpr double kFeltN = 0.1;
 constexpr std::size_t kSettled = 500;  // samples that agree with each other: the hand has come to rest
@@ -18,7 +17,7 @@ constexpr double kSettledSpread = 0.005;  // ... within this
 
 /// Mean force of the held hand, N, once it has come to rest; 0 when it never does.
 double held_force(const std::string& rate_hz) {
-  SessionOnTrial session(kScene, all_on("cyclone"));
+  SessionOnTrial session(held_scene(), all_on("cyclone"));
   Observer observer(session.domain(), transport::Vendor::kCyclone);
   session.start("haptic_node", {"--rate-hz", rate_hz});
   session.start("virtual_device", {"--rate-hz", rate_hz});
