@@ -3,6 +3,7 @@
 namespace omentum::runtime {
 
 void add_node_options(CommandLine& line, NodeOptions& options) {
+  line.needs(kRoomForDds);
   line.option("--scene", options.scene, "scene file (TOML)").required().type_name("FILE");
   line.option("--organ", options.organ, "organ file instead of the scene's").type_name("FILE");
   line.option("--dds", options.dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
