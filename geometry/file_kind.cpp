@@ -135,6 +135,15 @@ std::string foreign_kind(std::string_view head, std::uintmax_t file_size) {
   return root == "html" || root == "HTML" ? "a web page" : "XML of another kind (<" + root + ">)";
 }
 
+std::string foreign_separator(std::string_view field) {
+  constexpr std::pair<char, const char*> kOthers[] = {
+      {';', "';'"}, {'\t', "tabs"}, {'|', "'|'"}, {' ', "blanks"}};
+  for (const auto& [other, words] : kOthers) {
+    if (field.find(other) != std::string_view::npos) return words;
+  }
+  return {};
+}
+
 std::string foreign_kind(const std::filesystem::path& file) {
   std::error_code unreadable;
   const std::uintmax_t size = std::filesystem::file_size(file, unreadable);
