@@ -26,7 +26,7 @@ from unittest import mock
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
 from launcher.errors import Refusal  # noqa: E402
-from launcher import cache, domain, machine, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
+from launcher import cache, domain, machine, options, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
@@ -436,6 +436,11 @@ class Parts(unittest.TestCase):
         self.assertEqual(scale, 1.0)
         self.assertIn("warning: a.msh is 0.0065 units long: taken as metres", said)
         self.assertNotIn("warning", guess(0.18)[1])
+
+    def test_help_names_the_environment(self):
+        text = " ".join(options.build_parser().format_help().split())
+        for said in ("OMENTUM_CACHE=FOLDER", "build/cache", "OMENTUM_BIN=FOLDER", "--log"):
+            self.assertIn(said, text)
 
     def test_a_warning_of_two_programs_is_said_once(self):
         with contextlib.redirect_stdout(io.StringIO()) as said:
