@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 
 namespace omentum::geometry {
@@ -70,7 +72,7 @@ void write_mesh(const TetraMesh& mesh, const std::filesystem::path& file) {
   }
   print("$EndElements\n%s", "");
   out.close();
-  if (!out) throw InputError(file.string() + ": cannot be written");
+  if (!out) throw InputError(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace omentum::geometry

@@ -1,5 +1,7 @@
 #include "runtime/command_line.h"
 
+#include "files/whole_file.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -51,6 +53,17 @@ Option& Option::not_negative() {
 }
 Option& Option::one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words));
+  return *this;
+}
+Option& Option::writes_file() {
+  option_->check([](const std::string& file) -> std::string {
+    try {
+      files::require_writable(file);
+      return {};
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+  });
   return *this;
 }
 Option& Option::show_default() {

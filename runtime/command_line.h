@@ -31,6 +31,7 @@ class CommandLine {
     Option& between(double low, double high);
     Option& not_negative();
     Option& one_of(const std::vector<std::string>& words);
+    Option& writes_file();   // refused at the start where it could not be written
     Option& show_default();  // the value that the variable has by now
 
    private:

@@ -125,7 +125,17 @@ TEST_F(MeshFiles, WrittenMeshesComeBackBitForBit) {
 }
 
 TEST_F(MeshFiles, WritingWhereNothingCanBeWrittenIsAnError) {
-  EXPECT_THROW(write_mesh(test::make_box_mesh(1, 1, 1, {1, 1, 1}), folder_ / "nowhere/m.msh"), InputError);
+  const auto reason = [](const std::filesystem::path& file) -> std::string {
+    try {
+      write_mesh(test::make_box_mesh(1, 1, 1, {1, 1, 1}), file);
+      return "written";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(reason(folder_ / "nowhere/m.msh"),
+              HasSubstr("m.msh: cannot be written: No such file or directory"));
+  EXPECT_THAT(reason("/dev/full"), HasSubstr("cannot be written: No space left on device"));
 }
 
 // Results and messages go by it.
