@@ -13,7 +13,8 @@ void add_node_options(CommandLine& line, NodeOptions& options) {
       .show_default();
   line.option("--secure", options.keystore, "DDS Security key store").type_name("KEYSTORE");
   line.option("--report", options.report, "write this node's numbers here at the end (JSON)")
-      .type_name("FILE");
+      .type_name("FILE")
+      .writes_file();
   line.option("--log", options.log, "write every tick here (CSV)").type_name("FILE");
 }
 
