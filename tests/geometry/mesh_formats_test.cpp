@@ -167,7 +167,8 @@ TEST_F(MeshFiles, ATetrahedronsNumberIsItsOwn) {
 
 TEST_F(MeshFiles, MessagesNameFileLineAndExpectation) {
   EXPECT_THAT(refusal(folder_ / "absent.msh"), AllOf(HasSubstr("absent.msh"), HasSubstr("no such file")));
-  EXPECT_THAT(refusal(folder_ / "mesh.stl"), HasSubstr("expected .msh, .vtk, .vtu, .node or .ele"));
+  EXPECT_THAT(refusal(put(folder_ / "mesh.stl", "facets\n")),
+              HasSubstr("expected .msh, .vtk, .vtu, .node or .ele"));
   EXPECT_THAT(refusal(put(folder_ / "x.msh", "$NOD\n2\n1 0 0 0\n2 0 zero 0\n$ENDNOD\n")),
               HasSubstr("x.msh:4: found 'zero', expected y of a node"));
   EXPECT_THAT(
