@@ -71,6 +71,11 @@ class TraceReader {
                              ", expected " + expected);
   }
 
+  void require_commas(std::string_view first_field) const {
+    if (const std::string found = geometry::foreign_separator(first_field); !found.empty())
+      refuse("fields separated by " + found, "',' (and '.' in numbers)");
+  }
+
   bool next_line() {
     while (std::getline(in_, line_)) {
       if (++line_number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
@@ -82,7 +87,9 @@ class TraceReader {
 
   void read_header() {
     std::array<int, kColumns.size()> seen{};
-    for (const std::string_view name : split(line_)) {
+    const auto names = split(line_);
+    require_commas(names[0]);
+    for (const std::string_view name : names) {
       const auto column = std::find(kColumns.begin(), kColumns.end(), name);
       if (column == kColumns.end() || seen[column - kColumns.begin()]++ > 0) {
         refuse("column " + quoted(name), std::string(kHeader) + " and perhaps tool, each once");
@@ -98,6 +105,7 @@ class TraceReader {
   void read_point(std::map<std::uint32_t, Trace>& traces) {
     const auto fields = split(line_);
     if (fields.size() != order_.size()) {
+      require_commas(fields[0]);
       refuse(std::to_string(fields.size()) + " fields", std::to_string(order_.size()) + " as in the header");
     }
     std::array<double, kColumns.size()> v{};

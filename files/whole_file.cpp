@@ -69,6 +69,13 @@ std::filesystem::path replaceable(const std::filesystem::path& file) {
   refuse(file, std::string("it is ") + kind_of(type) + ", expected a file or a new name");
 }
 
+void require_writable(const std::filesystem::path& file) {
+  const WholeFile whole(file);
+  const int descriptor = open(whole.draft().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) refuse(file, std::strerror(errno));
+  close(descriptor);
+}
+
 WholeFile::WholeFile(const std::filesystem::path& file)
     : file_(file), target_(replaceable(file)), draft_(target_) {
   // the process id keeps two writers of one file from sharing a draft

@@ -11,6 +11,10 @@ namespace omentum::files {
 /// socket.
 std::filesystem::path replaceable(const std::filesystem::path& file);
 
+/// Throws as write_whole() would where that can be told beforehand: what is there is no regular file, or
+/// beside it no draft can be made. Leaves nothing. For who works long before it writes.
+void require_writable(const std::filesystem::path& file);
+
 /// A draft beside `file`, which this process writes and then moves to its place; destroyed before, it is
 /// removed. One thread.
 class WholeFile {

@@ -43,7 +43,6 @@ constexpr Signature kSignatures[] = {
     {"ply\r", "a PLY surface"},
     {"OFF\n", "an OFF surface"},
     {"OFF\r", "an OFF surface"},
-    {"MeshVersionFormatted", "a Medit mesh"},
     {"(0 \"", "a Fluent mesh"},
     {"(1 \"", "a Fluent mesh"},
     {"(2 3)", "a Fluent mesh"},
@@ -91,6 +90,8 @@ std::string_view first_line(std::string_view text, std::string_view comment) {
 }
 
 std::string foreign_text(std::string_view head) {
+  if (without_blanks(first_line(head, "#")).starts_with("MeshVersionFormatted"))
+    return "a MEDIT mesh (gmsh FILE -save -o NAME.msh converts it)";
   for (const char* keyword : {"v ", "vn ", "o ", "g ", "mtllib "}) {
     if (first_line(head, "#").starts_with(keyword)) return "an OBJ surface";
   }
@@ -133,6 +134,15 @@ std::string foreign_kind(std::string_view head, std::uintmax_t file_size) {
   const std::string root = root_element(text);
   if (root.empty()) return {};  // behind a long comment, perhaps
   return root == "html" || root == "HTML" ? "a web page" : "XML of another kind (<" + root + ">)";
+}
+
+std::string foreign_separator(std::string_view field) {
+  constexpr std::pair<char, const char*> kOthers[] = {
+      {';', "';'"}, {'\t', "tabs"}, {'|', "'|'"}, {' ', "blanks"}};
+  for (const auto& [other, words] : kOthers) {
+    if (field.find(other) != std::string_view::npos) return words;
+  }
+  return {};
 }
 
 std::string foreign_kind(const std::filesystem::path& file) {

@@ -26,4 +26,8 @@ std::string foreign_kind(std::string_view head, std::uintmax_t file_size);
 /// The same of a file; empty where it cannot be read.
 std::string foreign_kind(const std::filesystem::path& file);
 
+/// In words what separates the fields of a table where a comma should: `field` is what stands before the
+/// first comma of a line. Empty where it is one field.
+std::string foreign_separator(std::string_view field);
+
 }  // namespace omentum::geometry

@@ -4,6 +4,7 @@
 #include "geometry/mesh_formats.h"
 
 #include <unordered_map>
+#include <unordered_set>
 
 namespace omentum::geometry {
 namespace {
@@ -50,6 +51,7 @@ class GmshReader {
   double version_ = 1.0;
   bool binary_ = false;
   std::unordered_map<std::int64_t, std::int32_t> index_of_number_;
+  std::unordered_set<std::int64_t> tetrahedron_numbers_;
 };
 
 RawMesh GmshReader::read() {
@@ -169,6 +171,9 @@ void GmshReader::read_element_nodes(std::int64_t element, std::int64_t type) {
     ++mesh_.others[static_cast<std::size_t>(kind)];
     return;
   }
+  // other elements have no number outside of their file
+  if (!tetrahedron_numbers_.insert(element).second)
+    in_.fail("tetrahedron number " + std::to_string(element) + " twice", "each once");
   mesh_.tetrahedra.push_back(tetrahedron);
   mesh_.tetrahedron_numbers.push_back(element);
   if (static_cast<std::size_t>(count) > kCorners) ++mesh_.curved;

@@ -173,9 +173,9 @@ void Checker::merge_twins() {
   refuse_tetrahedra(collapsed, "with nodes that are no farther apart than what is merged");
   for (std::size_t n = 0; n < first.size(); ++n) {
     const auto node = static_cast<std::int32_t>(n);
-    if (first[n] != node) result_.merged.push_back({node, first[n]});
+    if (first[n] != node) result_.mesh.merged.push_back({node, first[n]});
   }
-  warn(result_.merged.size(), "node was merged into another one at its place",
+  warn(result_.mesh.merged.size(), "node was merged into another one at its place",
        "nodes were merged into others at their places");
   stop_if_refused();
 }
@@ -253,7 +253,7 @@ void Checker::drop_unused_nodes() {
   const auto node = [&](std::int32_t n) { return NodeId(compact[static_cast<std::size_t>(n)]); };
   for (const auto& v : tetrahedra_)
     mesh.tetrahedra.push_back({node(v[0]), node(v[1]), node(v[2]), node(v[3])});
-  warn(positions_.size() - mesh.positions.size() - result_.merged.size(),
+  warn(positions_.size() - mesh.positions.size() - mesh.merged.size(),
        "node belongs to no tetrahedron and is dropped", "nodes belong to no tetrahedron and are dropped");
 }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 
 namespace omentum::geometry {
@@ -16,20 +18,26 @@ std::string small(std::string text) {
 }
 
 // What the contents say goes before what the name says; a name alone says what was meant.
-RawMesh read_by_kind(const std::filesystem::path& file) {
-  const std::string extension = small(file.extension().string());
-  const bool known = extension == ".msh" || extension == ".vtk" || extension == ".vtu";
-  if (extension == ".node" || extension == ".ele") return read_tetgen(file);
-  if (!known) {
-    throw InputError(file.string() + ": found the extension '" + file.extension().string() +
-                     "', expected .msh, .vtk, .vtu, .node or .ele");
-  }
+MeshKind kind_of(const std::filesystem::path& file) {
+  if (const auto found = mesh_kind(file_head(file))) return *found;
   if (const std::string found = foreign_kind(file); !found.empty())
     throw InputError(file.string() + ": found " + found + ", expected a mesh of Gmsh or VTK");
-  const MeshKind meant = extension == ".msh"   ? MeshKind::kGmsh
-                         : extension == ".vtk" ? MeshKind::kVtkLegacy
-                                               : MeshKind::kVtkXml;
-  switch (mesh_kind(file_head(file)).value_or(meant)) {
+  const std::string extension = small(file.extension().string());
+  if (extension == ".msh") return MeshKind::kGmsh;
+  if (extension == ".vtk") return MeshKind::kVtkLegacy;
+  if (extension == ".vtu") return MeshKind::kVtkXml;
+  if (!std::filesystem::exists(file))
+    throw InputError(file.string() + ": no such file; expected a mesh file");
+  const std::string found =
+      extension.empty() ? "no extension" : "the extension '" + file.extension().string() + "'";
+  throw InputError(file.string() + ": found " + found +
+                   " and contents of no known kind, expected .msh, .vtk, .vtu, .node or .ele");
+}
+
+RawMesh read_by_kind(const std::filesystem::path& file) {
+  const std::string extension = small(file.extension().string());
+  if (extension == ".node" || extension == ".ele") return read_tetgen(file);
+  switch (kind_of(file)) {
     case MeshKind::kGmsh:
       return read_gmsh(file);
     case MeshKind::kVtkLegacy:
@@ -70,7 +78,7 @@ void write_mesh(const TetraMesh& mesh, const std::filesystem::path& file) {
   }
   print("$EndElements\n%s", "");
   out.close();
-  if (!out) throw InputError(file.string() + ": cannot be written");
+  if (!out) throw InputError(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace omentum::geometry

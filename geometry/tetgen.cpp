@@ -5,6 +5,7 @@
 
 #include <cctype>
 #include <limits>
+#include <unordered_set>
 
 namespace omentum::geometry {
 namespace {
@@ -51,9 +52,12 @@ void read_tetrahedra(FileCursor& in, std::int64_t first, RawMesh& mesh) {
   if (nodes != 4 && nodes != 10) in.fail(std::to_string(nodes) + " nodes a tetrahedron", "4 or 10");
   if (nodes == 10) mesh.curved = count;
   in.rest_of_line();
+  std::unordered_set<std::int64_t> own_numbers;
   for (std::size_t t = 0; t < count; ++t) {
     skip_comments(in);
     const std::int64_t own_number = in.integer("a tetrahedron's number");
+    if (!own_numbers.insert(own_number).second)
+      in.fail("tetrahedron number " + std::to_string(own_number) + " twice", "each once");
     std::array<std::int32_t, 4> tetrahedron{};
     for (std::int32_t& node : tetrahedron) {
       const std::int64_t number = in.integer("a node of a tetrahedron");

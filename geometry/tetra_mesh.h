@@ -27,6 +27,11 @@ struct RawMesh {
   std::vector<std::int64_t> tetrahedron_numbers{};      // the file's own, [tetrahedra]; empty: from 0
 };
 
+/// A node of the file whose place another one takes; positions in the file, from 0.
+struct MergedNode {
+  std::int32_t dropped, kept;
+};
+
 /// A valid mesh: every node used, every tetrahedron positively oriented, no duplicate or overlapping
 /// element, connected through faces, boundary closed and manifold. Positions in metres.
 struct TetraMesh {
@@ -36,6 +41,11 @@ struct TetraMesh {
   std::int32_t file_node_count = 0;               // nodes in the file, unused ones included
   std::vector<std::int64_t> node_numbers;         // [file_node_count], what the file calls its nodes
   std::vector<std::int64_t> tetrahedron_numbers;  // [T], and its tetrahedra
+  std::vector<MergedNode> merged;                 // by `dropped`, ascending; on demand only
+
+  /// The node of this mesh that each of the file's is, [file_node_count]: of a merged one, that which took
+  /// its place; invalid where no tetrahedron uses it.
+  std::vector<NodeId> nodes_of_file() const;
 
   /// What the nodes of the file are called, by position in it.
   FileNumbers names_of_nodes(Numbering numbering) const {
@@ -49,15 +59,9 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A node of the file whose place another one takes; positions in the file, from 0.
-struct MergedNode {
-  std::int32_t dropped, kept;
-};
-
 struct CheckedMesh {
   TetraMesh mesh;
   std::vector<std::string> warnings;  // e.g. "sofa.msh: 12 tetrahedra were listed in negative order"
-  std::vector<MergedNode> merged;     // by `dropped`, ascending; nodes that were merged on demand
 };
 
 /// Reads by contents, where they begin as one of these does, else by extension (capitals or not): .msh (Gmsh

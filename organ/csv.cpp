@@ -29,15 +29,30 @@ std::optional<T> parse_whole(const std::string& field) {
   return value;
 }
 
-// What some programs put around names.
+// What some programs put around names, or around all.
 std::string unquoted(const std::string& field) {
   const bool quoted = field.size() > 1 && field.front() == '"' && field.back() == '"';
   return quoted ? field.substr(1, field.size() - 2) : field;
 }
 
+// The next comma, or the end of the line; what is in quotes is one.
+std::size_t end_of_field(const std::string& line, std::size_t begin) {
+  bool quoted = false;
+  for (std::size_t i = begin; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] == ',' && !quoted) return i;
+  }
+  return line.size();
+}
+
+CsvLine split_line(const std::filesystem::path& file, int number, const std::string& text) {
+  CsvLine line{file.string() + ":" + std::to_string(number), split_fields(text)};
+  std::ranges::transform(line.fields, line.fields.begin(), unquoted);
+  return line;
+}
+
 // A name of a column, not a number gone wrong.
-bool is_name(const std::string& field) {
-  const std::string name = unquoted(field);
+bool is_name(const std::string& name) {
   if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) return false;
   return !parse_whole<double>(name);
 }
@@ -76,8 +91,17 @@ std::ifstream open_text(const std::filesystem::path& file) {
   return in;
 }
 
+void require_commas(const CsvLine& line, bool is_header) {
+  const std::string found = geometry::foreign_separator(line.fields[0]);
+  if (found.empty() || (is_header && found == "blanks")) return;  // "Node ID"
+  throw geometry::InputError(line.where + ": found fields separated by " + found +
+                             "; expected ',' (and '.' in numbers)");
+}
+
 void require_width(const CsvTable& table, const CsvLine& line) {
-  if (!table.header || table.header->fields.size() == line.fields.size()) return;
+  if (table.header && table.header->fields.size() == line.fields.size()) return;
+  require_commas(line, false);
+  if (!table.header) return;
   throw geometry::InputError(line.where + ": found " + std::to_string(line.fields.size()) +
                              " fields; expected " + std::to_string(table.header->fields.size()) +
                              ", as in the header");
@@ -98,7 +122,7 @@ std::vector<std::string> split_fields(const std::string& line) {
   constexpr const char* kBlanks = " \t\r";
   std::vector<std::string> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', begin), line.size());
+    const std::size_t comma = end_of_field(line, begin);
     const std::string field = line.substr(begin, comma - begin);
     const std::size_t first = field.find_first_not_of(kBlanks);
     const std::size_t last = field.find_last_not_of(kBlanks);
@@ -115,7 +139,7 @@ CsvTable read_csv(const std::filesystem::path& file) {
   bool first = true;
   for (int number = 1; std::getline(in, text); ++number) {
     if (number == 1 && text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-    CsvLine line{file.string() + ":" + std::to_string(number), split_fields(text)};
+    CsvLine line = split_line(file, number, text);
     if (line.fields[0].empty() && line.fields.size() == 1) continue;
     if (line.fields[0].starts_with('#')) {
       if (const auto said = stated_numbering(text)) table.numbering = said;
@@ -124,6 +148,7 @@ CsvTable read_csv(const std::filesystem::path& file) {
     const bool header = first && std::ranges::all_of(line.fields, is_name);
     first = false;
     if (header) {
+      require_commas(line, true);
       table.header = std::move(line);
       continue;
     }

@@ -15,7 +15,7 @@ namespace omentum::organ {
 /// A line of a CSV file that holds something.
 struct CsvLine {
   std::string where;                // "FILE:LINE", for messages
-  std::vector<std::string> fields;  // without blanks around them
+  std::vector<std::string> fields;  // without blanks and quotes around them
 };
 
 struct CsvTable {
@@ -25,9 +25,10 @@ struct CsvTable {
 };
 
 /// Reads a CSV file. Empty lines, those that begin with '#' and a byte order mark are passed over. A first
-/// line all of whose fields begin with a letter (in quotes or not), but are not nan or inf, is a header: what
+/// line all of whose fields begin with a letter, but are not nan or inf, is a header: what
 /// reads the table must find its columns in it. Throws geometry::InputError when the file cannot be read, is
-/// none (compressed, UTF-16 ...), holds no line of numbers, or has a line that is not as wide as its header.
+/// none (compressed, UTF-16 ...), holds no line of numbers, separates fields by anything but commas, or has a
+/// line that is not as wide as its header.
 CsvTable read_csv(const std::filesystem::path& file);
 
 /// The comment line, with its end, that says which numbers a table holds.
@@ -38,7 +39,7 @@ std::string numbering_comment(geometry::Numbering numbering);
 /// `expected`: in words.
 std::size_t find_column(const CsvLine& header, std::span<const char* const> names, const char* expected);
 
-/// The fields of "a, b, c".
+/// The fields of "a, b, c"; a comma in quotes is part of one.
 std::vector<std::string> split_fields(const std::string& line);
 
 /// A whole field as a finite number, or nothing.

@@ -249,6 +249,10 @@ bool Hdf5File::has_attribute(const std::string& attribute) const {
   return H5Aexists(file_, attribute.c_str()) > 0;
 }
 
+bool Hdf5File::has_dataset(const std::string& dataset) const {
+  return H5Lexists(file_, dataset.c_str(), H5P_DEFAULT) > 0;
+}
+
 std::string Hdf5File::read_text(const std::string& attribute) const {
   const Handle data(H5Aopen(file_, attribute.c_str(), H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(data), H5Tclose);

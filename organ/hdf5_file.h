@@ -57,6 +57,8 @@ class Hdf5File {
   /// A whole number from `low` to 2^31 - 1.
   std::int32_t read_count(const std::string& attribute, std::int32_t low) const;
   bool has_attribute(const std::string& attribute) const;
+  /// Or a group of that name; its own group must be there.
+  bool has_dataset(const std::string& dataset) const;
 
   void flush();
 

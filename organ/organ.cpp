@@ -67,6 +67,8 @@ Organ read_contents(const Hdf5File& hdf5, const std::filesystem::path& file) {
   organ.mesh.file_node_count = hdf5.read_count(layout::kFileNodes, 4);
   organ.mesh.node_numbers = hdf5.read<std::int64_t>(layout::kNodeNumbers, 0);
   organ.mesh.tetrahedron_numbers = hdf5.read<std::int64_t>(layout::kTetrahedronNumbers, 0);
+  if (hdf5.has_dataset(layout::kMerged))
+    organ.mesh.merged = read_as<geometry::MergedNode, std::int32_t>(hdf5, layout::kMerged);
   organ.surface.node = read_as<geometry::NodeId, std::int32_t>(hdf5, layout::kSurfaceNode);
   organ.surface.triangles = read_as<geometry::Triangle, std::int32_t>(hdf5, layout::kTriangles);
   organ.surface.tetrahedron = read_as<geometry::TetId, std::int32_t>(hdf5, layout::kBehind);
@@ -90,6 +92,7 @@ std::vector<SurfaceId> Organ::surface_of_file_node() const {
   std::vector<SurfaceId> of_file(mesh.file_node_count);
   for (std::size_t s = 0; s < surface.node.size(); ++s)
     of_file[mesh.file_node[surface.node[s]]] = SurfaceId(s);
+  for (const auto& [dropped, kept] : mesh.merged) of_file[dropped] = of_file[kept];
   return of_file;
 }
 

@@ -30,7 +30,8 @@ struct Organ {
   Storage storage = Storage::kFloat;  // of the tensors in the file; in memory they are float
 
   std::vector<SurfaceId> surface_of_file_node()
-      const;  // [file_node_count], by position in the file; invalid where none
+      const;  // [file_node_count], by position in the file; invalid where none;
+              // of a merged node, that which took its place
 };
 
 enum class Load { kMeshOnly, kWithTensors };

@@ -25,6 +25,7 @@ class Checker {
   void run() const {
     check_sizes();
     check_mesh();
+    check_merged();
     check_surface_nodes();
     check_triangles();
     check_closed();
@@ -34,6 +35,7 @@ class Checker {
  private:
   void check_sizes() const;
   void check_mesh() const;
+  void check_merged() const;
   void check_surface_nodes() const;
   void check_triangles() const;
   void check_closed() const;
@@ -95,6 +97,18 @@ void Checker::check_mesh() const {
             "names a node that is not there");
     require(geometry::signed_volume(at(v[0]), at(v[1]), at(v[2]), at(v[3])) > 0, layout::kTetrahedra, t,
             "has no positive volume");
+  }
+}
+
+// What took a node's place is a node of the mesh; what was dropped is none.
+void Checker::check_merged() const {
+  const auto used = [this](std::int32_t node) { return std::ranges::binary_search(mesh_.file_node, node); };
+  const auto count = static_cast<std::size_t>(mesh_.file_node_count);
+  for (std::size_t i = 0; i < mesh_.merged.size(); ++i) {
+    const auto& [dropped, kept] = mesh_.merged[i];
+    require(in_range(dropped, count) && !used(dropped) && used(kept) &&
+                (i == 0 || dropped > mesh_.merged[i - 1].dropped),
+            layout::kMerged, i, "names a node that is not there, or in use, or not above the one before");
   }
 }
 

@@ -69,6 +69,8 @@ std::string organ_hash(const Organ& organ) {
   sha.add(organ.material.poisson);
   sha.add(organ.material.density_kg_m3);
   sha.add_list(organ.fixed);
+  // files of organs without any are older than this list
+  if (!organ.mesh.merged.empty()) sha.add_list(organ.mesh.merged);
   return sha.hexadecimal();
 }
 

@@ -43,6 +43,8 @@ void write_contents(Hdf5File& hdf5, const Organ& organ) {
   hdf5.write(layout::kNodeNumbers, numbers<std::int64_t>(mesh.node_numbers), {mesh.node_numbers.size()});
   hdf5.write(layout::kTetrahedronNumbers, numbers<std::int64_t>(mesh.tetrahedron_numbers),
              {mesh.tetrahedron_numbers.size()});
+  if (!mesh.merged.empty())
+    hdf5.write(layout::kMerged, numbers<std::int32_t>(mesh.merged), {mesh.merged.size(), 2});
   hdf5.write(layout::kSurfaceNode, numbers<std::int32_t>(surface.node), {surface.node.size()});
   hdf5.write(layout::kTriangles, numbers<std::int32_t>(surface.triangles), {surface.triangles.size(), 3});
   hdf5.write(layout::kBehind, numbers<std::int32_t>(surface.tetrahedron), {surface.tetrahedron.size()});

@@ -84,7 +84,6 @@ Match box_match(const Spec& spec) {
 // What SPECs are about.
 struct SupportedMesh {
   const TetraMesh& mesh;
-  std::span<const geometry::MergedNode> merged;
   geometry::Numbering numbering;
 };
 
@@ -103,7 +102,7 @@ std::vector<bool> listed_nodes(const Spec& spec, const SupportedMesh& supported)
     }
     listed[nodes.position(line)] = true;
   }
-  for (const auto& [dropped, kept] : supported.merged) {
+  for (const auto& [dropped, kept] : supported.mesh.merged) {
     if (listed[dropped]) listed[kept] = true;
   }
   return listed;
@@ -148,11 +147,9 @@ void add_supports(const Spec& spec, const SupportedMesh& supported, physics::Fix
 }  // namespace
 
 physics::FixedComponents parse_supports(std::span<const std::string> specs, const TetraMesh& mesh,
-                                        std::span<const geometry::MergedNode> merged,
                                         geometry::Numbering numbering) {
   physics::FixedComponents fixed(mesh.positions.size(), 0);
-  for (const std::string& spec : specs)
-    add_supports(split_components(spec), {mesh, merged, numbering}, fixed);
+  for (const std::string& spec : specs) add_supports(split_components(spec), {mesh, numbering}, fixed);
   return fixed;
 }
 

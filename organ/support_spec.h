@@ -21,7 +21,6 @@ namespace omentum::organ {
 /// the mesh file does not have, several columns without a header, and one that matches no node (with the
 /// mesh's extent).
 physics::FixedComponents parse_supports(std::span<const std::string> specs, const geometry::TetraMesh& mesh,
-                                        std::span<const geometry::MergedNode> merged = {},
                                         geometry::Numbering numbering = geometry::Numbering::kFile);
 
 }  // namespace omentum::organ

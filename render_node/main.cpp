@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
       "render_node", "Shows the scene's organs, instruments and forces in a window or as PNG pictures.");
   render::RenderOptions options;
   runtime::add_node_options(line, options.node);
+  line.needs(render::gl::kRoomToDraw);
   line.flag("--headless", options.headless, "draw off-screen even where there is a display");
   line.option(
           "--size", [&](const std::string& text) { return parse_size(text, options.size); },

@@ -1,11 +1,14 @@
 #include "runtime/command_line.h"
 
+#include "files/whole_file.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 
 namespace omentum::runtime {
@@ -52,6 +55,17 @@ Option& Option::one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words));
   return *this;
 }
+Option& Option::writes_file() {
+  option_->check([](const std::string& file) -> std::string {
+    try {
+      files::require_writable(file);
+      return {};
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+  });
+  return *this;
+}
 Option& Option::show_default() {
   option_->capture_default_str();
   return *this;
@@ -90,10 +104,18 @@ Option CommandLine::flag(const std::string& name, bool& value, const std::string
   return Option(app_->add_flag(name, value, description));
 }
 
+void CommandLine::require_room() const {
+  if (has_room(room_)) return;
+  throw std::runtime_error("not enough memory or processes: it needs " + std::to_string(room_.threads) +
+                           " threads and " + std::to_string(room_.bytes >> 20) +
+                           " MiB of addresses (see ulimit -v, -u, and the limits of a container)");
+}
+
 int CommandLine::run(int argc, char** argv, const std::function<void()>& program) {
   const std::string name = std::filesystem::path(argc > 0 ? argv[0] : app_->get_name()).filename().string();
   try {
     app_->parse(argc, argv);
+    require_room();
     program();
     return 0;
   } catch (const CLI::ParseError& e) {

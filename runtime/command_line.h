@@ -1,6 +1,8 @@
 // The command line of a program.
 #pragma once
 
+#include "runtime/room.h"
+
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -29,6 +31,7 @@ class CommandLine {
     Option& between(double low, double high);
     Option& not_negative();
     Option& one_of(const std::vector<std::string>& words);
+    Option& writes_file();   // refused at the start where it could not be written
     Option& show_default();  // the value that the variable has by now
 
    private:
@@ -50,12 +53,18 @@ class CommandLine {
   Option option(const std::string& name, std::vector<std::string>& values, const std::string& description);
   Option flag(const std::string& name, bool& value, const std::string& description);
 
+  /// Refuses to start, by run(), where the system does not give `room`: of several calls the last one's.
+  void needs(const Room& room) { room_ = room; }
+
   /// Parses, calls `program`, and turns what happens into an exit code: 0 after program() returns, and for
   /// --help; 2 with one line "NAME: what and where" on stderr for a wrong argument or any std::exception.
   int run(int argc, char** argv, const std::function<void()>& program);
 
  private:
+  void require_room() const;
+
   std::unique_ptr<CLI::App> app_;
+  Room room_;
 };
 
 }  // namespace omentum::runtime

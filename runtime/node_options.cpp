@@ -3,6 +3,7 @@
 namespace omentum::runtime {
 
 void add_node_options(CommandLine& line, NodeOptions& options) {
+  line.needs(kRoomForDds);
   line.option("--scene", options.scene, "scene file (TOML)").required().type_name("FILE");
   line.option("--organ", options.organ, "organ file instead of the scene's").type_name("FILE");
   line.option("--dds", options.dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
@@ -12,7 +13,8 @@ void add_node_options(CommandLine& line, NodeOptions& options) {
       .show_default();
   line.option("--secure", options.keystore, "DDS Security key store").type_name("KEYSTORE");
   line.option("--report", options.report, "write this node's numbers here at the end (JSON)")
-      .type_name("FILE");
+      .type_name("FILE")
+      .writes_file();
   line.option("--log", options.log, "write every tick here (CSV)").type_name("FILE");
 }
 

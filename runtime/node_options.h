@@ -19,7 +19,7 @@ struct NodeOptions {
   std::filesystem::path log;         // --log FILE: loop samples as CSV
 };
 
-/// Adds the shared options to `line`.
+/// Adds the shared options, and the room that a node needs, to `line`.
 void add_node_options(CommandLine& line, NodeOptions& options);
 
 }  // namespace omentum::runtime

@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
   runtime::CommandLine line("omentum_domain", "Claims a DDS domain on the network for a session.");
   std::string dds = "cyclone", profile = "lan", keystore;
   int domain = 0;
+  line.needs(runtime::kRoomForDds);
   line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
   line.option("--domain", domain, "DDS domain").between(0, 230).show_default();
   line.option("--profile", profile, "loopback (one machine) or lan")

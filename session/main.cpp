@@ -133,6 +133,7 @@ int main(int argc, char** argv) {
   for (const auto& [name, number] : commands) names.push_back(name);
   std::string command, dds = "fast", profile = "loopback", keystore;
   int domain = 0, nodes = 0;
+  line.needs(runtime::kRoomForDds);
   line.option("command", command, "start, pause, toggle-pause, reset or clear-fault")
       .required()
       .one_of(names);

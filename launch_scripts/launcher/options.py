@@ -48,7 +48,9 @@ def build_parser():
     parser = OneLineParser(
         prog="launch_scripts/run",
         description="Starts a session: haptic_node, deform_node, render_node and a simulated hand on this machine. "
-        "In a terminal: p pauses, r resets, c clears a latched fault, q ends.")
+        "In a terminal: p pauses, r resets, c clears a latched fault, q ends.",
+        epilog="Environment: OMENTUM_CACHE=FOLDER keeps the precomputed organs (default: build/cache). OMENTUM_BIN=FOLDER has "
+        "the built programs (default: build/release/bin, built when needed).")
     add = parser.add_argument
     add("scene", nargs="?", metavar="SCENE", help="scene file or name of a file in scenes/ (default: liver)")
     add("--seconds", type=float, metavar="N", help="end after N seconds (default: when told to)")

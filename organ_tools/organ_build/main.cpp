@@ -33,7 +33,7 @@ organ::Organ read_organ(const organ_tools::BuildCommand& command) {
       geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit, command.check);
   for (const std::string& warning : checked.warnings) warn(warning);
   physics::FixedComponents fixed =
-      organ::parse_supports(command.fixed, checked.mesh, checked.merged, command.check.numbering);
+      organ::parse_supports(command.fixed, checked.mesh, command.check.numbering);
   const std::string name = command.name.empty() ? command.output.stem().string() : command.name;
   organ::Organ made =
       organ::make_organ(name, std::move(checked.mesh), command.material, std::move(fixed), command.storage);

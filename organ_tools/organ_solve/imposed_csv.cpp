@@ -14,13 +14,6 @@ namespace {
 using geometry::InputError;
 using geometry::NodeId;
 
-// [file_node_count]: the mesh node of each of the file's; invalid where no tetrahedron uses it.
-std::vector<NodeId> nodes_of_file(const geometry::TetraMesh& mesh) {
-  std::vector<NodeId> node(mesh.file_node_count);
-  for (std::size_t n = 0; n < mesh.file_node.size(); ++n) node[mesh.file_node[n]] = NodeId(n);
-  return node;
-}
-
 // Where ux, uy and uz stand.
 std::array<std::size_t, 3> displacement_columns(const organ::CsvTable& table) {
   if (!table.header) return {1, 2, 3};
@@ -38,9 +31,10 @@ class ImposedReader {
   ImposedReader(const organ::CsvTable& table, const organ::Organ& organ, geometry::Numbering numbering)
       : organ_(organ),
         node_column_(table, organ.mesh, numbering),
+        names_(organ.mesh.names_of_nodes(numbering)),
         columns_(displacement_columns(table)),
         width_(table.header ? table.header->fields.size() : 4),
-        nodes_(nodes_of_file(organ.mesh)),
+        nodes_(organ.mesh.nodes_of_file()),
         limit_(largest_displacement(organ.mesh)) {}
 
   physics::ImposedDisplacement read(const organ::CsvLine& line) const {
@@ -52,7 +46,19 @@ class ImposedReader {
     return imposed;
   }
 
-  std::string node(const organ::CsvLine& line) const { return "node " + node_column_.name(line); }
+  // Twins have two names, and go one way.
+  bool is_same_of_twin(const organ::CsvLine& a, const organ::CsvLine& b) const {
+    return node_column_.position(a) != node_column_.position(b) &&
+           read(a).displacement == read(b).displacement;
+  }
+
+  std::string node(const organ::CsvLine& line) const {
+    const std::int32_t position = node_column_.position(line);
+    const NodeId n = nodes_[position];
+    std::string name = "node " + node_column_.name(line);
+    if (!n.valid() || organ_.mesh.file_node[n] == position) return name;
+    return name + " (merged into node " + std::to_string(names_.of(organ_.mesh.file_node[n])) + ")";
+  }
   [[noreturn]] static void refuse(const organ::CsvLine& line, const std::string& what) {
     throw InputError(line.where + ": " + what);
   }
@@ -81,6 +87,7 @@ class ImposedReader {
 
   const organ::Organ& organ_;
   organ::NodeColumn node_column_;
+  geometry::FileNumbers names_;
   std::array<std::size_t, 3> columns_;  // of ux, uy, uz
   std::size_t width_;
   std::vector<NodeId> nodes_;
@@ -94,14 +101,17 @@ std::vector<physics::ImposedDisplacement> read_imposed(const std::filesystem::pa
                                                        geometry::Numbering numbering) {
   const organ::CsvTable table = organ::read_csv(file);
   const ImposedReader reader(table, organ, numbering);
-  std::vector<std::string> listed_at(organ.mesh.positions.size());
+  std::vector<const organ::CsvLine*> listed(organ.mesh.positions.size());
   std::vector<physics::ImposedDisplacement> imposed;
   for (const organ::CsvLine& line : table.lines) {
-    imposed.push_back(reader.read(line));
-    std::string& before = listed_at[imposed.back().node];
-    if (!before.empty())
-      ImposedReader::refuse(line, reader.node(line) + " is listed twice, first at " + before);
-    before = line.where;
+    const physics::ImposedDisplacement next = reader.read(line);
+    const organ::CsvLine*& before = listed[next.node];
+    if (before == nullptr) {
+      before = &line;
+      imposed.push_back(next);
+    } else if (!reader.is_same_of_twin(*before, line)) {
+      ImposedReader::refuse(line, reader.node(line) + " is listed twice, first at " + before->where);
+    }
   }
   return imposed;
 }

@@ -34,13 +34,11 @@ void write(const organ::PartialFile& partial, const std::string& text) {
 void write_solution(const std::string& prefix, const organ::Organ& organ, Imposed imposed,
                     const physics::StaticSolution& solution, geometry::Numbering numbering) {
   const geometry::FileNumbers names = organ.mesh.names_of_nodes(numbering);
-  std::vector<Vec3> by_file_node(organ.mesh.file_node_count, Vec3::Zero());
-  for (std::size_t n = 0; n < solution.displacements.size(); ++n) {
-    by_file_node[organ.mesh.file_node[n]] = solution.displacements[n];
-  }
+  const std::vector<geometry::NodeId> nodes = organ.mesh.nodes_of_file();
   std::string displacements = organ::numbering_comment(numbering) + "node,ux,uy,uz\n";
-  for (std::size_t n = 0; n < by_file_node.size(); ++n) {
-    append_row(displacements, names.of(n), by_file_node[n]);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 u = nodes[i].valid() ? solution.displacements[nodes[i]] : Vec3(Vec3::Zero());
+    append_row(displacements, names.of(i), u);
   }
   std::string forces = organ::numbering_comment(numbering) + "node,fx,fy,fz\n";
   for (std::size_t i = 0; i < imposed.size(); ++i) {

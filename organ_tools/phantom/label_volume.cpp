@@ -3,6 +3,7 @@
 #include "geometry/tetra_mesh.h"
 #include "organ_tools/phantom/liver_shape.h"
 
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -75,7 +76,7 @@ void write_nifti(const LabelVolume& volume, const std::filesystem::path& file) {
   out.write(reinterpret_cast<const char*>(volume.labels.data()),
             static_cast<std::streamsize>(volume.labels.size()));
   out.close();
-  if (!out) throw geometry::InputError(file.string() + ": cannot be written");
+  if (!out) throw geometry::InputError(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace omentum::phantom

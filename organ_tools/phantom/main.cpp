@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
   std::string size = "paper";
   std::filesystem::path mesh_file, labels_file;
   line.option("--size", size, "paper (1,500-1,800 nodes) or fine (above 16,000)").one_of({"paper", "fine"});
-  line.option("-o,--output", mesh_file, "the mesh, Gmsh 2.2 (.msh)").required();
-  line.option("--labels", labels_file, "also the labelled volume, NIfTI-1 (.nii)");
+  line.option("-o,--output", mesh_file, "the mesh, Gmsh 2.2 (.msh)").required().writes_file();
+  line.option("--labels", labels_file, "also the labelled volume, NIfTI-1 (.nii)").writes_file();
   return line.run(argc, argv, [&] {
     const geometry::TetraMesh mesh =
         phantom::tetrahedralize_liver(size == "fine" ? phantom::fine_size() : phantom::paper_size());

@@ -60,6 +60,13 @@ TEST_F(TraceFile, AFileOfAnotherKindIsNamed) {
   EXPECT_THAT(message(), HasSubstr("found UTF-16 text"));
 }
 
+TEST_F(TraceFile, AnotherSeparatorIsNamed) {
+  write("t_s;px;py;pz;qw;qx;qy;qz;grip\n0;1;2;3;1;0;0;0;0\n");
+  EXPECT_THAT(message(), HasSubstr("trace.csv:1: found fields separated by ';', expected ','"));
+  write(kHeader + std::string("0\t1\t2\t3\t1\t0\t0\t0\t0\n"));
+  EXPECT_THAT(message(), HasSubstr("trace.csv:2: found fields separated by tabs, expected ','"));
+}
+
 TEST_F(TraceFile, WhatWasRecordedIsReadBack) {
   {
     TraceLog log(file);

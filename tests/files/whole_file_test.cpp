@@ -32,6 +32,7 @@ class WholeFileTest : public testing::Test {
       EXPECT_THAT(e.what(), HasSubstr(file.string()));
       EXPECT_THAT(e.what(), HasSubstr(reason));
     }
+    EXPECT_THROW(require_writable(file), std::runtime_error);
     EXPECT_EQ(files(), before);
   }
 
@@ -43,6 +44,15 @@ TEST_F(WholeFileTest, ReplacesAFileAndLeavesNoDraft) {
   write_whole(folder / "a", "new");
   EXPECT_EQ(test::read_text(folder / "a"), "new");
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WholeFileTest, WhetherAFileCanBeWrittenIsToldWithoutATrace) {
+  write_whole(folder / "a", "old");
+  require_writable(folder / "a");
+  require_writable(folder / "b");
+  EXPECT_EQ(test::read_text(folder / "a"), "old");
+  EXPECT_EQ(files(), 1u);
+  expect_refused(folder / "nowhere/a", "No such file or directory");
 }
 
 TEST_F(WholeFileTest, WhatIsNoRegularFileStaysWhatItIs) {

@@ -130,6 +130,24 @@ TEST_F(ForeignMeshes, AByteOrderMarkIsPassedOver) {
             1u);
 }
 
+TEST_F(ForeignMeshes, ContentsSpeakWhateverTheNameIs) {
+  const RawMesh box = test::make_raw_box(1, 1, 1, {1, 1, 1});
+  write_mesh(check_mesh(box, 1).mesh, folder_ / "m.msh");
+  const std::string gmsh = test::read_text(folder_ / "m.msh");
+  for (const char* name : {"liver.mesh", "liver", "liver.2", "liver.txt"})
+    EXPECT_EQ(read_mesh(put(name, gmsh)).positions, box.positions) << name;
+  for (const char* medit :
+       {" MeshVersionFormatted 2\n Dimension\n 3\n", "# made by hand\nMeshVersionFormatted 1\n"}) {
+    for (const char* name : {"liver.mesh", "liver", "liver.msh"})
+      EXPECT_THAT(refusal(put(name, medit)),
+                  AllOf(HasSubstr(std::string(name) + ": found a MEDIT mesh (gmsh"),
+                        HasSubstr("expected a mesh of")));
+  }
+  EXPECT_THAT(refusal(put("liver", "4\n0 0 0\n")),
+              HasSubstr("found no extension and contents of no known kind, expected .msh, .vtk"));
+  EXPECT_THAT(refusal(put("liver.mesh", "4\n0 0 0\n")), HasSubstr("found the extension '.mesh' and"));
+}
+
 const std::string kEightNodes =
     "$NOD\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$ENDNOD\n";
 

@@ -1,6 +1,7 @@
 #include "geometry/self_intersection.h"
 #include "geometry/tetra_mesh.h"
 #include "tests/support/meshes.h"
+#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 
@@ -264,9 +265,9 @@ TEST(CheckMesh, PartsGluedByCopyingAreCountedAndMergedOnDemand) {
     EXPECT_EQ(merged.mesh.positions, whole.positions);
     EXPECT_EQ(merged.mesh.tetrahedra, check_mesh(whole, 1).mesh.tetrahedra);
     EXPECT_EQ(merged.mesh.file_node_count, static_cast<std::int32_t>(parts.positions.size()));
-    ASSERT_EQ(merged.merged.size(), 16u);
-    EXPECT_EQ(merged.merged[0].dropped, static_cast<std::int32_t>(whole.positions.size()));
-    EXPECT_EQ(parts.positions[merged.merged[0].kept].x(), 0.04);
+    ASSERT_EQ(merged.mesh.merged.size(), 16u);
+    EXPECT_EQ(merged.mesh.merged[0].dropped, static_cast<std::int32_t>(whole.positions.size()));
+    EXPECT_EQ(parts.positions[merged.mesh.merged[0].kept].x(), 0.04);
     EXPECT_THAT(merged.warnings, testing::ElementsAre(HasSubstr("16 nodes were merged")));
   }
 }
@@ -371,8 +372,17 @@ INSTANTIATE_TEST_SUITE_P(Manifest, RealMeshes,
 TEST(BrokenRealMeshes, AreRefusedWithReasons) {
   const std::filesystem::path six = test::data_file("tet_invalid/sofa_6_tetra_bad.msh");
   if (!std::filesystem::exists(six)) GTEST_SKIP() << six << " is not here";
-  EXPECT_THAT(refusal(read_mesh(six)), AllOf(HasSubstr("sofa_6_tetra_bad.msh"), HasSubstr("no faces connect"),
-                                             HasSubstr("non-manifold")));
+  EXPECT_THAT([&] { read_mesh(six); },
+              testing::ThrowsMessage<InputError>(HasSubstr("tetrahedron number 44 twice")));
+  // the same with numbers of their own
+  std::string text = test::read_text(six);
+  char number = '1';
+  for (std::size_t at = 0; (at = text.find("\n44 4 ", at)) != std::string::npos; ++number)
+    text.replace(at, 3, {'\n', number});
+  const test::ScratchFolder folder;
+  std::ofstream(folder / "six.msh") << text;
+  EXPECT_THAT(refusal(read_mesh(folder / "six.msh")),
+              AllOf(HasSubstr("six.msh"), HasSubstr("no faces connect"), HasSubstr("non-manifold")));
 }
 
 TEST(BrokenRealMeshes, OneInvertedTetrahedronAmongNegativelyListedOnesIsNamed) {

@@ -125,12 +125,50 @@ TEST_F(MeshFiles, WrittenMeshesComeBackBitForBit) {
 }
 
 TEST_F(MeshFiles, WritingWhereNothingCanBeWrittenIsAnError) {
-  EXPECT_THROW(write_mesh(test::make_box_mesh(1, 1, 1, {1, 1, 1}), folder_ / "nowhere/m.msh"), InputError);
+  const auto reason = [](const std::filesystem::path& file) -> std::string {
+    try {
+      write_mesh(test::make_box_mesh(1, 1, 1, {1, 1, 1}), file);
+      return "written";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(reason(folder_ / "nowhere/m.msh"),
+              HasSubstr("m.msh: cannot be written: No such file or directory"));
+  EXPECT_THAT(reason("/dev/full"), HasSubstr("cannot be written: No space left on device"));
+}
+
+// Results and messages go by it.
+TEST_F(MeshFiles, ATetrahedronsNumberIsItsOwn) {
+  constexpr const char* kPoints = "5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n";
+  const std::string nodes = std::string("$Nodes\n") + kPoints + "$EndNodes\n";
+  const std::string said = "found tetrahedron number 7 twice, expected each once";
+  EXPECT_THAT(refusal(put(folder_ / "one.msh",
+                          std::string("$NOD\n") + kPoints +
+                              "$ENDNOD\n$ELM\n2\n7 4 1 1 4 1 2 3 4\n7 4 1 1 4 2 3 4 5\n$ENDELM\n")),
+              HasSubstr("one.msh:12: " + said));
+  const std::string two = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + nodes + "$Elements\n2\n";
+  EXPECT_THAT(refusal(put(folder_ / "two.msh", two + "7 4 2 1 1 1 2 3 4\n7 4 2 1 1 2 3 4 5\n$EndElements\n")),
+              HasSubstr("two.msh:15: " + said));
+  const std::string four =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n"
+      "0 0 1\n1 1 1\n$EndNodes\n$Elements\n2 2 7 7\n";
+  EXPECT_THAT(
+      refusal(put(folder_ / "four.msh", four + "3 1 4 1\n7 1 2 3 4\n3 2 4 1\n7 2 3 4 5\n$EndElements\n")),
+      HasSubstr("four.msh:23: " + said));
+  put(folder_ / "t.node", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n");
+  EXPECT_THAT(refusal(put(folder_ / "t.ele", "2 4 0\n7 1 2 3 4\n7 2 3 4 5\n")),
+              HasSubstr("t.ele:3: " + said));
+  // some writers count each kind of element from 1
+  EXPECT_EQ(read_mesh(put(folder_ / "kinds.msh", two + "7 2 2 1 1 1 2 3\n7 4 2 1 1 2 3 4 5\n$EndElements\n"))
+                .tetrahedra.size(),
+            1u);
 }
 
 TEST_F(MeshFiles, MessagesNameFileLineAndExpectation) {
   EXPECT_THAT(refusal(folder_ / "absent.msh"), AllOf(HasSubstr("absent.msh"), HasSubstr("no such file")));
-  EXPECT_THAT(refusal(folder_ / "mesh.stl"), HasSubstr("expected .msh, .vtk, .vtu, .node or .ele"));
+  EXPECT_THAT(refusal(put(folder_ / "mesh.stl", "facets\n")),
+              HasSubstr("expected .msh, .vtk, .vtu, .node or .ele"));
   EXPECT_THAT(refusal(put(folder_ / "x.msh", "$NOD\n2\n1 0 0 0\n2 0 zero 0\n$ENDNOD\n")),
               HasSubstr("x.msh:4: found 'zero', expected y of a node"));
   EXPECT_THAT(

@@ -172,5 +172,29 @@ TEST_F(OrganPhantom, WrongArgumentsEndWithTwoAndOneLine) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
+TEST_F(OrganPhantom, AFileThatCannotBeWrittenIsRefusedWithTheReasonAndNothingIsMade) {
+  const std::string mesh = folder_ / "x.msh", nowhere = folder_ / "nowhere/x";
+  for (const auto& [arguments, reason] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"-o", nowhere}, nowhere + ": cannot be written: No such file or directory"},
+           {{"-o", mesh, "--labels", nowhere}, nowhere + ": cannot be written: No such file or directory"},
+           {{"-o", folder_.path()}, "it is a folder, expected a file or a new name"},
+           {{"-o", "/dev/null"}, "it is a device"}}) {
+    test::Process process("organ_phantom", arguments);
+    EXPECT_EQ(process.wait(), 2);
+    EXPECT_THAT(process.messages(), testing::HasSubstr(reason));
+    EXPECT_EQ(process.output(), "");
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+  }
+}
+
+TEST(LabelVolume, AFullDiskIsTheReason) {
+  try {
+    write_nifti(sample_liver(2e-2), "/dev/full");
+    ADD_FAILURE() << "no exception";
+  } catch (const geometry::InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("/dev/full: cannot be written: No space left on device"));
+  }
+}
+
 }  // namespace
 }  // namespace omentum::phantom

@@ -18,8 +18,9 @@ std::string gmsh_1(const RawMesh& m) {
              "\n");  // numbers with gaps
   }
   out.text("$ENDNOD\n$ELM\n", m.tetrahedra.size() + 1, "\n1 2 1 1 3 7 17 27\n");  // a triangle, to be ignored
+  std::size_t number = 5;
   for (const auto& t : m.tetrahedra) {
-    out.text("5 4 1 1 4", 10 * t[0] + 7, 10 * t[1] + 7, 10 * t[2] + 7, 10 * t[3] + 7, "\n");
+    out.text(number++, "4 1 1 4", 10 * t[0] + 7, 10 * t[1] + 7, 10 * t[2] + 7, 10 * t[3] + 7, "\n");
   }
   return out.text("$ENDELM\n").content;
 }
@@ -33,7 +34,9 @@ std::string gmsh_2_text(const RawMesh& m) {
     out.text(i + 1, m.positions[i].x(), m.positions[i].y(), m.positions[i].z(), "\r\n");
   }
   out.text("$EndNodes\n$Elements\n", m.tetrahedra.size() + 2, "\n1 15 2 0 1 1\n2 1 3 0 1 5 1 2\n");
-  for (const auto& t : m.tetrahedra) out.text("3 4 2 0 1", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1, "\n");
+  std::size_t number = 3;
+  for (const auto& t : m.tetrahedra)
+    out.text(number++, "4 2 0 1", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1, "\n");
   return out.text("$EndElements\n").content;
 }
 
@@ -51,8 +54,9 @@ std::string gmsh_2_binary(const RawMesh& m) {
   out.text("\n$EndNodes\n$Elements\n", m.tetrahedra.size() + 1, "\n");
   for (const std::int32_t v : {2, 1, 2, 1, 0, 1, 1, 2, 3}) out.value(v);  // a group of one triangle
   for (const std::int32_t v : {4, static_cast<std::int32_t>(m.tetrahedra.size()), 2}) out.value(v);
+  std::int32_t number = 9;
   for (const auto& t : m.tetrahedra) {
-    for (const std::int32_t v : {9, 0, 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1}) out.value(v);
+    for (const std::int32_t v : {number++, 0, 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1}) out.value(v);
   }
   return out.text("\n$EndElements\n").content;
 }
@@ -84,8 +88,9 @@ std::string gmsh_4_0(const RawMesh& m, bool binary) {
   size(2), size(m.tetrahedra.size() + 1);
   integer(1), integer(2), integer(2), size(1), integer(1), integer(1), integer(2), integer(3);
   integer(1), integer(3), integer(4), size(m.tetrahedra.size());
+  std::size_t number = 2;
   for (const auto& t : m.tetrahedra) {
-    integer(2);
+    integer(number++);
     for (const std::int32_t v : t) integer(static_cast<std::size_t>(v) + 1);
   }
   return out.text("\n$EndElements\n").content;
@@ -117,8 +122,9 @@ std::string gmsh_4_1(const RawMesh& m, bool binary) {
   sizes({2, m.tetrahedra.size() + 1, 1, m.tetrahedra.size() + 1});
   integer(2), integer(1), integer(2), sizes({1, 1, 1, 2, 3});
   integer(3), integer(1), integer(4), size(m.tetrahedra.size());
+  std::size_t number = 77;
   for (const auto& t : m.tetrahedra) {
-    size(77);
+    size(number++);
     for (const std::int32_t v : t) size(static_cast<std::size_t>(v) + 1);
   }
   return out.text("\n$EndElements\n").content;

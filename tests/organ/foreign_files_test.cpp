@@ -362,7 +362,7 @@ TEST_F(ForeignFilesTest, OtherFormatsAreNamed) {
       {"<?xml version=\"1.0\"?>\n<dolfin/>\n", "<dolfin>"},
       {"<!DOCTYPE html>\n<html><body>404</body></html>", "web page"},
       {"*Heading\n*Node\n1, 0, 0, 0\n", "Abaqus"},
-      {"MeshVersionFormatted 2\n", "Medit"},
+      {" MeshVersionFormatted 2\n", "MEDIT mesh (gmsh FILE -save -o NAME.msh converts it)"},
       {"(0 \"GAMBIT to Fluent File\")\n(2 3)\n", "Fluent"},
       {"version https://git-lfs.github.com/spec/v1\n", "git lfs"},
       {"\xff\xfe"s + "1\0"s, "UTF-16"}};

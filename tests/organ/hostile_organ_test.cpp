@@ -87,6 +87,8 @@ class HostileOrganTest : public testing::Test {
       put<std::int32_t>(hdf5, layout::kFileNode, organ.mesh.file_node, H5T_NATIVE_INT32);
       put<std::int64_t>(hdf5, layout::kNodeNumbers, organ.mesh.node_numbers, H5T_NATIVE_INT64);
       put<std::int64_t>(hdf5, layout::kTetrahedronNumbers, organ.mesh.tetrahedron_numbers, H5T_NATIVE_INT64);
+      if (!organ.mesh.merged.empty())
+        put<std::int32_t>(hdf5, layout::kMerged, organ.mesh.merged, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kSurfaceNode, organ.surface.node, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kTriangles, organ.surface.triangles, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kBehind, organ.surface.tetrahedron, H5T_NATIVE_INT32);
@@ -298,6 +300,17 @@ TEST_F(HostileOrganTest, WhatIsWrongIsNamed) {
   expect([](Organ& o) { o.mesh.file_node[1] = -3; }, "row 1 of 'mesh/file_node'");
   expect([](Organ& o) { o.mesh.node_numbers.pop_back(); }, "'mesh/node_numbers' has 26 rows; expected 27");
   expect([](Organ& o) { o.mesh.tetrahedron_numbers.pop_back(); }, "'mesh/tetrahedron_numbers'");
+  expect([](Organ& o) { o.mesh.merged = {{40, 3}}; }, "row 0 of 'mesh/merged'");
+  expect([](Organ& o) { o.mesh.merged = {{-1, 3}}; }, "row 0 of 'mesh/merged'");
+  expect([](Organ& o) { o.mesh.merged = {{26, 3}}; }, "or in use");
+  for (const std::int32_t kept : {27, 1000, -2}) {
+    const auto add_node = [kept](Organ& o) {
+      o.mesh.node_numbers.push_back(27);
+      o.mesh.file_node_count = 28;
+      o.mesh.merged = {{27, 3}, {27, kept}};
+    };
+    expect(add_node, "row 1 of 'mesh/merged'");
+  }
   expect([](Organ& o) { o.mesh.positions[9].y() = NAN; }, "row 9 of 'mesh/positions'");
   expect([](Organ& o) { o.fixed.back() = 8; }, "row 26 of 'supports/fixed'");
   expect([](Organ& o) { o.fixed.pop_back(); }, "'supports/fixed' has 26 rows; expected 27");

@@ -137,6 +137,22 @@ TEST_F(OrganFileTest, SurfaceOfFileNodeInvertsNumbers) {
   EXPECT_EQ(found, organ.surface.node_count());
 }
 
+TEST_F(OrganFileTest, MergedNodesAreKeptWithThoseThatTookTheirPlaces) {
+  Organ made = small_organ();
+  const std::int32_t twin = made.mesh.file_node_count++;
+  made.mesh.node_numbers.push_back(1000);
+  const std::int32_t kept = made.mesh.file_node[made.surface.node[4]];
+  made.mesh.merged = {{twin, kept}};
+  EXPECT_NE(organ_hash(made), made.hash);
+  made.hash = organ_hash(made);
+  const Organ found = build(made);
+  ASSERT_EQ(found.mesh.merged.size(), 1U);
+  EXPECT_EQ(found.mesh.merged[0].dropped, twin);
+  EXPECT_EQ(found.mesh.merged[0].kept, kept);
+  EXPECT_EQ(found.mesh.nodes_of_file()[twin], found.surface.node[4]);
+  EXPECT_EQ(found.surface_of_file_node()[twin], SurfaceId(4));
+}
+
 TEST_F(OrganFileTest, HashChangesWithEverythingTheTensorsDependOn) {
   const std::string hash = small_organ().hash;
   EXPECT_EQ(small_organ().hash, hash);

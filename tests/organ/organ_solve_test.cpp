@@ -27,6 +27,32 @@ class OrganSolveTest : public OrganProgramsTest {
     ASSERT_EQ(program.wait(), 0) << program.messages();
   }
 
+  // The box, one of whose tetrahedra has a copy of `node`, 80, in its place.
+  std::filesystem::path write_cracked(std::int32_t node) const {
+    geometry::RawMesh raw = test::make_raw_box(4, 3, 3, {0.08, 0.06, 0.06});
+    const auto user = std::ranges::find_if(
+        raw.tetrahedra, [&](const auto& t) { return std::ranges::find(t, node) != t.end(); });
+    std::ranges::replace(*user, node, static_cast<std::int32_t>(raw.positions.size()));
+    raw.positions.push_back(raw.positions[node]);
+    geometry::TetraMesh cracked;
+    cracked.positions = raw.positions;
+    for (const auto& t : raw.tetrahedra)
+      cracked.tetrahedra.push_back(
+          {geometry::NodeId(t[0]), geometry::NodeId(t[1]), geometry::NodeId(t[2]), geometry::NodeId(t[3])});
+    geometry::write_mesh(cracked, folder / "cracked.msh");
+    return folder / "cracked.msh";
+  }
+
+  std::vector<std::string> merging(const std::filesystem::path& file) const {
+    auto arguments = build_arguments(file);
+    arguments.insert(arguments.end(), {"--merge", "1e-6"});
+    return arguments;
+  }
+
+  static std::vector<double> without_node(const std::vector<double>& row) {
+    return {row.begin() + 1, row.end()};
+  }
+
   // What a warning says of the largest force and displacement; zeros without one.
   static std::pair<double, double> said(const std::string& messages) {
     std::smatch found;
@@ -128,28 +154,38 @@ TEST_F(OrganSolveTest, DamagedTensorsAreRefused) {
 }
 
 TEST_F(OrganSolveTest, APartGluedByCopyingIsOneOrganAfterMerging) {
-  geometry::RawMesh raw = test::make_raw_box(4, 3, 3, {0.08, 0.06, 0.06});
   constexpr std::int32_t kInner = 1 + 5 * (1 + 4 * 1);
-  raw.positions.push_back(raw.positions[kInner]);
-  const auto user = std::ranges::find_if(
-      raw.tetrahedra, [&](const auto& t) { return std::ranges::find(t, kInner) != t.end(); });
-  std::ranges::replace(*user, kInner, static_cast<std::int32_t>(raw.positions.size() - 1));
-  geometry::TetraMesh cracked;
-  cracked.positions = raw.positions;
-  for (const auto& t : raw.tetrahedra)
-    cracked.tetrahedra.push_back(
-        {geometry::NodeId(t[0]), geometry::NodeId(t[1]), geometry::NodeId(t[2]), geometry::NodeId(t[3])});
-  const auto file = folder / "cracked.msh";
-  geometry::write_mesh(cracked, file);
+  const auto file = write_cracked(kInner);
   expect_refused("organ_build", build_arguments(file), "1 pair of nodes at the same place");
-  auto arguments = build_arguments(file);
-  arguments.insert(arguments.end(), {"--merge", "1e-6"});
-  build_with(arguments);
+  build_with(merging(file));
   const Solved merged = solve("79,0.001,0,0\n", "direct");
   build();
   const Solved whole = solve("79,0.001,0,0\n", "direct");
   EXPECT_EQ(merged.u.size(), whole.u.size() + 1) << "the file's nodes keep their numbers";
   EXPECT_LE(largest_difference(merged.f, whole.f), 1e-12 * largest_entry(whole.f));
+  EXPECT_EQ(without_node(merged.u[80]), without_node(merged.u[kInner])) << "both are one node";
+}
+
+TEST_F(OrganSolveTest, AMergedNodeIsAnotherNameOfTheOneThatTookItsPlace) {
+  build_with(merging(write_cracked(59)));
+  for (const char* model : {"tensors", "direct"}) {
+    const Solved kept = solve("59,0,0.001,0\n", model);
+    for (const char* named : {"80,0,0.001,0\n", "80,0,0.001,0\n59,0,1e-3,0\n"}) {
+      SCOPED_TRACE(std::string(model) + " " + named);
+      const Solved dropped = solve(named, model);
+      EXPECT_EQ(dropped.u, kept.u);
+      EXPECT_EQ(dropped.f, kept.f) << "the force is that of node 59, once";
+      EXPECT_EQ(without_node(dropped.u[80]), without_node(dropped.u[59]));
+    }
+  }
+}
+
+TEST_F(OrganSolveTest, AMergedNodeIsMovedOneWay) {
+  build_with(merging(write_cracked(59)));
+  expect_refused("organ_solve", solve_arguments(write("i.csv", "80,0,0.001,0\n59,0,0.002,0\n")),
+                 "i.csv:2: node 59 is listed twice, first at ");
+  expect_refused("organ_solve", solve_arguments(write("i.csv", "79,0,0,0\n59,0,0.001,0\n80,0,0.002,0\n")),
+                 "i.csv:3: node 80 (merged into node 59) is listed twice, first at ");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST_F(SupportSpecTest, NumbersAreTheFilesOwnUnlessPositionsAreAskedFor) {
   EXPECT_EQ(count(fixed, 0), 25);
   const std::vector<std::string> by_position = {csv("26\n")};
   EXPECT_THROW(parse_supports(by_position, own), geometry::InputError);
-  EXPECT_EQ(parse_supports(by_position, own, {}, geometry::Numbering::kPosition)[26], physics::kPinned);
+  EXPECT_EQ(parse_supports(by_position, own, geometry::Numbering::kPosition)[26], physics::kPinned);
 }
 
 TEST_F(SupportSpecTest, AMergedNodeHoldsTheOneThatTookItsPlace) {
@@ -87,9 +87,9 @@ TEST_F(SupportSpecTest, AMergedNodeHoldsTheOneThatTookItsPlace) {
   raw.positions.push_back(raw.positions[13]);
   for (auto& node : raw.tetrahedra[0]) node = node == 13 ? 27 : node;
   const geometry::CheckedMesh checked = geometry::check_mesh(raw, 1, {.merge_m = 1e-6});
-  ASSERT_EQ(checked.merged.size(), 1u);
+  ASSERT_EQ(checked.mesh.merged.size(), 1u);
   const std::vector<std::string> specs = {csv("27\n")};
-  const auto fixed = parse_supports(specs, checked.mesh, checked.merged);
+  const auto fixed = parse_supports(specs, checked.mesh);
   EXPECT_EQ(fixed[13], physics::kPinned);
   EXPECT_EQ(count(fixed, physics::kPinned), 1);
 }

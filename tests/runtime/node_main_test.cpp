@@ -39,6 +39,19 @@ TEST(NodeMain, AMissingSceneIsOneLineAndExitCodeTwo) {
   expect_refused({"--scene", "/nonexistent/x.toml"}, "/nonexistent/x.toml");
 }
 
+// A report that is lost at the end costs a session.
+TEST(NodeMain, AReportThatCannotBeWrittenIsRefusedAtTheStart) {
+  const test::ScratchFolder folder;
+  const auto refused = [&](const std::string& file, const std::string& reason) {
+    expect_refused({"--scene", kScene, "--report", file},
+                   "--report: " + file + ": cannot be written: " + reason);
+  };
+  refused(folder.path(), "it is a folder");
+  refused("/dev/null", "it is a device");
+  refused(folder / "nowhere/r.json", "No such file or directory");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(NodeMain, HelpListsTheSharedOptionsAndSucceeds) {
   test::Process process(kProgram, {"--help"});
   EXPECT_EQ(process.wait(), 0);

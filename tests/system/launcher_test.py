@@ -26,7 +26,7 @@ from unittest import mock
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
 from launcher.errors import Refusal  # noqa: E402
-from launcher import cache, domain, machine, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
+from launcher import cache, domain, machine, options, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
@@ -437,6 +437,11 @@ class Parts(unittest.TestCase):
         self.assertIn("warning: a.msh is 0.0065 units long: taken as metres", said)
         self.assertNotIn("warning", guess(0.18)[1])
 
+    def test_help_names_the_environment(self):
+        text = " ".join(options.build_parser().format_help().split())
+        for said in ("OMENTUM_CACHE=FOLDER", "build/cache", "OMENTUM_BIN=FOLDER", "--log"):
+            self.assertIn(said, text)
+
     def test_a_warning_of_two_programs_is_said_once(self):
         with contextlib.redirect_stdout(io.StringIO()) as said:
             organs.pass_on_warnings("organ_build: warning: the organ is 3 m long\norgan_build: 34 %\n")
@@ -450,6 +455,13 @@ class Parts(unittest.TestCase):
         self.assertEqual(self.build("plane:y>0", mesh=node), first)
         (self.folder / "liver.ELE").write_text("another")
         self.assertNotEqual(self.build("plane:y>0", mesh=node), first)
+
+    def test_organ_of_another_organ_build_is_made_again(self):
+        # whose format may be another
+        (self.folder / "organ_build").write_text("format 2")
+        first = self.build("plane:y>0")
+        (self.folder / "organ_build").write_text("format 3")
+        self.assertNotEqual(self.build("plane:y>0"), first)
 
     def test_organ_of_another_name_is_another_file_and_takes_none_away(self):
         first = self.build("plane:y>0", "liver")

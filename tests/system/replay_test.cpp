@@ -169,7 +169,7 @@ void expect_replay_agrees(const std::string& scene, milliseconds apart) {
 }
 
 TEST(ReplayTest, RecordedContactsSolvedDirectlyGiveTheRecordedForceAndSurface) {
-  expect_replay_agrees(OMENTUM_HELD_SCENE, milliseconds(50));
+  expect_replay_agrees(held_scene(), milliseconds(50));
 }
 
 // The default script on a real liver: pressing, holding and sliding are among the moments.

@@ -5,6 +5,7 @@
 
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
+#include "tests/system/session_on_trial.h"
 
 #include <gtest/gtest.h>
 
@@ -151,7 +152,7 @@ TEST(BoxTest, AForeignOrganGivesTheSceneItsName) {
 }
 
 TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
-  const runtime::Scene held = runtime::load_scene(OMENTUM_HELD_SCENE);
+  const runtime::Scene held = runtime::load_scene(held_scene());
   const ScratchFolder folder;
   const std::string fitted = folder / "scene.toml";
   Process prepare("scene_prepare",

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Core>
 
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <memory>
@@ -38,6 +39,19 @@ inline std::string prepare_scene(const std::string& scene, std::vector<std::stri
   if (launcher.wait() == 0) return folder / "scene.toml";
   ADD_FAILURE() << launcher.messages();
   return {};
+}
+
+/// The scene that most tests share: what the fixture of a whole run prepared, which says so in the
+/// environment; a test that is run by hand prepares it again, as its organ may be one of programs that are no
+/// more.
+inline const std::string& held_scene() {
+  static const std::string scene = [] {
+    const char* const prepared = std::getenv("OMENTUM_HELD_SCENE");
+    return prepared != nullptr
+               ? std::string(prepared)
+               : prepare_scene(OMENTUM_SOURCE_DIR "/tests/system/hold.toml", {}, OMENTUM_HELD_FOLDER);
+  }();
+  return scene;
 }
 
 /// Starts processes by name and keeps them until the end. Arguments beyond the shared ones come with start().

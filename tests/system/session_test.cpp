@@ -9,7 +9,6 @@
 namespace omentum::test {
 namespace {
 
-const std::string kScene = OMENTUM_HELD_SCENE;
 constexpr double kFeltN = 0.1;     // a hand that presses 10 mm into soft tissue feels more than this
 constexpr double kDentM = 0.0005;  // and moves the surface by more than this
 constexpr double kNothingN = 1e-9;
@@ -28,7 +27,7 @@ bool felt_again(Observer& observer) {
 class VendorsTest : public ::testing::TestWithParam<std::pair<std::string, Vendors>> {};
 
 TEST_P(VendorsTest, ForceIsFeltOrganMovesPictureIsMadeAndAllEndCleanly) {
-  SessionOnTrial session(kScene, GetParam().second);
+  SessionOnTrial session(held_scene(), GetParam().second);
   Observer observer(session.domain(), transport::Vendor::kCyclone);
   const std::vector<std::string> names = {"haptic_node", "deform_node", "render_node", "virtual_device"};
   session.start_all(names);
@@ -58,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Pairings, VendorsTest,
 
 class SurvivalTest : public ::testing::TestWithParam<std::string> {
  protected:
-  SessionOnTrial session_{kScene, all_on(GetParam())};
+  SessionOnTrial session_{held_scene(), all_on(GetParam())};
   Observer observer_{session_.domain(), transport::Vendor::kCyclone};
 };
 
@@ -125,12 +124,12 @@ INSTANTIATE_TEST_SUITE_P(Vendors, SurvivalTest, ::testing::Values("fast", "cyclo
                          [](const auto& test) { return test.param; });
 
 TEST(SessionTest, SecondHapticNodeForTheSameToolRefusesAndTheFirstGoesOn) {
-  SessionOnTrial session(kScene, all_on("fast"));
+  SessionOnTrial session(held_scene(), all_on("fast"));
   Observer observer(session.domain(), transport::Vendor::kFast);
   session.start_all(kHandAndOrgan);
   ASSERT_TRUE(pressed(observer));
-  Process younger("haptic_node",
-                  {"--scene", kScene, "--dds", "cyclone", "--domain", std::to_string(session.domain())});
+  Process younger("haptic_node", {"--scene", held_scene(), "--dds", "cyclone", "--domain",
+                                  std::to_string(session.domain())});
   EXPECT_EQ(younger.wait(), 2);
   const std::string messages = younger.messages();
   EXPECT_TRUE(messages.find("haptic_node: ") != std::string::npos) << messages;
@@ -139,7 +138,7 @@ TEST(SessionTest, SecondHapticNodeForTheSameToolRefusesAndTheFirstGoesOn) {
 }
 
 TEST(SessionTest, PausedTheForceIsZeroAndSaysSoAndStartGoesOn) {
-  SessionOnTrial session(kScene, all_on("cyclone"));
+  SessionOnTrial session(held_scene(), all_on("cyclone"));
   Observer observer(session.domain(), transport::Vendor::kCyclone);
   session.start_all(kHandAndOrgan);
   ASSERT_TRUE(pressed(observer));
@@ -153,7 +152,7 @@ TEST(SessionTest, PausedTheForceIsZeroAndSaysSoAndStartGoesOn) {
 }
 
 TEST(SessionTest, ResetBringsOrganToRestAndTheHandToItsStartThenItPressesAgain) {
-  SessionOnTrial session(kScene, all_on("fast"));
+  SessionOnTrial session(held_scene(), all_on("fast"));
   Observer observer(session.domain(), transport::Vendor::kFast);
   session.start_all(kHandAndOrgan);
   ASSERT_TRUE(pressed(observer));
