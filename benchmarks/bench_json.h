@@ -1,4 +1,4 @@
-// What a bench found, as a list that programs read (DESIGN 5).
+// What a bench found, as a list that programs read (docs/design.md, "Report").
 #pragma once
 
 #include <filesystem>

@@ -186,7 +186,7 @@ struct Figures {
   double pair_ns;  // median per contact node and neighbour
 };
 
-// DESIGN's goal on a liver of 1,800 nodes; on a larger one within twice the smaller one's.
+// docs/design.md, "Goals": on a liver of 1,800 nodes; on a larger one within twice the smaller one's.
 constexpr double kMedianGoal_us = 20, kP99Goal_us = 50, kLargerGoal = 2;
 
 void add(const std::string& mesh, const Figures& figures, double cold_us, bench::Results& results) {

@@ -15,7 +15,7 @@ namespace omentum::deform {
 
 namespace {
 
-constexpr double kStatusRateHz = 10;  // DESIGN 2: 1-10 Hz
+constexpr double kStatusRateHz = 10;  // docs/topics.md: 1-10 Hz
 
 // How long to listen for a scene that is served already, ns: haptic_node listens as long, so that this delays
 // no force, and the first picture by a second.

@@ -17,7 +17,7 @@ namespace omentum::deform {
 /// What deform_node's command line asks for.
 struct DeformOptions {
   runtime::NodeOptions node;
-  double rate_hz = 100;  // faster than any screen, slow beside a step (DESIGN 2 asks for 60 or more)
+  double rate_hz = 100;  // faster than any screen, slow beside a step (docs/topics.md promises 60)
 };
 
 /// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo and
@@ -31,7 +31,7 @@ class DeformLoop {
 
   /// Until loop.stop(). Throws std::runtime_error when another deform_node serves other organs.
   void run();
-  /// After run(): the node's object of report.json (DESIGN 5).
+  /// After run(): the node's object of report.json.
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log were lost, and why.
   void require_written();

@@ -8,8 +8,8 @@
 
 namespace omentum::deform {
 
-/// Cotin 1999, section 4, in force form: u = C_:A f_A (DESIGN 3). Superposing the tools' *forces* is exact
-/// for any number of tools, one of whose contacts may be a tick older than the other's (docs/decisions.md 4).
+/// Cotin 1999, section 4-2, in force form: u = C_:A f_A. Superposing the tools' *forces* is exact for any
+/// number of tools, one of whose contacts may be a tick older than the other's (docs/decisions.md 4).
 class QuasiStaticModel final : public OrganModel {
  public:
   /// `compliance` must outlive the model. `surface_nodes`: pinned ones included.

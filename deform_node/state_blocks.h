@@ -15,7 +15,7 @@ struct StateBlock {
 };
 
 /// One block on loopback (as far as a message can hold it); on a LAN blocks that fit one datagram, so that
-/// a lost packet costs a block of one frame and not the frame (DESIGN 2).
+/// a lost packet costs a block of one frame and not the frame.
 std::int32_t nodes_per_block(transport::Profile profile);
 
 /// Covers every node once, in order. An organ without nodes is one empty block.

@@ -43,7 +43,7 @@ class DeviceBridge {
   /// Until loop.stop() or the end of `seconds`; then lets the hands go.
   void run();
 
-  /// After run(): virtual_device's object of report.json (DESIGN 5).
+  /// After run(): virtual_device's object of report.json.
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or the record were
   /// lost, and why.

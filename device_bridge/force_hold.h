@@ -14,7 +14,7 @@ namespace omentum::device {
 /// answers were lost on the way, and goes on as if they had been felt. Reads no clock. One thread.
 class ForceHold {
  public:
-  /// Within which a stale force vanishes: as fast as the haptic node's own decay (DESIGN 4).
+  /// Within which a stale force vanishes: as fast as the haptic node's own decay is by default.
   static constexpr double kDecay_s = 0.02;
   /// From nothing to the device's limit, s: as long as haptic_node's own ramp after a reconnection (the
   /// scene's ramp_s), within the time a person takes to brace the hand.

@@ -11,7 +11,7 @@ namespace omentum::geometry {
 /// Triangles of a deforming surface, binned by their bounding boxes into hashed cubic buckets. The box is
 /// inflated by a slack, so that a triangle is binned again only when it has left its inflated box. The paper
 /// hashes nodes and looks at the 26 neighbours; binning triangles finds every bucket a fast segment
-/// crosses as well (DESIGN 3: the paper's search misses those).
+/// crosses as well; the paper's search misses those.
 ///
 /// No allocation after construction: each triangle owns enough list entries for all buckets that it can
 /// touch, turned any way and stretched up to kStretch times its longest edge at construction. A triangle

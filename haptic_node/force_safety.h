@@ -1,5 +1,5 @@
-// The one exit of every force (DESIGN 4): whatever the model says, what leaves here is finite, limited,
-// smooth, young and passive.
+// The one exit of every force (docs/design.md, "Force safety"): whatever the model says, what leaves here is
+// finite, limited, smooth, young and passive.
 #pragma once
 
 #include "haptic_node/acting_force.h"

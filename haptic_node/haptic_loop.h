@@ -43,7 +43,7 @@ class HapticLoop {
   /// Until loop.stop(). Throws std::runtime_error when this node must not serve (a tool that another node
   /// serves, another organ).
   void run();
-  /// After run(): the node's object of report.json (DESIGN 5).
+  /// After run(): the node's object of report.json.
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log were lost, and why.
   void require_written();

@@ -39,8 +39,8 @@ struct PointContact {
 ///     r_i = p_i - X_i - sum_j W_ij lambda_j - eps lambda_i:
 /// unilateral: 0 <= -lambda.n, 0 <= r.n, one of them zero (Signorini); |lambda_t| <= mu (-lambda.n), and
 /// where r_t is not zero lambda_t = mu (-lambda.n) r_t / |r_t| (Coulomb: the sliding tool drags the tissue
-/// along). Bilateral: r = 0. mu = 0 is frictionless: lambda along n only. DESIGN 3: the papers' imposed
-/// displacement is the sticking case.
+/// along). Bilateral: r = 0. mu = 0 is frictionless: lambda along n only. The imposed displacement of Cotin
+/// 1999, section 3-3, is the sticking case (docs/design.md, "Contact").
 struct ContactProblem {
   int count = 0;        // 0 .. kMaxContacts
   double friction = 0;  // mu >= 0

@@ -1,5 +1,5 @@
 // The precomputed force tensors in the form that a haptic step reads: the symmetric compliance of
-// the mobile surface nodes (Cotin 1999, section 4; DESIGN 3: f_A = C_AA^-1 u*, u = C_:A f_A).
+// the mobile surface nodes (docs/design.md, "Compliance"): f_A = C_AA^-1 u*, u = C_:A f_A.
 #pragma once
 
 #include "geometry/surface.h"

@@ -19,11 +19,11 @@ struct ImposedSurfaceNode {
   Vec3 displacement;
 };
 
-/// f_A = C_AA^-1 u*, u = C_:A f_A, both in double whatever the tensors are stored in (DESIGN 3; the same as
-/// eq. 7-9 with M u~ = u*, without their transposed indices). Held components of an imposed node get no
-/// force. `Scalar` is float or double: its rounding enters the result up to 1 / rcond times (neighbours that
-/// are moved each their own way). Throws InputError when the tensors are damaged: C_AA is not positive
-/// definite, or a result is not finite. Preconditions: nodes are mobile and differ.
+/// f_A = C_AA^-1 u*, u = C_:A f_A, both in double whatever the tensors are stored in (the same as eqs. 7-9
+/// with M u~ = u*, without their transposed indices). Held components of an imposed node get no force.
+/// `Scalar` is float or double: its rounding enters the result up to 1 / rcond times (neighbours that are
+/// moved each their own way). Throws InputError when the tensors are damaged: C_AA is not positive definite,
+/// or a result is not finite. Preconditions: nodes are mobile and differ.
 template <class Scalar>
 SurfaceSolution tensor_solve(const ComplianceTiles<const Scalar>& tiles, const geometry::Surface& surface,
                              const FixedComponents& fixed, std::span<const ImposedSurfaceNode> imposed);

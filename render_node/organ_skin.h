@@ -6,7 +6,7 @@
 namespace omentum::render {
 
 /// From displacements of the surface's nodes to lit vertices. A tube (intestine) will be another
-/// class beside this one with the same vertices() (DESIGN 3, rendering the tube).
+/// class beside this one with the same mesh() (Raghupathi 2004, section 5).
 class OrganSkin {
  public:
   /// `rest`: [S], m, in the surface's order.
@@ -23,7 +23,7 @@ class OrganSkin {
   Vec3f rest_normal(geometry::SurfaceId node) const { return rest_normals_[node]; }
   /// The largest displacement of any node, m: what linear elasticity must be small against (dents: dent.h).
   double largest_displacement_m() const { return largest_displacement_m_; }
-  /// The longest side of the box around the rest surface, m: "mesh size" in DESIGN 3's limit of linearity.
+  /// The longest side of the box around the rest surface, m: "mesh size" in the limit of linearity.
   double extent_m() const { return extent_m_; }
 
  private:

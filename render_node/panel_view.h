@@ -70,7 +70,7 @@ struct PanelActions {
   bool switch_camera = false, switch_arrows = false, switch_markers = false;
 };
 
-/// Linear elasticity is trusted up to this share of the mesh's size (DESIGN 3; Cotin 1999, sec. 3).
+/// Linear elasticity is trusted up to this share of the mesh's size (Cotin 1999, section 3-3).
 inline constexpr double kLinearShare = 0.1;
 
 /// Names, rates and silence of the nodes.

@@ -16,7 +16,7 @@ namespace omentum::render {
 namespace {
 
 constexpr double kPicturePeriodS = 2;                  // off-screen, unless asked otherwise
-constexpr std::int64_t kStatusPeriodNs = 100'000'000;  // DESIGN 2: 1-10 Hz
+constexpr std::int64_t kStatusPeriodNs = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
 constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height

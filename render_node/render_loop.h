@@ -38,7 +38,7 @@ class RenderLoop {
   /// Until pace.stop(), the window is closed or the time is over; then writes final.png. Throws
   /// std::runtime_error when deform_node turns out to serve another organ.
   void run();
-  /// After run(): the node's object of report.json (DESIGN 5), and `closed`: whether a person closed the
+  /// After run(): the node's object of report.json, and `closed`: whether a person closed the
   /// window, and `deepest_dent_m` (dent.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were

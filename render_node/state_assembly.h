@@ -17,7 +17,7 @@ struct AssembledState {
   std::vector<float> displacements;  // [3S], m
 };
 
-/// One organ's. A lost block keeps its old values for one state (DESIGN 2); late blocks are dropped. After a
+/// One organ's. A lost block keeps its old values for one state; late blocks are dropped. After a
 /// restart of deform_node, which counts from 1 again, its newer stamp says so, or, should its clock have
 /// begun anew as well, kPatience late blocks in a row. One thread.
 class StateAssembly {

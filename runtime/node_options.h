@@ -1,4 +1,4 @@
-// The command line that haptic_node, deform_node, render_node and virtual_device share (DESIGN 5).
+// The command line that haptic_node, deform_node, render_node and virtual_device share.
 #pragma once
 
 #include "runtime/command_line.h"

@@ -1,4 +1,4 @@
-// The numbers of a run, as report.json holds them (DESIGN 5).
+// The numbers of a run, as report.json holds them (docs/design.md, "Report").
 #pragma once
 
 #include "runtime/rate_loop.h"

@@ -16,7 +16,7 @@ using namespace omentum;
 
 /// How often a claim is told. A node's status is durable: whoever finds it hears it at once.
 constexpr double kRateHz = 2;
-/// 2.5 s of listening: Cyclone finds its like within 0.1 s and a Fast participant within about one (WIRE.md).
+/// 2.5 s of listening: Cyclone finds its like within 0.1 s and a Fast participant within about one.
 constexpr int kListeningTicks = 5;
 
 /// The first one that was found with a better claim.

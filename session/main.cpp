@@ -17,11 +17,11 @@ namespace {
 
 using namespace omentum;
 
-/// Discovery takes up to 2.9 s between two Fast participants (WIRE.md).
+/// Discovery takes up to 2.9 s between two Fast participants (docs/topics.md).
 constexpr double kDiscoveryS = 5.0;
 /// Other vendors' nodes are found up to this much after the first one.
 constexpr double kSettleS = 1.2;
-/// "Matched" is not "ready": a first sample may be lost across vendors (WIRE.md), so a command is sent twice,
+/// "Matched" is not "ready": a first sample may be lost across vendors, so a command is sent twice,
 /// this far apart, under one sequence number, by which nodes know the second one (node/session_orders.h). The
 /// same time is left for delivery.
 constexpr double kDeliveryS = 0.2;

@@ -1,4 +1,4 @@
-"""The command line of launch_scripts/run (DESIGN section 5)."""
+"""The command line of launch_scripts/run."""
 import argparse
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""report.json (DESIGN section 5) from the nodes' own reports, and the table on the terminal."""
+"""report.json (docs/design.md, "Report") from the nodes' own reports, and the table on the terminal."""
 import copy
 import json
 import os

@@ -1,4 +1,4 @@
-// The command line of organ_build (DESIGN 5).
+// The command line of organ_build.
 #pragma once
 
 #include "organ/organ.h"

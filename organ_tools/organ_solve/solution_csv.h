@@ -1,4 +1,4 @@
-// A static solution as the two tables that organ_solve writes (DESIGN 5).
+// A static solution as the two tables that organ_solve writes.
 #pragma once
 
 #include "organ_tools/organ_solve/solve_models.h"

@@ -6,7 +6,7 @@
 namespace omentum::haptic_test {
 namespace {
 
-// Stored in float and solved in double, forces are good to 1e-5 (DESIGN 3); the contact's own compliance,
+// Stored in float and solved in double, forces are good to 1e-5 (decision 26); the contact's own compliance,
 // 1e-6 m/N beside about 1e-2 m/N, adds 1e-4.
 constexpr double kForceTolerance = 1e-3;
 

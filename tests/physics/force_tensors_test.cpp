@@ -1,4 +1,4 @@
-// The precomputed tensors against constrained solves from scratch (DESIGN 3: equal to rounding).
+// The precomputed tensors against constrained solves from scratch: docs/design.md, "Superposition".
 #include "physics/force_tensors.h"
 
 #include "physics/direct_solve.h"

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Who may include what (docs/architecture.md, "The floors"): prints FILE:LINE for every breach.
+"""Who may include what (docs/architecture.md, "The floors"), and that documents which are cited are there: prints FILE:LINE
+for every breach.
 
 Usage: house_rules.py ROOT      exit code 0: none; 1: breaches, one a line
 """
@@ -36,6 +37,9 @@ VENDORS = [
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SOURCES = {".h", ".hpp", ".cpp", ".cc", ".c", ".cxx", ".in"}
+CITING = SOURCES | {".idl", ".py", ".toml", ".md"}  # what may cite a document, in rooms and in:
+TELLING = {"docs", "launch_scripts", "scenes"}
+DOCUMENT = re.compile(r'([\w./-]+\.md)\b(?:, "([^"]+)")?')  # with a section's name, where one is given
 NODES = ("haptic_node", "deform_node", "render_node", "device_bridge")
 MAIN_LINES = 60  # a node's main parses, builds, runs and gives the exit code; no more
 
@@ -64,13 +68,29 @@ def breach_of(path, target, quoted):
     return None
 
 
-def sources(root):
+def sources(root, suffixes=frozenset(SOURCES)):
     """Every source below `root` but those of NO_ROOMS."""
     for top in sorted(root.iterdir()):
         if not top.name.startswith(NO_ROOMS):
             for file in sorted(top.rglob("*")) if top.is_dir() else [top]:
-                if file.suffix in SOURCES and file.is_file():
+                if file.suffix in suffixes and file.is_file():
                     yield file
+
+
+def wrong_citations(root):
+    """Documents, and sections of them, that are cited and not there."""
+    found = []
+    for file in sources(root, CITING):
+        if file.parent != root and file.relative_to(root).parts[0] not in ROOMS | TELLING:
+            continue
+        for number, line in enumerate(file.read_text(encoding="utf-8", errors="replace").splitlines(), 1):
+            for name, section in DOCUMENT.findall(line):
+                document = next((d for d in (root / name, root / "docs" / name) if d.is_file()), None)
+                headings = document.read_text(encoding="utf-8").splitlines() if document and section else []
+                if document is None or (section and not any(re.fullmatch("#+ " + re.escape(section), h) for h in headings)):
+                    cited = f'{name}, "{section}"' if section else name
+                    found.append(f"{file.relative_to(root).as_posix()}:{number}: cites {cited}, which is not there")
+    return found
 
 
 def breaches(root):
@@ -95,7 +115,8 @@ def main():
     if len(sys.argv) != 2:
         print("usage: house_rules.py ROOT", file=sys.stderr)
         return 2
-    found = breaches(pathlib.Path(sys.argv[1]))
+    root = pathlib.Path(sys.argv[1])
+    found = breaches(root) + wrong_citations(root)
     print("\n".join(found) if found else "no breach")
     return 1 if found else 0
 

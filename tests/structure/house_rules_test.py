@@ -69,6 +69,15 @@ class HouseRules(unittest.TestCase):
                 self.assertEqual(len(found), 1)
                 self.assertTrue(found[0].startswith(f"{path}:1: "), found[0])
 
+    def test_documents_and_sections_that_are_not_there_are_caught(self):
+        there, absent = "docs/there" + ".md", "docs/absent" + ".md"
+        for cited, right in ((there, True), (f'{there}, "Contact"', True), (f'{there}, "Cont"', False), (absent, False),
+                             ("ABSENT" + ".md", False)):
+            with self.subTest(cited=cited):
+                found = house_rules.wrong_citations(self.tree({there: "# There\n\n## Contact\n",
+                                                               "physics/law.cpp": f"int x;\n// see {cited}.\n"}))
+                self.assertEqual([line.split(" ")[0] for line in found], [] if right else ["physics/law.cpp:2:"])
+
     def test_a_long_main_of_a_node_is_caught(self):
         found = house_rules.breaches(self.tree({"deform_node/main.cpp": "int x;\n" * 61}))
         self.assertEqual(len(found), 1)

@@ -36,7 +36,7 @@ PATIENCE_S = 120
 
 TIMES = {"p50": float, "p99": float, "p999": float, "max": float, "count": int}
 LOOP = {"rate_hz": float, "ticks": int, "missed": int, "period_us": TIMES, "compute_us": TIMES}
-# DESIGN section 5, field by field
+# docs/design.md, "Report", field by field
 SHAPE = {
     "scene": str, "seconds": float, "protocol": int,
     "machine": {"cores": int, "kernel": str, "realtime": bool, "steal_share": float},
