@@ -41,6 +41,16 @@ class Bench {
         })) {}
 
   std::optional<msg::OrganState> state() { return get(state_); }
+  /// The next one that comes.
+  std::optional<msg::OrganState> next_state() {
+    const auto before = state();
+    std::optional<msg::OrganState> next;
+    test::comes_true([&] {
+      next = state();
+      return next && (!before || next->seq != before->seq);
+    });
+    return next;
+  }
   std::optional<msg::SceneInfo> scene() { return get(scene_); }
   std::optional<msg::Topology> topology() { return get(topology_); }
   std::optional<msg::NodeStatus> status() { return get(status_); }
@@ -55,12 +65,13 @@ class Bench {
 
   /// Sends the contact, as often as haptic_node might, until a state with its echo comes back.
   std::optional<msg::OrganState> answer_to(const msg::Contact& contact) {
+    std::optional<msg::OrganState> answer;
     const bool came = test::comes_true([&] {
       send(contact);
-      const auto newest = state();
-      return newest && !newest->echoes.empty() && newest->echoes.front().seq == contact.cause.seq;
+      answer = state();
+      return answer && !answer->echoes.empty() && answer->echoes.front().seq == contact.cause.seq;
     });
-    return came ? state() : std::nullopt;
+    return came ? answer : std::nullopt;
   }
 
  private:
@@ -138,12 +149,20 @@ class DeformNodeTest : public ::testing::TestWithParam<std::pair<std::string, tr
 
 TEST_P(DeformNodeTest, ContactBecomesTheSurfaceThatThePlainSumGives) {
   const msg::Contact contact = push(organ_, 7);
-  const auto state = bench_.answer_to(contact);
+  std::optional<msg::OrganState> state;
+  double difference = 0;
+  // where a busy machine sends the contact too seldom, it fades
+  const bool agrees = test::comes_true([&] {
+    state = bench_.answer_to(contact);
+    if (!state || state->values.size() != 3U * organ_.surface.node_count()) return true;
+    difference = difference_from_plain_sum(organ_, contact, *state);
+    return difference <= kWithin * largest(*state);
+  });
   ASSERT_TRUE(state) << bench_.node().messages();
   EXPECT_EQ(state->block_count, 1U);
   ASSERT_EQ(state->values.size(), 3U * organ_.surface.node_count());
-  ASSERT_GT(largest(*state), 1e-4);
-  EXPECT_LE(difference_from_plain_sum(organ_, contact, *state), kWithin * largest(*state));
+  EXPECT_TRUE(agrees) << difference << " m";
+  EXPECT_GT(largest(*state), 1e-4);
 }
 
 TEST_P(DeformNodeTest, LateJoinerLearnsTheSceneAndTheTopology) {
@@ -173,7 +192,8 @@ TEST_P(DeformNodeTest, PausedItKeepsItsShapeAndGoesOnPublishing) {
     bench_.command(msg::COMMAND_PAUSE);
     return bench_.status() && bench_.status()->paused;
   }));
-  const auto held = bench_.state();
+  const auto held = bench_.next_state();
+  ASSERT_TRUE(held);
   const std::uint64_t enough = held->seq + 60;  // longer than a silent sender's contact lasts
   ASSERT_TRUE(test::comes_true([&] { return bench_.state()->seq > enough; }));
   EXPECT_EQ(bench_.state()->values, held->values);
@@ -207,7 +227,9 @@ TEST_P(DeformNodeTest, BadContactsAreFaultsInItsReportAndTheEndIsClean) {
     bench_.send(bad);
     return bench_.status() && !bench_.status()->faults.empty();
   }));
-  EXPECT_EQ(largest(*bench_.state()), 0);
+  const auto state = bench_.next_state();
+  ASSERT_TRUE(state) << bench_.node().messages();
+  EXPECT_EQ(largest(*state), 0);
   EXPECT_EQ(bench_.node().terminate(), 0) << bench_.node().messages();
   const auto report = nlohmann::json::parse(test::read_text(block_.report()));
   EXPECT_EQ(report["dds"], GetParam().first);
@@ -228,9 +250,10 @@ TEST_P(DeformNodeTest, ContactsThatNoToolOfTheSceneMakesMoveNothing) {
     bench_.send(foreign);
     return bench_.status() && bench_.status()->faults.size() >= 2;
   }));
-  ASSERT_TRUE(bench_.state());
-  EXPECT_EQ(largest(*bench_.state()), 0);
-  EXPECT_TRUE(bench_.state()->echoes.empty());
+  const auto state = bench_.next_state();
+  ASSERT_TRUE(state) << bench_.node().messages();
+  EXPECT_EQ(largest(*state), 0);
+  EXPECT_TRUE(state->echoes.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, DeformNodeTest,

@@ -92,12 +92,14 @@ class NodeBench {
     }
     return true;
   }
-  /// Down or up in steps of 0.2 mm.
-  void move(const Vec3& from, const Vec3& to) {
+  /// From where it is now, down or up in steps of 0.2 mm.
+  void move(const Vec3& to) {
+    const Vec3 from = tip_;
     const int steps = static_cast<int>(std::ceil((to - from).norm() / 2e-4));
     for (int i = 1; i <= steps; ++i) send(from + (to - from) * i / steps);
   }
   void send(const Vec3& tip) {
+    tip_ = tip;
     msg::ToolPose pose{};
     pose.seq = ++seq_;
     pose.stamp_ns = runtime::steady_now_ns();
@@ -115,22 +117,36 @@ class NodeBench {
     commands_->write({.seq = ++commands_sent_, .command = command, .argument = {}});
   }
 
-  /// The forces of a press have faded in and stay: the last answer and the contact of the same tick or later.
+  /// Presses, or goes on pressing, until an answer is as `felt` says. A tip that a busy machine made the node
+  /// lose is held where it is, without a force: it goes out and presses again.
+  template <class Condition>
+  bool press(Condition&& felt) {
+    return test::comes_true([&] { return go_in() && (feels(felt) || go_out()); });
+  }
+  /// The forces of a press have faded in.
   bool press() {
-    const bool engaged = hold(kAbove, [&] { return force() && force()->state == 0; });
-    move(kAbove, kPressed);
-    return engaged && hold(kPressed, [&] { return force()->state == 0 && newton() > 0.1; });
+    return press([&] { return is_pressing(); });
+  }
+  /// Whether one and the same press goes on after `event`, which says whether it happened. Where a busy
+  /// machine may have ended the press, it happens to another one.
+  template <class Event>
+  bool press_outlives(Event&& event) {
+    return test::comes_true(
+        [&] { return press() && event() && (feels([&] { return is_pressing(); }) || go_out()); });
   }
 
   std::optional<msg::ToolForce> force() const { return get(force_); }
   std::optional<msg::Contact> contact() const { return get(contact_); }
   std::optional<msg::NodeStatus> status() const { return get(status_); }
-  /// Whether the node tells a fault that begins so.
-  bool status_fault(const std::string& text) const {
+  /// The fault that the node tells and that begins so, with how often it came; empty when there is none.
+  std::string fault(const std::string& text) const {
     const auto told = status();
-    return told && std::any_of(told->faults.begin(), told->faults.end(),
-                               [&](const std::string& fault) { return fault.starts_with(text); });
+    if (!told) return {};
+    const auto found = std::find_if(told->faults.begin(), told->faults.end(),
+                                    [&](const std::string& line) { return line.starts_with(text); });
+    return found == told->faults.end() ? std::string() : *found;
   }
+  bool status_fault(const std::string& text) const { return !fault(text).empty(); }
   double newton() const { return force() ? vector(force()->force).norm() : 0; }
   std::uint64_t seq() const { return seq_; }
   test::Process& node() { return node_; }
@@ -140,6 +156,34 @@ class NodeBench {
   inline static const Vec3 kAbove{0.048, 0.053, 0.103}, kPressed{0.048, 0.053, 0.094};
 
  private:
+  bool go_in() {
+    if (tip_ == kPressed) return true;
+    const bool engaged = hold(kAbove, [&] { return force() && force()->state == 0; });
+    move(kPressed);
+    return engaged;
+  }
+  /// False: it is no press.
+  bool go_out() {
+    move(kAbove);
+    return false;
+  }
+  /// Whether an answer to what is pressed from now on is as `felt` says.
+  template <class Condition>
+  bool feels(Condition&& felt) {
+    constexpr int kPatience = 300;  // poses: longer than forces fade in
+    const std::uint64_t from = seq_ + 1;
+    for (int pose = 0; pose < kPatience; ++pose) {
+      send(kPressed);
+      if (force()->echo_seq >= from && felt()) return true;
+    }
+    return false;
+  }
+  bool is_pressing() const {
+    constexpr double kFelt_n = 0.1;
+    const auto newest = force();
+    return newest->state == 0 && vector(newest->force).norm() > kFelt_n;
+  }
+
   void take(const msg::ToolForce& force) {
     const std::lock_guard lock(mutex_);
     if (force.tool == 0) force_ = force;
@@ -166,6 +210,7 @@ class NodeBench {
   std::optional<msg::ToolForce> force_;
   std::optional<msg::Contact> contact_;
   std::optional<msg::NodeStatus> status_;
+  Vec3 tip_ = kAbove;
   std::uint64_t seq_ = 0, commands_sent_ = 0;
   std::unique_ptr<transport::Bus> bus_;
   std::unique_ptr<transport::Writer<msg::ToolPose>> poses_;

