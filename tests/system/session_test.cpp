@@ -178,8 +178,8 @@ TEST(SessionTest, SecondHapticNodeForTheSameToolRefusesAndTheFirstGoesOn) {
   Observer observer(session.domain(), transport::Vendor::kFast);
   session.start_all(kHandAndOrgan);
   const auto try_it = [&] {
-    Process younger("haptic_node",
-                    {"--scene", held_scene(), "--dds", "cyclone", "--domain", std::to_string(session.domain())});
+    Process younger("haptic_node", {"--scene", held_scene(), "--dds", "cyclone", "--domain",
+                                    std::to_string(session.domain())});
     EXPECT_EQ(younger.wait(), 2);
     const std::string messages = younger.messages();
     EXPECT_TRUE(messages.find("haptic_node: ") != std::string::npos) << messages;
