@@ -28,7 +28,7 @@ class HapticStrangersTest : public ::testing::TestWithParam<std::pair<std::strin
 
 TEST_P(HapticStrangersTest, AnotherNodeForItsToolsYields) {
   ASSERT_TRUE(test::comes_true([&] { return bench_.status().has_value(); }));
-  test::Process second("haptic_node", bench_.arguments("/dev/null"));
+  test::Process second("haptic_node", bench_.arguments(block_.report() + ".second"));
   EXPECT_EQ(second.wait(), 2);
   EXPECT_NE(second.messages().find("already served"), std::string::npos) << second.messages();
   EXPECT_TRUE(bench_.node().running());
