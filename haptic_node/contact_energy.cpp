@@ -7,6 +7,10 @@
 namespace omentum::haptic {
 namespace {
 
+// What a mesh makes of a joule that is put in, more or less, as a share; and what is never owed to a hand's
+// account, whichever way the hand goes.
+constexpr double kMissed = 0.08, kOwed = 0.3;
+
 // The part of a tip's way that goes along the surface.
 Vec3 along_surface(const Vec3& v, const Vec3& push) {
   const double squared = push.squaredNorm();
@@ -26,14 +30,54 @@ double depth_of(const ContactWork& work) {
   return 2 * work.stored_j / work.push.norm();
 }
 
-// kappa' E': what the hand put in and got from others, less what it got back. A dent that is next to none
-// keeps its share. What went with a contact that was let go of is lost; what the other points hold more, for
-// taking over its load, nobody brought.
-double held(const ContactEnergy& tool, const ContactWork& work, bool let_go) {
-  const double kept_j = tool.share * work.stored_j;
-  const double paid_j = tool.share * (tool.stored_j + work.put_in_j - work.rubbed_j) + work.exchanged_j;
-  const double held_j = kept_j + (paid_j - kept_j) / (1 + std::pow(kShallow_m / tool.depth_m, 4));
+// A dent that is next to none decides nothing.
+double weight_of(const ContactEnergy& tool) {
+  const double shallow = kShallow_m * kShallow_m / (tool.depth_m * tool.depth_m);
+  return 1 / (1 + shallow * shallow);
+}
+
+// A'. What went with a contact that was let go of is lost; what the other points hold more, for taking over
+// its load, nobody brought.
+double account_of(const ContactEnergy& tool, const ContactWork& work, double taken_j, bool let_go) {
+  const double kept_j = tool.account_j / tool.stored_j * work.stored_j;
+  const double paid_j =
+      tool.account_j + tool.share * (work.put_in_j - work.rubbed_j) + work.exchanged_j - taken_j;
+  const double held_j = kept_j + (paid_j - kept_j) * weight_of(tool);
   return let_go ? std::min(kept_j, held_j) : held_j;
+}
+
+// kappa_s', less what the side force took.
+double slid_of(const ContactEnergy& tool, const ContactWork& work, double taken_j) {
+  const double worked = 0.5 * (work.put_in_j - work.rubbed_j + work.got_j) / work.stored_j;
+  const double push_n = work.push.norm();
+  const double grown = push_n > 0 ? std::max(1 - tool.push_n / push_n, -1.0) : 0;
+  return tool.slid -
+         weight_of(tool) * (tool.slid * work.sliding * (grown - worked) + taken_j / work.stored_j);
+}
+
+// beta'.
+double leaving_of(const ContactEnergy& tool, const ContactWork& work) {
+  const double left = std::exp(-std::abs(work.put_in_j) / work.stored_j);
+  return work.put_in_j > 0 ? tool.leaving * left : 1 - (1 - tool.leaving) * left;
+}
+
+// beta, and one where more than meshes miss is owed, whichever way the hand goes.
+double settling(const ContactEnergy& tool, double paid) {
+  const double owed = 1 - paid / std::max(tool.slid, kMissed);
+  const double s = std::clamp((owed - kMissed) / (kOwed - kMissed), 0.0, 1.0);
+  return 1 - (1 - tool.leaving) * (1 - s * s * (3 - 2 * s));
+}
+
+void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
+  const double most = std::min(kMaxShare, 1 + kMostApart_m / tool.depth_m);
+  const Vec3 way = along_surface(work.way, work.push);
+  const double taken_j = tool.side.dot(way);  // by the side force
+  tool.account_j = account_of(tool, work, taken_j, let_go);
+  tool.slid = std::clamp(slid_of(tool, work, taken_j), 0.0, most);
+  tool.leaving = leaving_of(tool, work);
+  const double paid = tool.account_j / work.stored_j;
+  tool.share = std::clamp(tool.slid + settling(tool, paid) * (paid - tool.slid), 0.0, most);
+  turn_heading(tool.heading, way, work.push);
 }
 
 }  // namespace
@@ -48,14 +92,12 @@ void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works,
       continue;
     }
     tool.depth_m = depth_of(work);
-    if (tool.stored_j >= kNoEnergy_j) {
-      const Vec3 way = along_surface(work.way, work.push);
-      const double held_j = held(tool, work, let_go) - tool.side.dot(way);
-      tool.share =
-          std::clamp(held_j / work.stored_j, 0.0, std::min(kMaxShare, 1 + kMostApart_m / tool.depth_m));
-      turn_heading(tool.heading, way, work.push);
-    }
+    if (tool.stored_j >= kNoEnergy_j)
+      follow(tool, work, let_go);
+    else
+      tool.account_j = work.stored_j;
     tool.stored_j = work.stored_j;
+    tool.push_n = work.push.norm();
     tool.side = (tool.share - 1) * tool.stored_j / kForget_m * tool.heading;
   }
 }

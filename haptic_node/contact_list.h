@@ -29,9 +29,14 @@ inline Vec3 at_the_surface(const ToolContact& contact, std::span<const Vec3> poi
   return points[contact.point] + contact.sunken_m * contact.normal;
 }
 
+/// The same where the surface that bears all tools' forces is met.
+inline Vec3 with_the_others(const ToolContact& contact, std::span<const Vec3> points) {
+  return at_the_surface(contact, points) + contact.other_dents;
+}
+
 /// How deep the tool's point is below its material point, along the normal, m.
 inline double depth_of(const HapticState& state, const ToolContact& contact, DeformedSurface& surface) {
-  const Vec3& p = state.tools[contact.tool].now[contact.point];
+  const Vec3 p = state.tools[contact.tool].now[contact.point] + contact.other_dents;
   return (surface.position(contact.held) - p).dot(contact.normal);
 }
 

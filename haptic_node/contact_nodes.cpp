@@ -1,5 +1,6 @@
 #include "haptic_node/contact_nodes.h"
 
+#include <algorithm>
 #include <cassert>
 #include <memory>
 
@@ -10,10 +11,13 @@ static_assert(kernels::kBlockStride == 16);
 namespace {
 // A contact that slides back and forth over an edge comes back within this.
 constexpr std::uint64_t kKeepTicks = 50;
+// Of what a node moves beyond its neighbours: all of it would leave two equal nodes nothing but their sum.
+constexpr double kOwnPart = 0.75;
 }  // namespace
 
-ContactNodes::ContactNodes(const physics::SurfaceCompliance& compliance)
-    : compliance_(compliance),
+ContactNodes::ContactNodes(const geometry::Surface& surface, const physics::SurfaceCompliance& compliance)
+    : surface_(surface),
+      compliance_(compliance),
       slot_of_node_(static_cast<std::size_t>(compliance.mobile_count()), -1),
       memory_(kSlots * kPitch + kStride, 0.0f) {
   constexpr std::size_t kLine = 64;
@@ -22,16 +26,13 @@ ContactNodes::ContactNodes(const physics::SurfaceCompliance& compliance)
   blocks_ = static_cast<float*>(std::align(kLine, size - kLine, begin, size));
 }
 
-int ContactNodes::slot_of(SurfaceId node) noexcept {
-  int slot = slot_of_node_[node];
-  if (slot < 0) {
-    slot = free_slot();
-    if (slots_[slot].node.valid()) slot_of_node_[slots_[slot].node] = -1;
-    slots_[slot].node = node;
-    slot_of_node_[node] = static_cast<std::int16_t>(slot);
-    gather(slot);
-  }
-  slots_[slot].used = tick_;
+int ContactNodes::enter(SurfaceId node) noexcept {
+  const int slot = free_slot();
+  if (slots_[slot].node.valid()) slot_of_node_[slots_[slot].node] = -1;
+  slots_[slot].node = node;
+  slots_[slot].own = -1;
+  slot_of_node_[node] = static_cast<std::int16_t>(slot);
+  gather(slot);
   return slot;
 }
 
@@ -57,6 +58,21 @@ void ContactNodes::gather(int slot) noexcept {
   }
 }
 
+double ContactNodes::find_own_compliance(int slot) noexcept {
+  const SurfaceId n = slots_[slot].node;
+  const auto mean = [&](SurfaceId k) { return compliance_.block(n, k).cast<double>().trace() / 3; };
+  double around = 0;
+  int count = 0;
+  for (const TriangleId t : surface_.triangles_of(n)) {
+    for (const SurfaceId k : surface_.triangles[t]) {
+      if (k == n) continue;
+      if (k < surface_.mobile_count) around += mean(k);
+      ++count;
+    }
+  }
+  return slots_[slot].own = kOwnPart * std::max(0.0, mean(n) - around / count);
+}
+
 Share share_of(const geometry::Surface& surface, const SurfacePoint& point, ContactNodes& nodes) noexcept {
   Share share;
   const geometry::Triangle& t = surface.triangles[point.triangle];
@@ -67,6 +83,16 @@ Share share_of(const geometry::Surface& surface, const SurfacePoint& point, Cont
     ++share.count;
   }
   return share;
+}
+
+double own_compliance(ContactNodes& nodes, const Share& i, const Share& j) noexcept {
+  double sum = 0;
+  for (int a = 0; a < i.count; ++a) {
+    for (int b = 0; b < j.count; ++b) {
+      if (i.slot[a] == j.slot[b]) sum += i.weight[a] * j.weight[b] * nodes.own_compliance(i.slot[a]);
+    }
+  }
+  return sum;
 }
 
 void find_compliance(const ContactNodes& nodes, const Share& i, const Share& j, Eigen::Matrix3d& W) noexcept {

@@ -16,13 +16,25 @@ class ContactNodes {
  public:
   static constexpr int kSlots = DeformedSurface::kMaxForces;
 
-  explicit ContactNodes(const physics::SurfaceCompliance& compliance);
+  ContactNodes(const geometry::Surface& surface, const physics::SurfaceCompliance& compliance);
 
   /// Begins a tick: slots that are asked for from now on stay until the next one.
   void begin_tick() noexcept { ++tick_; }
 
   /// The slot of a mobile node; at most kSlots distinct nodes in a tick.
-  int slot_of(SurfaceId node) noexcept;
+  int slot_of(SurfaceId node) noexcept {
+    const int known = slot_of_node_[node], slot = known >= 0 ? known : enter(node);
+    slots_[slot].used = tick_;
+    return slot;
+  }
+
+  /// What a force on the node moves it beyond its neighbours, three quarters of it, m/N: the dent's part that
+  /// belongs to the tool which makes it (own_compliance below). Scalar: a third of the trace of C_nn less
+  /// the fan's mean C_nk. Of nodes without mobile neighbours too; never negative.
+  double own_compliance(int slot) noexcept {
+    const double own = slots_[slot].own;
+    return own >= 0 ? own : find_own_compliance(slot);
+  }
 
   SurfaceId node_at(int slot) const noexcept { return slots_[slot].node; }
 
@@ -39,14 +51,18 @@ class ContactNodes {
   // one block more than slots: rows of a power-of-two pitch would share few cache sets
   static constexpr std::ptrdiff_t kPitch = (kSlots + 1) * kStride;
 
+  int enter(SurfaceId node) noexcept;
+  double find_own_compliance(int slot) noexcept;
   int free_slot() noexcept;
   void gather(int slot) noexcept;
 
   struct Slot {
     SurfaceId node;
     std::uint64_t used = 0;  // tick that asked for it last
+    double own = -1;         // own_compliance, m/N; negative: not known yet
   };
 
+  const geometry::Surface& surface_;
   const physics::SurfaceCompliance& compliance_;
   std::uint64_t tick_ = 0;
   std::array<Slot, kSlots> slots_;
@@ -67,5 +83,14 @@ Share share_of(const geometry::Surface& surface, const SurfacePoint& point, Cont
 
 /// W_ij = sum_a sum_b k_a k_b C_ab over the vertices a of one contact and b of the other, m/N.
 void find_compliance(const ContactNodes& nodes, const Share& i, const Share& j, Eigen::Matrix3d& W) noexcept;
+
+/// What contacts of two tools do not share, as a scalar, m/N: sum_a k_a^i k_a^j c_a over their common nodes.
+/// W_ij of one tool counts it, W_ij between two tools is less by it. A mesh knows one dent per node: two
+/// tools on one facet would have a singular W, and whoever is deeper by a hair would take all. With its own
+/// part
+///     W = B^T (C - diag(c)) B + sum over tools of B_t^T diag(c) B_t
+/// is symmetric and positive definite, however many tools meet, since c_a is less than what would make C -
+/// diag(c) singular for equal nodes. Nothing changes for a tool that shares no node with another.
+double own_compliance(ContactNodes& nodes, const Share& i, const Share& j) noexcept;
 
 }  // namespace omentum::haptic

@@ -33,6 +33,23 @@ double passed(const physics::ContactProblem& problem, const HapticState& state, 
   return got_j;
 }
 
+// How far the ways of a tool's points, by their forces, went across its push: 0 for a press, 1 for a slide,
+// also where a push leans a little to its way.
+double sliding_of(const HapticState& state, std::int32_t tool, const Vec3& push) {
+  double across = 0, along = 0;
+  if (push.isZero(0)) return 0;
+  for (const ToolContact& contact : state.active()) {
+    if (contact.tool != tool || !contact.touches()) continue;
+    const Vec3 way = state.tools[tool].now[contact.point] - state.tools[tool].before[contact.point];
+    const double pressed = way.dot(push), squared = pressed * pressed / push.squaredNorm();
+    along += contact.force.norm() * squared;
+    across += contact.force.norm() * (way.squaredNorm() - squared);
+  }
+  const auto cube = [](double x) { return x * x * x; };
+  const double all = along + across;
+  return all > 0 ? cube(across / all) / (cube(across / all) + cube(along / all)) : 0;
+}
+
 }  // namespace
 
 void measure_work(const HapticModel& model, const HapticState& state, std::span<const Vec3> before,
@@ -53,6 +70,8 @@ void measure_work(const HapticModel& model, const HapticState& state, std::span<
     work.push += contact.force;
     if (model.friction > 0 && !contact.grasped) work.rubbed_j += rubbed(contact, gaps[i]);
   }
+  for (std::size_t t = 0; t < works.size(); ++t)
+    works[t].sliding = sliding_of(state, static_cast<std::int32_t>(t), works[t].push);
 }
 
 void measure_exchange(const physics::ContactProblem& problem, const HapticState& state,
@@ -64,6 +83,8 @@ void measure_exchange(const physics::ContactProblem& problem, const HapticState&
       const double felt_j = state.energies[got_j > 0 ? u : t].share * got_j;
       works[t].exchanged_j += felt_j;
       works[u].exchanged_j -= felt_j;
+      works[t].got_j += got_j;
+      works[u].got_j -= got_j;
     }
   }
 }

@@ -42,6 +42,7 @@ DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<con
   for (auto* forces : {&forces_, &proposed_forces_}) forces->reserve(kMaxForces);
   index_clusters();
   find_normals();
+  find_longest_edges();
   find_other_side();
   size_bounds();
   restore_rest();

@@ -87,6 +87,9 @@ class DeformedSurface {
     return k[0] * rest_[t[0]] + k[1] * rest_[t[1]] + k[2] * rest_[t[2]];
   }
 
+  /// Of those that meet in the node, at rest, m.
+  double longest_edge(SurfaceId node) const noexcept { return longest_edge_[node]; }
+
   /// The direction in which tissue pushes at a material point, unit, outward: rest normals of the triangle's
   /// vertices (area-weighted over their fans), interpolated, so that it is continuous across edges. Of the
   /// rest shape on purpose: linear elasticity states equilibrium there, and under a sharp tool it dips into a
@@ -128,7 +131,7 @@ class DeformedSurface {
     /// The surface point nearest to q; nothing where that is farther than the radius, or q is inside.
     std::optional<SurfacePoint> nearest;
   };
-  /// `radius_m`: at most kReach_m.
+  /// `radius_m`: at most kReach_m, and as much more as p and q are inside of the region.
   Encounter meet(const Vec3& p, const Vec3& q, double radius_m, bool outside = true) noexcept;
 
   /// How far at most the last set_forces moved anything that was exact before it and is exact now, m.
@@ -183,6 +186,7 @@ class DeformedSurface {
   void visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept;
   Corners stored_corners(TriangleId triangle) const noexcept;
   void find_normals();
+  void find_longest_edges();
   void find_other_side();
   bool outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept;
 
@@ -196,6 +200,7 @@ class DeformedSurface {
   std::vector<std::int32_t> next_start_, next_;    // ... and these clusters, mobile ones
   std::vector<std::int32_t> owned_start_, owned_;  // triangles binned with it
   std::vector<Vec3> normals_;                      // [S] at rest, unit
+  std::vector<double> longest_edge_;               // [S] at rest, m
   std::vector<SurfacePoint> other_side_;           // [S] straight in from each node ...
   std::vector<double> thickness_;                  // ... and how far that is at rest, m; infinity: nowhere
   std::vector<double> other_height_;               // ... and its height at rest along the node's normal, m

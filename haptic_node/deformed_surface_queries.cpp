@@ -95,6 +95,18 @@ void DeformedSurface::find_normals() {
   for (Vec3& normal : normals_) normal.normalize();
 }
 
+void DeformedSurface::find_longest_edges() {
+  longest_edge_.assign(rest_.size(), 0);
+  for (const geometry::Triangle& t : surface_.triangles) {
+    for (int v = 0; v < 3; ++v) {
+      const SurfaceId from = t[v], to = t[(v + 1) % 3];
+      const double edge_m = (rest_[to] - rest_[from]).norm();
+      longest_edge_[from] = std::max(longest_edge_[from], edge_m);
+      longest_edge_[to] = std::max(longest_edge_[to], edge_m);
+    }
+  }
+}
+
 void DeformedSurface::find_other_side() {
   Vec3 low = rest_[0], high = rest_[0];
   for (const Vec3& x : rest_) {

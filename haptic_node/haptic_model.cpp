@@ -26,7 +26,7 @@ HapticState::HapticState(const HapticModel& model) {
 
 HapticWorkspace::HapticWorkspace(const HapticModel& model)
     : surface(model.surface, model.rest, model.compliance),
-      nodes(model.compliance),
+      nodes(model.surface, model.compliance),
       works(model.tools.size()) {}
 
 }  // namespace omentum::haptic

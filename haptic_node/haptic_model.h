@@ -45,11 +45,12 @@ void require_solvable(const std::vector<ToolModel>& tools);
 struct ToolContact {
   std::int32_t tool = 0, point = 0;
   SurfacePoint held;
-  Vec3 normal = Vec3::UnitZ();  // outward at the material point
-  Vec3 force = Vec3::Zero();    // lambda, on the tissue, N
-  Vec3 offset = Vec3::Zero();   // gap that a grasp keeps, m
-  double sunken_m = 0;          // depth that is no press: the point appeared there (see meet_appeared)
-  bool sliding = false;         // friction was used up: the material point moves on
+  Vec3 normal = Vec3::UnitZ();      // outward at the material point
+  Vec3 force = Vec3::Zero();        // lambda, on the tissue, N
+  Vec3 offset = Vec3::Zero();       // gap that a grasp keeps, m
+  Vec3 other_dents = Vec3::Zero();  // other tools' own dents here, which it does not meet (other_tools.h), m
+  double sunken_m = 0;              // depth that is no press: the point appeared there (see meet_appeared)
+  bool sliding = false;             // friction was used up: the material point moves on
   bool grasped = false;
 
   bool touches() const { return !force.isZero(0); }
@@ -59,7 +60,8 @@ struct ToolContact {
 struct NodeForce {
   SurfaceId node;
   std::int32_t tool;
-  Vec3 force;  // on the tissue, N
+  Vec3 force;                // on the tissue, N
+  Vec3 dent = Vec3::Zero();  // the tool's own, by the model (see other_tools.h), m
 };
 
 /// What is known of a tool's point that holds no contact.
@@ -78,6 +80,8 @@ struct ToolState {
   Vec3 tip_way = Vec3::Zero();      // in this tick, m
   std::vector<Vec3> before, now;    // [P] points at the last tick and at this one, in W
   std::vector<PointMemory> memory;  // [P]
+  bool near_others = false;         // it may press nodes that another tool presses
+  double others_m = 0;              // how deep the other tools' own dents around it are at most, m
   bool opened = false;              // the jaws were open since the last grasp
   bool grasping = false;
   std::uint64_t grasp_count = 0;

@@ -4,6 +4,7 @@
 #include "haptic_node/contact_work.h"
 #include "haptic_node/lost_contact.h"
 #include "haptic_node/node_forces.h"
+#include "haptic_node/other_tools.h"
 #include "haptic_node/point_contacts.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ void measure(std::span<const ToolInput> inputs, const HapticState& state, std::s
     outputs[t].grasping = state.tools[t].grasping;
     outputs[t].grasp_count = state.tools[t].grasp_count;
     outputs[t].share = energy.share;
-    outputs[t].stored_j = energy.share * energy.stored_j;
+    outputs[t].stored_j = std::max(0.0, energy.account_j);
     outputs[t].force = energy.side;
     if (inputs[t].engaged && !is_sound(inputs[t])) outputs[t].force.setConstant(kNoNumber);
   }
@@ -137,6 +138,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
     const physics::ContactSolution solution = solve_point_contacts(model, inputs, near, state, work);
     result.status = solution.status;
     result.residual_m = solution.residual_m;
+    measure_other_tools(model, state, work);
   } else {
     solve_spread_contacts(model, state, work);
     propose_forces(state, work.surface);

@@ -9,7 +9,7 @@ namespace omentum::haptic {
 struct ToolOutput {
   Vec3 force = Vec3::Zero();   // on the hand at the tip, in W, N
   Vec3 torque = Vec3::Zero();  // on the hand about the tip, in W, N m
-  double stored_j = 0;         // elastic energy that its contacts hold for the hand: share times the model's
+  double stored_j = 0;         // what its contacts hold for the hand: its account (contact_energy.h)
   double share = 1;            // of the model's force, that is felt and borne (see contact_energy.h)
   int touching = 0;            // contacts with a force
   bool grasping = false;

@@ -33,7 +33,7 @@ constexpr std::uint64_t kAskPeriod = 64;
 // surface: along the surface it should be none.
 bool is_astray(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
   const Vec3 held = surface.position(contact.held);
-  const Vec3 gap = at_the_surface(contact, tool.before) - held;
+  const Vec3 gap = with_the_others(contact, tool.before) - held;
   const double squared_along = (gap - gap.dot(contact.normal) * contact.normal).squaredNorm();
   if (squared_along <= kAstrayLeast_m * kAstrayLeast_m) return false;
   const double moved = (held - surface.rest_position(contact.held)).norm();

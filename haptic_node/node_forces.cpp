@@ -12,7 +12,7 @@ void add_node_force(HapticState& state, SurfaceId node, std::int32_t tool, const
       return;
     }
   }
-  state.node_forces[state.node_force_count++] = {node, tool, force};
+  state.node_forces[state.node_force_count++] = {node, tool, force, Vec3::Zero()};
 }
 
 void propose_forces(const HapticState& state, DeformedSurface& surface) noexcept {

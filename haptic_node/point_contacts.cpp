@@ -2,6 +2,7 @@
 
 #include "haptic_node/contact_list.h"
 #include "haptic_node/node_forces.h"
+#include "haptic_node/other_tools.h"
 
 namespace omentum::haptic {
 namespace {
@@ -23,7 +24,12 @@ class PointContacts {
  public:
   PointContacts(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
                 HapticWorkspace& work)
-      : model_(model), inputs_(inputs), state_(state), work_(work), problem_(work.problem) {
+      : model_(model),
+        inputs_(inputs),
+        state_(state),
+        work_(work),
+        problem_(work.problem),
+        near_others_(any_near_others(state)) {
     problem_.count = 0;
     problem_.friction = model.friction;
   }
@@ -42,6 +48,8 @@ class PointContacts {
                             inputs_[contact.tool].max_stiffness_n_m};
     for (int j = 0; j < columns; ++j) {
       find_compliance(work_.nodes, work_.shares[i], work_.shares[j], problem_.W(i, j));
+      if (near_others_ && state_.contacts[j].tool != contact.tool)
+        problem_.W(i, j).diagonal().array() -= own_compliance(work_.nodes, work_.shares[i], work_.shares[j]);
       problem_.W(j, i) = problem_.W(i, j).transpose();
     }
     find_compliance(work_.nodes, work_.shares[i], work_.shares[i], problem_.W(i, i));
@@ -76,7 +84,8 @@ class PointContacts {
       contact.sliding = false;
       const double open_m = -depth_of(state_, contact, work_.surface);
       work_.gaps[i] = open_m * contact.normal;
-      if (open_m > work_.surface.motion_bound(contact.held) + kRounding_m) continue;
+      const bool alone = contact.other_dents.isZero(0);
+      if (alone && open_m > work_.surface.motion_bound(contact.held) + kRounding_m) continue;
       pose(i, solved);
       work_.gaps[i] = physics::gap_of(problem_, forces_, i);
       if (work_.gaps[i].dot(contact.normal) < 0) return false;
@@ -89,6 +98,7 @@ class PointContacts {
   HapticState& state_;
   HapticWorkspace& work_;
   physics::ContactProblem& problem_;
+  bool near_others_;
   std::span<Vec3> forces_;  // of the contacts that were solved for
 };
 

@@ -2,6 +2,7 @@
 
 #include "haptic_node/contact_list.h"
 #include "haptic_node/lost_contact.h"
+#include "haptic_node/other_tools.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,8 @@ void begin_grasp(HapticState& state, std::int32_t tool, DeformedSurface& surface
   for (ToolContact& contact : state.active()) {
     if (contact.tool != tool) continue;
     // what is between jaw and tissue when they close stays there: no force comes from closing alone
-    contact.offset = at_the_surface(contact, state.tools[tool].before) - surface.position(contact.held);
+    contact.offset = at_the_surface(contact, state.tools[tool].before) + contact.other_dents -
+                     surface.position(contact.held);
     if (contact.offset.dot(contact.normal) > kGraspGap_m) continue;
     holds = true;
     contact.grasped = true;
@@ -102,12 +104,13 @@ std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, Deformed
   const double before = room, way = (tool.now[p] - tool.before[p]).norm() + kHair_m;
   room = std::min(room - way - surface.known_motion(),
                   DeformedSurface::kReach_m - way - surface.entered_motion());
-  if (room > 0) return std::nullopt;
-  const double arm = std::clamp(kArmGrowth * before, kNear_m, DeformedSurface::kReach_m);
+  if (room > tool.others_m) return std::nullopt;
+  const double near = kNear_m + tool.others_m;
+  const double arm = std::clamp(kArmGrowth * before, near, DeformedSurface::kReach_m + tool.others_m);
   const DeformedSurface::Encounter met = surface.meet(tool.before[p], tool.now[p], arm, !memory.adrift);
   if (met.touched || met.nearest) memory.adrift = false;
   room = met.touched ? 0 : met.clearance_m;
-  return met.touched || met.clearance_m > kNear_m ? met.touched : met.nearest;
+  return met.touched || met.clearance_m > near ? met.touched : met.nearest;
 }
 
 void go_to(const ToolModel& model, const ToolFrame& measured, ToolState& tool) {
@@ -164,9 +167,15 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
   }
 }
 
-void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) noexcept {
-  for (const ToolState& tool : state.tools) {
-    if (tool.engaged) surface.evaluate(path_of(tool));
+void evaluate_neighbourhood(HapticState& state, DeformedSurface& surface) noexcept {
+  for (std::size_t i = 0; i < state.tools.size(); ++i) {
+    const ToolState& tool = state.tools[i];
+    if (!tool.engaged) continue;
+    Region region = path_of(tool);
+    look_for_other_tools(region, static_cast<std::int32_t>(i), state, surface);
+    region.low.array() -= tool.others_m;
+    region.high.array() += tool.others_m;
+    surface.evaluate(region);
   }
 }
 
@@ -175,10 +184,10 @@ void follow_surface(const HapticModel& model, HapticState& state, DeformedSurfac
     if (contact.grasped) continue;
     const ToolState& tool = state.tools[contact.tool];
     if (model.friction == 0 || !contact.touches()) {
-      contact.held = surface.slide(contact.held, at_the_surface(contact, tool.now));
+      contact.held = surface.slide(contact.held, with_the_others(contact, tool.now));
     } else if (contact.sliding) {
       // friction is back inside its cone where the tool was; from there it moves on
-      contact.held = surface.slide(contact.held, at_the_surface(contact, tool.before));
+      contact.held = surface.slide(contact.held, with_the_others(contact, tool.before));
     }
     contact.normal = surface.normal(contact.held);
   }
@@ -201,8 +210,9 @@ void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
       if (!found) continue;
       const bool is_new = known == nullptr;
       if (is_new) known = &add_contact(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
-      known->held = *found;
-      known->normal = surface.normal(*found);
+      known->held =
+          known->other_dents.isZero(0) ? *found : surface.slide(*found, with_the_others(*known, tool.now));
+      known->normal = surface.normal(known->held);
       // deeper than it came in this tick: that depth is nobody's press
       if (is_new) {
         const double way = (tool.now[p] - tool.before[p]).norm() + kHair_m;
@@ -236,7 +246,8 @@ void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept {
   std::size_t i = 0;
   drop_contacts(state, [&](const ToolContact& contact) {
     const double open = gaps[i++].dot(contact.normal);
-    return !contact.grasped && !contact.touches() && contact.sunken_m == 0 && open > kReleaseGap_m;
+    return !contact.grasped && !contact.touches() && contact.sunken_m == 0 &&
+           open > kReleaseGap_m + state.tools[contact.tool].others_m;
   });
 }
 

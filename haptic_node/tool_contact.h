@@ -29,8 +29,9 @@ void let_go_of_everything(HapticState& state) noexcept;
 void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
                  DeformedSurface& surface) noexcept;
 
-/// Makes the neighbourhood of every tool's path exact.
-void evaluate_neighbourhood(const HapticState& state, DeformedSurface& surface) noexcept;
+/// Makes the neighbourhood of every tool's path exact, as far above the surface as the tool may be in touch
+/// with it.
+void evaluate_neighbourhood(HapticState& state, DeformedSurface& surface) noexcept;
 
 /// Moves the material points of contacts that slide to the nearest point of the deformed surface, and renews
 /// normals.
