@@ -69,7 +69,7 @@ double settling(const ContactEnergy& tool, double paid) {
 }
 
 void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
-  const double most = std::min(kMaxShare, 1 + kMostApart_m / tool.depth_m);
+  const double most = std::min(kMaxShare, 1 + kMostApart_m / tool.depth_m), before = tool.share;
   const Vec3 way = along_surface(work.way, work.push);
   const double taken_j = tool.side.dot(way);  // by the side force
   tool.account_j = account_of(tool, work, taken_j, let_go);
@@ -78,6 +78,10 @@ void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
   const double paid = tool.account_j / work.stored_j;
   tool.share = std::clamp(tool.slid + settling(tool, paid) * (paid - tool.slid), 0.0, most);
   turn_heading(tool.heading, way, work.push);
+  const Vec3 side = (tool.share - 1) * work.stored_j / kForget_m * tool.heading;
+  // the hand's work is that of both ends' mean
+  tool.account_j += 0.5 * ((tool.share - before) * work.put_in_j - (side - tool.side).dot(way));
+  tool.side = side;
 }
 
 }  // namespace
@@ -98,7 +102,6 @@ void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works,
       tool.account_j = work.stored_j;
     tool.stored_j = work.stored_j;
     tool.push_n = work.push.norm();
-    tool.side = (tool.share - 1) * tool.stored_j / kForget_m * tool.heading;
   }
 }
 

@@ -65,6 +65,13 @@ class Hands {
       put_in_j_ = std::max(put_in_j_, -given_j_);
     }
   }
+  void go_both(const Vec3& way_a, const Vec3& way_b) {
+    const std::array<Vec3, 2> ways = {way_a, way_b}, before = {force(0), force(1)};
+    for (std::size_t t = 0; t < 2; ++t) bench_.place(t, bench_.input(t).frame.p_WT + ways[t]);
+    bench_.step();
+    for (std::size_t t = 0; t < 2; ++t) given_j_ += 0.5 * (before[t] + force(t)).dot(ways[t]);
+    put_in_j_ = std::max(put_in_j_, -given_j_);
+  }
   void go_together(const Vec3& way) {
     const int steps = static_cast<int>(std::ceil(way.norm() / kStep_m));
     for (int i = 0; i < steps; ++i) {
@@ -238,6 +245,40 @@ TEST_F(TwoTools, HandsThatTakeTurnsAreFedByNone) {
     hands.go(1, -6e-3 * kAlong);
     hands.go(0, -2e-3 * kNormal);
     ASSERT_LE(hands.given_j(), 0) << "turn " << turn;
+  }
+}
+
+// Round and round, in and out, never all the way: each hand in its own time.
+struct Loop {
+  double up_m, round_m;
+
+  Vec3 at(double turn) const {
+    const Vec3 side = kNormal.cross(kAlong);
+    return up_m * std::sin(turn) * kNormal +
+           round_m * ((std::cos(turn) - 1) * kAlong + std::sin(turn) * side);
+  }
+};
+
+TEST_F(TwoTools, LoopsOfBothHandsFeedNone) {
+  constexpr int kTurns = 12, kSteps = 400;
+  constexpr std::array<std::array<Loop, 2>, 4> kLoops = {{{{{1e-3, 0}, {0, 6e-3}}},
+                                                          {{{2e-3, 2e-3}, {2e-3, 3e-3}}},
+                                                          {{{3e-3, 3e-3}, {3e-3, 0}}},
+                                                          {{{1e-3, 4e-3}, {1e-3, 4e-3}}}}};
+  for (const double distance_m : {1e-3, 10e-3}) {
+    for (const auto& [a, b] : kLoops) {
+      Hands hands(2);
+      hands.appear(0, above(0));
+      hands.appear(1, above(distance_m));
+      hands.go(0, kDown);
+      hands.go(1, kDown);
+      for (int i = 0; i < kTurns * kSteps; ++i) {
+        const double turn = 2 * M_PI / kSteps, before = i * turn, now = (i + 1) * turn;
+        hands.go_both(a.at(2 * now) - a.at(2 * before), b.at(now) - b.at(before));
+      }
+      EXPECT_LE(hands.given_j(), 0) << distance_m << " m apart, " << a.up_m << ' ' << a.round_m << " and "
+                                    << b.up_m << ' ' << b.round_m;
+    }
   }
 }
 
