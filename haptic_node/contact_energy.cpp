@@ -11,6 +11,9 @@ namespace {
 // account, whichever way the hand goes.
 constexpr double kMissed = 0.08, kOwed = 0.3;
 
+// What a first touch may hold without having been brought, J: 10 mN over 200 um.
+constexpr double kTouch_j = 1e-6;
+
 // The part of a tip's way that goes along the surface.
 Vec3 along_surface(const Vec3& v, const Vec3& push) {
   const double squared = push.squaredNorm();
@@ -61,11 +64,21 @@ double leaving_of(const ContactEnergy& tool, const ContactWork& work) {
   return work.put_in_j > 0 ? tool.leaving * left : 1 - (1 - tool.leaving) * left;
 }
 
-// beta, and one where more than meshes miss is owed, whichever way the hand goes.
-double settling(const ContactEnergy& tool, double paid) {
+// kappa': by beta, and settled where more than meshes miss is owed, whichever way the hand goes.
+double share_of(const ContactEnergy& tool, const ContactWork& work, double most) {
+  const double paid = tool.account_j / work.stored_j;
   const double owed = 1 - paid / std::max(tool.slid, kMissed);
   const double s = std::clamp((owed - kMissed) / (kOwed - kMissed), 0.0, 1.0);
-  return 1 - (1 - tool.leaving) * (1 - s * s * (3 - 2 * s));
+  const double settled = 1 - (1 - tool.leaving) * (1 - s * s * (3 - 2 * s));
+  return std::clamp(tool.slid + settled * (paid - tool.slid), 0.0, most);
+}
+
+// Who touches holds no more than was brought, whatever the model makes of it in one tick: two tools deep in
+// one place take each other's load.
+void begin(ContactEnergy& tool, const ContactWork& work) {
+  const double brought_j = std::max(work.put_in_j + work.exchanged_j, kTouch_j);
+  tool.account_j = std::min(brought_j, work.stored_j);
+  tool.share = share_of(tool, work, kMaxShare);
 }
 
 void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
@@ -75,8 +88,7 @@ void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
   tool.account_j = account_of(tool, work, taken_j, let_go);
   tool.slid = std::clamp(slid_of(tool, work, taken_j), 0.0, most);
   tool.leaving = leaving_of(tool, work);
-  const double paid = tool.account_j / work.stored_j;
-  tool.share = std::clamp(tool.slid + settling(tool, paid) * (paid - tool.slid), 0.0, most);
+  tool.share = share_of(tool, work, most);
   turn_heading(tool.heading, way, work.push);
   const Vec3 side = (tool.share - 1) * work.stored_j / kForget_m * tool.heading;
   // the hand's work is that of both ends' mean
@@ -99,7 +111,7 @@ void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works,
     if (tool.stored_j >= kNoEnergy_j)
       follow(tool, work, let_go);
     else
-      tool.account_j = work.stored_j;
+      begin(tool, work);
     tool.stored_j = work.stored_j;
     tool.push_n = work.push.norm();
   }

@@ -142,11 +142,11 @@ TEST(ContactEnergy, WhatComesThroughTheTissueIsNoGainOfARestingTool) {
   std::array<ContactEnergy, 2> tools;
   std::array<ContactWork, 2> works;
   for (ContactWork& work : works) {
-    work.stored_j = 1e-3;
+    work.stored_j = work.put_in_j = 1e-3;
     work.push = Vec3(0, 0, -0.5);
   }
   balance(tools, works, false);
-  works[0].put_in_j = 0.3e-3;
+  works[0].put_in_j = 0.3e-3, works[1].put_in_j = 0;
   works[0].stored_j = 1.2e-3;
   works[0].got_j = works[0].exchanged_j = -0.1e-3;
   works[1].stored_j = 1.1e-3;
@@ -159,9 +159,10 @@ TEST(ContactEnergy, WhatComesThroughTheTissueIsNoGainOfARestingTool) {
 TEST(ContactEnergy, WhatIsDroppedIsNobodysGain) {
   std::array<ContactEnergy, 2> tools;
   std::array<ContactWork, 2> works;
-  works[0].stored_j = works[1].stored_j = 1e-3;
+  for (ContactWork& work : works) work.stored_j = work.put_in_j = 1e-3;
   balance(tools, works, false);
   works[0] = {};
+  works[1] = {};
   works[1].stored_j = 0.8e-3;
   balance(tools, works, true);
   EXPECT_EQ(tools[0].stored_j, 0);
@@ -173,11 +174,23 @@ TEST(ContactEnergy, WhatIsTakenOverFromADroppedContactIsNoGain) {
   std::array<ContactEnergy, 1> tools;
   std::array<ContactWork, 1> works;
   works[0].push = Vec3(0, 0, -0.5);
-  works[0].stored_j = 1e-3;
+  works[0].stored_j = works[0].put_in_j = 1e-3;
   balance(tools, works, false);
-  works[0].stored_j = 1.25e-3;
+  works[0].stored_j = 1.25e-3, works[0].put_in_j = 0;
   balance(tools, works, true);
   EXPECT_NEAR(tools[0].account_j, 1e-3, 1e-8);
+}
+
+// Two tools deep in one place take over each other's load from tick to tick.
+TEST(ContactEnergy, WhatATouchHoldsThatNobodyBroughtIsNotFelt) {
+  std::array<ContactEnergy, 1> tools;
+  std::array<ContactWork, 1> works;
+  works[0].push = Vec3(0, 0, -15);
+  works[0].stored_j = 0.1;
+  works[0].put_in_j = 1e-3;
+  balance(tools, works, false);
+  EXPECT_EQ(tools[0].account_j, 1e-3);
+  EXPECT_NEAR(tools[0].share, 0.01, 1e-12);
 }
 
 TEST(ContactEnergy, ContactThatEndsIsForgotten) {

@@ -42,6 +42,7 @@ constexpr KnownPath kKnown[] = {{"phantom", 82, true},
                                 {"openhelp_liver_7k", 184, true},
                                 {"openhelp_kidney_left_22k", 98, false},
                                 {"sofamcp_prostate", 77, true},
+                                {"sofamcp_prostate", 128, false},
                                 {"sofamcp_prostate", 156, false},
                                 {"sofamcp_prostate", 203, false}};
 
