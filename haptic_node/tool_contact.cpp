@@ -51,8 +51,7 @@ void begin_grasp(HapticState& state, std::int32_t tool, DeformedSurface& surface
   for (ToolContact& contact : state.active()) {
     if (contact.tool != tool) continue;
     // what is between jaw and tissue when they close stays there: no force comes from closing alone
-    contact.offset = at_the_surface(contact, state.tools[tool].before) + contact.other_dents -
-                     surface.position(contact.held);
+    contact.offset = with_the_others(contact, state.tools[tool].before) - surface.position(contact.held);
     if (contact.offset.dot(contact.normal) > kGraspGap_m) continue;
     holds = true;
     contact.grasped = true;
