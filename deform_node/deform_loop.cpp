@@ -1,7 +1,6 @@
 #include "deform_node/deform_loop.h"
 
 #include "node/node_identity.h"
-#include "runtime/clock.h"
 #include "runtime/report.h"
 
 #include <nlohmann/json.hpp>
@@ -36,20 +35,20 @@ std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs)
 
 }  // namespace
 
-DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
+DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
     : options_(options),
       scene_(node::load_scene(options.node)),
       organs_(load_organs(scene_, transport::parse_profile(options.node.profile))),
       book_(numbers_of_all(organs_), bounds_of(scene_), faults_),
       loop_(loop),
-      start_ns_(runtime::steady_now_ns()),
+      start_ns_(loop_.now_ns()),
       scene_info_(describe_scene(scene_, organs_)),
       loaded_{organs_.size(), scene_info_.organs},
       orders_(start_ns_),
       refusal_(loop),
       status_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
       standby_(status_.instance),
-      bus_(node::open_bus(options.node, "deform_node")) {
+      bus_(open_bus()) {
   if (!options.node.log.empty()) {
     log_ = std::make_unique<runtime::LoopLog>(options.node.log);
     loop_.log_to(*log_);
@@ -59,20 +58,20 @@ DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   contact_reader_ = bus_->reader<msg::Contact>(
-      [this](const msg::Contact& contact) { book_.take(contact, runtime::steady_now_ns()); });
+      [this](const msg::Contact& contact) { book_.take(contact, loop_.now_ns()); });
   command_reader_ = bus_->reader<msg::SessionCommand>(
-      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
+      [this](const msg::SessionCommand& command) { orders_.hear(command, loop_.now_ns()); });
   scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& other) { hear(other); });
   node_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& other) {
-    const std::int64_t now_ns = runtime::steady_now_ns();
+    const std::int64_t now_ns = loop_.now_ns();
     orders_.hear(other, now_ns);
     standby_.hear(other, now_ns);
   });
 }
 
 void DeformLoop::run() {
-  while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {
-    if (runtime::steady_now_ns() - start_ns_ >= kListen_ns) serve_or_stand_by();
+  while (loop_.wait() != runtime::Pace::Cause::kStopped) {
+    if (loop_.now_ns() - start_ns_ >= kListen_ns) serve_or_stand_by();
     loop_.finish_tick();
   }
   refusal_.throw_if_any();
@@ -83,7 +82,7 @@ void DeformLoop::require_written() {
 }
 
 void DeformLoop::serve_or_stand_by() {
-  const bool other_serves = standby_.other_serves(runtime::steady_now_ns());
+  const bool other_serves = standby_.other_serves(loop_.now_ns());
   if (other_serves && role_ != Role::kStandingBy) stand_by();
   if (!other_serves && role_ != Role::kServing) take_up();
   if (role_ == Role::kServing) tick();
@@ -108,7 +107,7 @@ void DeformLoop::stand_by() {
 void DeformLoop::hear(const msg::SceneInfo& other) {
   auto why = node::contradicts(loaded_, other);
   if (!why) return;
-  if (runtime::steady_now_ns() - start_ns_ > kSettled_ns) {
+  if (loop_.now_ns() - start_ns_ > kSettled_ns) {
     faults_.raise(node::kForeignScene);
   } else {
     refusal_.because(*std::move(why));
@@ -117,7 +116,7 @@ void DeformLoop::hear(const msg::SceneInfo& other) {
 
 void DeformLoop::tick() noexcept {
   obey();
-  const std::int64_t now_ns = runtime::steady_now_ns();
+  const std::int64_t now_ns = loop_.now_ns();
   book_.advance(now_ns);
   if (!orders_.paused()) {
     for (std::size_t i = 0; i < organs_.size(); ++i)
@@ -130,7 +129,7 @@ void DeformLoop::tick() noexcept {
 
 void DeformLoop::obey() noexcept {
   if (!orders_.take_reset()) return;
-  book_.forget(runtime::steady_now_ns());
+  book_.forget(loop_.now_ns());
   for (ServedOrgan& served : organs_) served.model->reset();
 }
 

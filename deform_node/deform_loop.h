@@ -8,7 +8,7 @@
 #include "node/session_orders.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
-#include "runtime/rate_loop.h"
+#include "runtime/pace.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -26,8 +26,9 @@ struct DeformOptions {
 /// node::kSettled_s is the newcomer's fault, and is ignored.
 class DeformLoop {
  public:
-  /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace and must outlive this.
-  DeformLoop(const DeformOptions& options, runtime::RateLoop& loop);
+  /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace, tells the time and
+  /// must outlive this.
+  DeformLoop(const DeformOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop);
 
   /// Until loop.stop(). Throws std::runtime_error when another deform_node serves other organs.
   void run();
@@ -51,7 +52,7 @@ class DeformLoop {
   std::vector<ServedOrgan> organs_;
   runtime::FaultList faults_;
   ContactBook book_;
-  runtime::RateLoop& loop_;
+  runtime::Pace& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
   std::int64_t start_ns_;
   msg::SceneInfo scene_info_;

@@ -1,5 +1,7 @@
 // deform_node: moves the organs. Contact in, OrganState out.
 #include "deform_node/deform_loop.h"
+#include "node/node_identity.h"
+#include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
 
@@ -16,7 +18,8 @@ int main(int argc, char** argv) {
   return line.run(argc, argv, [&] {
     runtime::RateLoop pace(options.rate_hz);
     runtime::StopSignal signal([&] { pace.stop(); });
-    deform::DeformLoop loop(options, pace);
+    const auto open_bus = [&] { return node::open_bus(options.node, "deform_node"); };
+    deform::DeformLoop loop(options, open_bus, pace);
     loop.run();
     if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
     loop.require_written();

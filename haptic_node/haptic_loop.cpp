@@ -1,14 +1,13 @@
 #include "haptic_node/haptic_loop.h"
 
 #include "node/node_identity.h"
-#include "runtime/clock.h"
 #include "runtime/report.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <condition_variable>
 #include <iostream>
+#include <thread>
 
 namespace omentum::haptic {
 namespace {
@@ -24,7 +23,7 @@ constexpr std::int64_t kContactPeriod_ns = 4'000'000;
 // for 0.1 s fade by itself.
 constexpr std::int64_t kTellOfNone_ns = 200'000'000;
 
-constexpr std::int64_t kStatusPeriod_ns = 100'000'000;
+constexpr std::chrono::milliseconds kStatusPeriod{100};
 
 // A tick never counts for longer than this: after a stall forces go on from where they were, s.
 constexpr double kLongestTick_s = 0.02;
@@ -40,13 +39,13 @@ std::uint32_t bits_of(const std::vector<std::uint32_t>& tools) {
 
 }  // namespace
 
-HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
+HapticLoop::HapticLoop(const HapticOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
     : options_(options),
       setup_(make_setup(node::load_scene(options.node), options.rate_hz)),
       loop_(loop),
       state_(setup_.model),
       work_(setup_.model),
-      orders_(runtime::steady_now_ns()),
+      orders_(loop_.now_ns()),
       refusal_(loop),
       status_(node::introduce(msg::NODE_HAPTIC, options.rate_hz)),
       rivals_(msg::NODE_HAPTIC, status_.instance),
@@ -67,14 +66,14 @@ HapticLoop::HapticLoop(const HapticOptions& options, runtime::RateLoop& loop)
       contacts_.push_back({make_contact_message(id, static_cast<std::uint32_t>(organ))});
   }
   answered_ns_.resize(lines_.size());
-  connect();
+  connect(open_bus);
 }
 
 HapticLoop::~HapticLoop() = default;
 
-void HapticLoop::connect() {
+void HapticLoop::connect(const transport::OpenBus& open_bus) {
   const runtime::RealtimeStart start(runtime::kHandLinkPriority);
-  bus_ = node::open_bus(options_.node, "haptic_node");
+  bus_ = open_bus();
   force_writer_ = bus_->writer<msg::ToolForce>();
   contact_writer_ = bus_->writer<msg::Contact>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
@@ -85,7 +84,7 @@ void HapticLoop::connect() {
         for (const auto& line : lines_) line->gone(writer);
       }});
   command_reader_ = bus_->reader<msg::SessionCommand>(
-      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
+      [this](const msg::SessionCommand& command) { orders_.hear(command, loop_.now_ns()); });
   scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& scene) { hear(scene); });
   node_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& other) { hear(other); });
 }
@@ -95,7 +94,7 @@ void HapticLoop::connect() {
 void HapticLoop::hear(const msg::ToolPose& pose) noexcept {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (lines_[i]->id() != pose.tool || !serves(i)) continue;
-    if (lines_[i]->hear(pose, runtime::steady_now_ns())) loop_.wake();
+    if (lines_[i]->hear(pose, loop_.now_ns())) loop_.wake();
   }
 }
 
@@ -116,7 +115,7 @@ void HapticLoop::hear(const msg::SceneInfo& scene) {
 }
 
 void HapticLoop::hear(const msg::NodeStatus& other) {
-  const std::int64_t now_ns = runtime::steady_now_ns();
+  const std::int64_t now_ns = loop_.now_ns();
   orders_.hear(other, now_ns);
   if (!rivals_.proven(other, now_ns)) return;
   const ServingClaim own{{status_.instance, standing_.load(std::memory_order_relaxed)},
@@ -140,16 +139,18 @@ void HapticLoop::tell(const Dispute& dispute) {
 
 void HapticLoop::run() {
   const std::jthread warm([this](const std::stop_token& stop) { warm_up(setup_.model, stop); });
-  watch_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+  statuses_ = loop_.beside(kStatusPeriod, [this, from_ns = loop_.now_ns() + kListen_ns] {
+    if (loop_.now_ns() >= from_ns) publish_status();
+  });
   grant_ = runtime::request_realtime(runtime::kHandLoopPriority, tensor_bytes(setup_.model));
   if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
-  serve_from_ns_ = runtime::steady_now_ns() + kListen_ns;
-  while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {
-    const std::int64_t now_ns = runtime::steady_now_ns();
+  serve_from_ns_ = loop_.now_ns() + kListen_ns;
+  while (loop_.wait() != runtime::Pace::Cause::kStopped) {
+    const std::int64_t now_ns = loop_.now_ns();
     if (now_ns >= serve_from_ns_) tick(now_ns);
     loop_.finish_tick();
   }
-  watch_ = {};
+  statuses_.reset();
   refusal_.throw_if_any();
 }
 
@@ -262,17 +263,6 @@ void HapticLoop::account() noexcept {
 }
 
 // ---- the ordinary thread
-
-void HapticLoop::watch(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any wake;
-  std::unique_lock lock(mutex);
-  const std::int64_t listen_until_ns = runtime::steady_now_ns() + kListen_ns;
-  while (!stop.stop_requested()) {
-    if (runtime::steady_now_ns() >= listen_until_ns) publish_status();
-    wake.wait_for(lock, stop, std::chrono::nanoseconds(kStatusPeriod_ns), [] { return false; });
-  }
-}
 
 void HapticLoop::publish_status() {
   snapshots_.fetch();

@@ -10,13 +10,11 @@
 #include "node/refusal.h"
 #include "node/session_orders.h"
 #include "runtime/node_options.h"
-#include "runtime/rate_loop.h"
+#include "runtime/pace.h"
 #include "runtime/realtime.h"
 #include "transport/bus.h"
 
 #include <nlohmann/json_fwd.hpp>
-
-#include <thread>
 
 namespace omentum::haptic {
 
@@ -35,9 +33,9 @@ struct HapticOptions {
 /// fault and changes nothing: nobody loses a tool in the middle of a press.
 class HapticLoop {
  public:
-  /// Loads scene and organ and joins the domain. Throws what and where. `loop` sets the pace and must outlive
-  /// this.
-  HapticLoop(const HapticOptions& options, runtime::RateLoop& loop);
+  /// Loads scene and organ and joins the domain. Throws what and where. `loop` sets the pace, tells the time
+  /// and must outlive this.
+  HapticLoop(const HapticOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop);
   ~HapticLoop();
 
   /// Until loop.stop(). Throws std::runtime_error when this node must not serve (a tool that another node
@@ -62,7 +60,7 @@ class HapticLoop {
     std::int64_t told_until_ns = 0;
   };
 
-  void connect();
+  void connect(const transport::OpenBus& open_bus);
   void tick(std::int64_t now_ns) noexcept;
   void obey() noexcept;
   void answer(std::int64_t now_ns, double dt_s) noexcept;
@@ -79,13 +77,12 @@ class HapticLoop {
   bool serves(std::size_t line) const noexcept {
     return served_.load(std::memory_order_relaxed) >> lines_[line]->id() & 1u;
   }
-  void watch(const std::stop_token& stop);
   void publish_status();
 
   HapticOptions options_;
   HapticSetup setup_;
   runtime::FaultList faults_;
-  runtime::RateLoop& loop_;
+  runtime::Pace& loop_;
   std::unique_ptr<HapticLog> log_;
   runtime::RealtimeGrant grant_;
 
@@ -125,7 +122,7 @@ class HapticLoop {
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;
   std::unique_ptr<transport::Reader<msg::NodeStatus>> node_reader_;
-  std::jthread watch_;
+  std::unique_ptr<runtime::SideWork> statuses_;
 };
 
 }  // namespace omentum::haptic

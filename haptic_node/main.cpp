@@ -1,5 +1,7 @@
 // haptic_node: the hand's loop. ToolPose in, ToolForce and Contact out.
 #include "haptic_node/haptic_loop.h"
+#include "node/node_identity.h"
+#include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
 
@@ -18,7 +20,8 @@ int main(int argc, char** argv) {
   return line.run(argc, argv, [&] {
     runtime::RateLoop pace(options.rate_hz);
     runtime::StopSignal signal([&] { pace.stop(); });
-    haptic::HapticLoop loop(options, pace);
+    const auto open_bus = [&] { return node::open_bus(options.node, "haptic_node"); };
+    haptic::HapticLoop loop(options, open_bus, pace);
     loop.run();
     if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
     loop.require_written();

@@ -3,8 +3,8 @@
 
 #include "runtime/faults.h"
 #include "runtime/node_options.h"
-#include "runtime/rate_loop.h"
 #include "runtime/scene.h"
+#include "runtime/tick_account.h"
 #include "transport/bus.h"
 
 namespace omentum::node {

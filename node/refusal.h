@@ -1,7 +1,7 @@
 // Why a node that runs must end.
 #pragma once
 
-#include "runtime/rate_loop.h"
+#include "runtime/pace.h"
 
 #include <mutex>
 #include <string>
@@ -12,7 +12,7 @@ namespace omentum::node {
 class Refusal {
  public:
   /// `loop` is stopped by a reason; it must outlive this.
-  explicit Refusal(runtime::RateLoop& loop) : loop_(loop) {}
+  explicit Refusal(runtime::Pace& loop) : loop_(loop) {}
 
   /// Any thread; waits for a short lock.
   void because(std::string why);
@@ -20,7 +20,7 @@ class Refusal {
   void throw_if_any() const;
 
  private:
-  runtime::RateLoop& loop_;
+  runtime::Pace& loop_;
   mutable std::mutex mutex_;
   std::string why_;
 };

@@ -1,7 +1,5 @@
 #include "render_node/inbox.h"
 
-#include "runtime/clock.h"
-
 #include <algorithm>
 
 namespace omentum::render {
@@ -45,11 +43,15 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
   });
 }
 
-Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, runtime::FaultList& faults)
-    : faults_(faults),
-      poses_(bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, runtime::steady_now_ns()); }),
-      forces_(bus),
-      orders_(runtime::steady_now_ns()) {
+Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
+             runtime::FaultList& faults)
+    : clock_(clock),
+      faults_(faults),
+      poses_(
+          bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, clock_.now_ns()); },
+          [this] { return clock_.now_ns(); }),
+      forces_(bus, {}, [this] { return clock_.now_ns(); }),
+      orders_(clock_.now_ns()) {
   for (const LoadedOrgan& organ : organs) organs_.push_back(std::make_unique<OrganBox>(organ));
   contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) {
     if (contact.tool < contacts_.size()) contacts_[contact.tool].post(contact);
@@ -58,7 +60,7 @@ Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, runtim
   status_reader_ =
       bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) { take_status(status); });
   command_reader_ = bus.reader<msg::SessionCommand>(
-      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
+      [this](const msg::SessionCommand& command) { orders_.hear(command, clock_.now_ns()); });
   scene_reader_ = bus.reader<msg::SceneInfo>([this](const msg::SceneInfo& info) { scene_info_.post(info); });
   topology_reader_ =
       bus.reader<msg::Topology>([this](const msg::Topology& topology) { take_topology(topology); });
@@ -83,7 +85,7 @@ void Inbox::take_topology(const msg::Topology& topology) {
 }
 
 void Inbox::take_status(const msg::NodeStatus& status) {
-  const std::int64_t now_ns = runtime::steady_now_ns();
+  const std::int64_t now_ns = clock_.now_ns();
   orders_.hear(status, now_ns);
   remember_status(status, now_ns, heard_);
   statuses_.post(heard_);

@@ -4,6 +4,7 @@
 #include "node/session_orders.h"
 #include "render_node/pose_arrivals.h"
 #include "render_node/state_assembly.h"
+#include "runtime/clock.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
 #include "transport/latest.h"
@@ -20,7 +21,7 @@ struct LoadedOrgan {
   double reach_m = 0;          // a state that moves a node farther is none (plausible.h)
 };
 
-/// A node's newest status and when it came (steady clock of this process).
+/// A node's newest status and when it came (the inbox's clock).
 struct HeardStatus {
   msg::NodeStatus status;
   std::int64_t arrived_ns = 0;
@@ -38,7 +39,9 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
 /// waits.
 class Inbox {
  public:
-  Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, runtime::FaultList& faults);
+  /// `clock` says when something came.
+  Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
+        runtime::FaultList& faults);
 
   bool pose(std::uint32_t tool, transport::Arrived<msg::ToolPose>& out) const {
     return poses_.load(tool, out);
@@ -71,6 +74,7 @@ class Inbox {
   void take_topology(const msg::Topology& topology);
   void take_status(const msg::NodeStatus& status);
 
+  const runtime::Clock& clock_;
   runtime::FaultList& faults_;
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
   transport::LatestByTool<msg::ToolPose> poses_;

@@ -1,6 +1,8 @@
 // render_node: shows the session. A window, or pictures where there is no display.
+#include "node/node_identity.h"
 #include "render_node/gl/display.h"
 #include "render_node/render_loop.h"
+#include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
 
@@ -49,7 +51,8 @@ int main(int argc, char** argv) {
     const auto folder = options.out.empty() ? std::filesystem::path(".") : options.out;
     const auto renderer = render::gl::open_display(options.headless, options.size, "Omentum", folder);
     if (!renderer->has_window()) options.out = folder;
-    render::RenderLoop loop(options, *renderer, pace);
+    const auto open_bus = [&] { return node::open_bus(options.node, "render_node"); };
+    render::RenderLoop loop(options, open_bus, *renderer, pace);
     loop.run();
     if (!options.node.report.empty()) runtime::write_report(loop.report(), options.node.report);
     loop.require_written();

@@ -4,7 +4,6 @@
 #include "node/session_orders.h"
 #include "organ/organ.h"
 #include "render_node/plausible.h"
-#include "runtime/clock.h"
 #include "runtime/report.h"
 
 #include <nlohmann/json.hpp>
@@ -49,34 +48,35 @@ RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
   return loaded;
 }
 
-RenderLoop::RenderLoop(const RenderOptions& options, Renderer& renderer, runtime::RateLoop& pace)
-    : RenderLoop(options, load(options), renderer, pace) {}
+RenderLoop::RenderLoop(const RenderOptions& options, const transport::OpenBus& open_bus, Renderer& renderer,
+                       runtime::Pace& pace)
+    : RenderLoop(options, load(options), open_bus, renderer, pace) {}
 
-RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, Renderer& renderer,
-                       runtime::RateLoop& pace)
+RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const transport::OpenBus& open_bus,
+                       Renderer& renderer, runtime::Pace& pace)
     : options_(options),
       renderer_(renderer),
       pace_(pace),
-      begin_ns_(runtime::steady_now_ns()),
+      begin_ns_(pace_.now_ns()),
       view_(loaded.scene, loaded.shapes, renderer),
       watch_(loaded.scene, loaded.organs, begin_ns_),
       control_(options.fps, kDuty),
       schedule_(picture_period_s(options, renderer.has_window())),
       account_(std::llround(1e9 / options.fps)),
       status_(node::introduce(msg::NODE_RENDER, options.fps)),
-      bus_(node::open_bus(options.node, "render_node")) {
+      bus_(open_bus()) {
   choices_.orbit = view_.first_camera();
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
   if (!options.node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(options.node.log);
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
-  inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, faults_);
+  inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, pace_, faults_);
 }
 
 void RenderLoop::run() {
-  while (!closed_ && pace_.wait() != runtime::RateLoop::Cause::kStopped) {
-    const double time_s = seconds_since_begin(runtime::steady_now_ns());
+  while (!closed_ && pace_.wait() != runtime::Pace::Cause::kStopped) {
+    const double time_s = seconds_since_begin(pace_.now_ns());
     if (options_.seconds > 0 && time_s >= options_.seconds) break;
     if (control_.due(time_s)) frame(false);
   }
@@ -86,7 +86,7 @@ void RenderLoop::run() {
 }
 
 void RenderLoop::frame(bool last) {
-  const std::int64_t begin_ns = runtime::steady_now_ns();
+  const std::int64_t begin_ns = pace_.now_ns();
   account_.start(begin_ns);
   watch_.listen(*inbox_, view_, faults_, begin_ns);
   const std::optional<Dent>& dent = watch_.deepest_dent();
@@ -125,7 +125,7 @@ void RenderLoop::draw(const std::string& picture) {
 }
 
 void RenderLoop::finish_frame(std::int64_t begin_ns, bool for_disk) {
-  const std::int64_t end_ns = runtime::steady_now_ns();
+  const std::int64_t end_ns = pace_.now_ns();
   account_.finish(end_ns);
   if (log_) log_->push({begin_ns, account_.last_period_ns(), account_.last_compute_ns(), 0});
   if (!for_disk)

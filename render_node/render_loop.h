@@ -8,7 +8,7 @@
 #include "render_node/session_watch.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
-#include "runtime/rate_loop.h"
+#include "runtime/pace.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -31,9 +31,10 @@ struct RenderOptions {
 /// Owns the scene's drawing and the node's life on the bus. The renderer's thread.
 class RenderLoop {
  public:
-  /// Loads scene and organs and joins the domain. Throws what and where. `renderer` and `pace` must outlive
-  /// this.
-  RenderLoop(const RenderOptions& options, Renderer& renderer, runtime::RateLoop& pace);
+  /// Loads scene and organs and joins the domain. Throws what and where. `renderer` and `pace`, which tells
+  /// the time too, must outlive this.
+  RenderLoop(const RenderOptions& options, const transport::OpenBus& open_bus, Renderer& renderer,
+             runtime::Pace& pace);
 
   /// Until pace.stop(), the window is closed or the time is over; then writes final.png. Throws
   /// std::runtime_error when deform_node turns out to serve another organ.
@@ -52,7 +53,8 @@ class RenderLoop {
     std::vector<OrganShape> shapes;
   };
   static Loaded load(const RenderOptions& options);
-  RenderLoop(const RenderOptions& options, const Loaded& loaded, Renderer& renderer, runtime::RateLoop& pace);
+  RenderLoop(const RenderOptions& options, const Loaded& loaded, const transport::OpenBus& open_bus,
+             Renderer& renderer, runtime::Pace& pace);
   void frame(bool last);
   void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
@@ -68,7 +70,7 @@ class RenderLoop {
 
   RenderOptions options_;
   Renderer& renderer_;
-  runtime::RateLoop& pace_;
+  runtime::Pace& pace_;
   std::int64_t begin_ns_;
   runtime::FaultList faults_;
   SceneView view_;

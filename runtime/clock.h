@@ -1,4 +1,4 @@
-// The one clock of a process.
+// The one clock of a process, and the seam that puts another in its place.
 #pragma once
 
 #include <cstdint>
@@ -12,5 +12,18 @@ inline std::int64_t steady_now_ns() noexcept {
   clock_gettime(CLOCK_MONOTONIC, &t);
   return t.tv_sec * std::int64_t{1'000'000'000} + t.tv_nsec;
 }
+
+/// A steady time. A node reads it here, so that a test can let it pass.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  /// ns. Any thread; never waits.
+  virtual std::int64_t now_ns() const noexcept = 0;
+};
+
+class SteadyClock final : public Clock {
+ public:
+  std::int64_t now_ns() const noexcept override { return steady_now_ns(); }
+};
 
 }  // namespace omentum::runtime

@@ -8,7 +8,7 @@
 
 namespace omentum::runtime {
 
-/// One tick. `cause` is RateLoop::Cause as a number: 0 schedule, 1 woken.
+/// One tick. `cause` is Pace::Cause as a number: 0 schedule, 1 woken.
 struct LoopSample {
   std::int64_t start_ns = 0;   // steady clock
   std::int64_t period_ns = 0;  // since the start of the tick before, 0 at the first
@@ -16,7 +16,7 @@ struct LoopSample {
   std::int32_t cause = 0;
 };
 
-/// What RateLoop tells of each of its ticks.
+/// What a Pace tells of each of its ticks.
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
@@ -24,7 +24,7 @@ class LoopObserver {
   virtual void push(const LoopSample& sample) noexcept = 0;
 };
 
-/// Lines `tick,start_ns,period_ns,compute_ns,cause`. Give it to RateLoop::log_to.
+/// Lines `tick,start_ns,period_ns,compute_ns,cause`. Give it to Pace::log_to.
 class LoopLog : public LoopObserver {
  public:
   static constexpr const char* kColumns = "tick,start_ns,period_ns,compute_ns,cause";

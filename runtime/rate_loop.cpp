@@ -1,6 +1,6 @@
 #include "runtime/rate_loop.h"
 
-#include "runtime/clock.h"
+#include "runtime/background.h"
 #include "runtime/loop_log.h"
 
 #include <cmath>
@@ -79,6 +79,10 @@ void RateLoop::wake() noexcept {
 void RateLoop::stop() noexcept {
   stopped_.store(true, std::memory_order_release);
   wake();
+}
+
+std::unique_ptr<SideWork> RateLoop::beside(std::chrono::milliseconds pause, std::function<void()> work) {
+  return std::make_unique<Background>(pause, std::move(work));
 }
 
 }  // namespace omentum::runtime

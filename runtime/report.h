@@ -1,7 +1,7 @@
 // The numbers of a run, as report.json holds them (docs/design.md, "Report").
 #pragma once
 
-#include "runtime/rate_loop.h"
+#include "runtime/tick_account.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace omentum::transport {
 
@@ -74,6 +75,7 @@ struct ByWriter {
 
 /// One participant in one domain. Topic names and QoS come from transport/topics.h, by message type.
 /// Destroy readers and writers before the bus. All methods may be called by any thread, none from a callback.
+/// open() joins over DDS; who derives from it stands in for DDS (a test's scripted peer).
 ///
 /// A process that was stopped for a while finds its partners again, if need be as a new participant: readers
 /// and writers live on, and durable samples are said again.
@@ -90,15 +92,32 @@ class Bus {
 
   /// All throw std::runtime_error when the vendor refuses. M is one of msg::AllTopics.
   template <class M>
-  std::unique_ptr<Writer<M>> writer();
+  std::unique_ptr<Writer<M>> writer() {
+    return make_writer(msg::MessageTag<M>{});
+  }
   template <class M>
-  std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample);
+  std::unique_ptr<Reader<M>> reader(ByWriter<M> callbacks) {
+    return make_reader(std::move(callbacks));
+  }
   template <class M>
-  std::unique_ptr<Reader<M>> reader(ByWriter<M> callbacks);
+  std::unique_ptr<Reader<M>> reader(std::function<void(const M&)> on_sample) {
+    return reader(ByWriter<M>{
+        [callback = std::move(on_sample)](const M& sample, const WriterId&) { callback(sample); }, {}});
+  }
 
   /// What in this machine's settings will cost samples, and what to set; empty when nothing does.
   virtual std::string warning() const = 0;
+
+ private:
+#define OMENTUM_MAKES_ENDPOINTS(M)                                                      \
+  virtual std::unique_ptr<Writer<msg::M>> make_writer(msg::MessageTag<msg::M> tag) = 0; \
+  virtual std::unique_ptr<Reader<msg::M>> make_reader(ByWriter<msg::M> callbacks) = 0;
+  OMENTUM_FOR_EACH_TOPIC(OMENTUM_MAKES_ENDPOINTS)
+#undef OMENTUM_MAKES_ENDPOINTS
 };
+
+/// Joins when it is called: whoever gets one is ready for the domain only then.
+using OpenBus = std::function<std::unique_ptr<Bus>()>;
 
 /// "fast" or "cyclone"; throws std::invalid_argument naming the choices.
 Vendor parse_vendor(const std::string& word);

@@ -124,7 +124,7 @@ class SequenceTracker {
 template <class M>
 struct Arrived {
   M sample;
-  std::int64_t arrived_ns = 0;  // arrival_clock_ns()
+  std::int64_t arrived_ns = 0;  // on its reader's clock
 
   std::int64_t age_ns(std::int64_t now_ns) const noexcept { return now_ns - arrived_ns; }
 };
@@ -134,10 +134,12 @@ struct Arrived {
 template <class M>
 class LatestByTool {
  public:
-  /// on_arrival (optional) is called on the vendor's thread, after the sample can be loaded; it must not
-  /// block.
-  explicit LatestByTool(Bus& bus, std::function<void(const M&)> on_arrival = {})
+  /// on_arrival (optional) is called on the vendor's thread, after the sample can be loaded; neither it nor
+  /// the clock (ns, steady) may block.
+  explicit LatestByTool(Bus& bus, std::function<void(const M&)> on_arrival = {},
+                        std::function<std::int64_t()> clock = arrival_clock_ns)
       : on_arrival_(std::move(on_arrival)),
+        clock_(std::move(clock)),
         reader_(bus.reader<M>([this](const M& sample) { take(sample); })) {}
 
   /// The tool's newest sample. False, with `out` untouched, when none came yet. Any thread; never waits.
@@ -157,7 +159,7 @@ class LatestByTool {
   };
 
   void take(const M& sample) {
-    const std::int64_t now_ns = arrival_clock_ns();
+    const std::int64_t now_ns = clock_();
     if (sample.tool >= tools_.size() || !tools_[sample.tool].sequence.accept(sample.seq, now_ns)) return;
     tools_[sample.tool].newest.store({sample, now_ns});
     if (on_arrival_) on_arrival_(sample);
@@ -165,6 +167,7 @@ class LatestByTool {
 
   std::array<Tool, msg::MAX_TOOLS> tools_;
   std::function<void(const M&)> on_arrival_;
+  std::function<std::int64_t()> clock_;
   std::unique_ptr<Reader<M>> reader_;  // last: its callback uses the members above
 };
 

@@ -1,6 +1,9 @@
 // The node's loop on a renderer that only remembers, with a scripted person at its window.
 #include "render_node/render_loop.h"
 
+#include "node/node_identity.h"
+#include "runtime/rate_loop.h"
+
 #include "block_session.h"
 #include "panel_context.h"
 #include "recording_renderer.h"
@@ -84,7 +87,8 @@ class RenderLoopTest : public testing::Test {
   }
   nlohmann::json run() {
     runtime::RateLoop pace(kPaceHz);
-    RenderLoop loop(options_, renderer_, pace);
+    RenderLoop loop(
+        options_, [this] { return node::open_bus(options_.node, "render_node"); }, renderer_, pace);
     loop.run();
     return loop.report();
   }

@@ -41,7 +41,8 @@ class SessionWatchTest : public testing::Test {
   runtime::FaultList faults_;
   std::unique_ptr<transport::Bus> bus_ = transport::Bus::open(
       {.vendor = transport::Vendor::kCyclone, .domain = omentum::test::domain_of_test(), .name = "test"});
-  Inbox inbox_{*bus_, organs_, faults_};
+  runtime::SteadyClock clock_;
+  Inbox inbox_{*bus_, organs_, clock_, faults_};
   SessionWatch watch_{scene_, organs_, 0};
 };
 

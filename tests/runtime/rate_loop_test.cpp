@@ -51,6 +51,18 @@ TEST(RateLoop, TicksOnItsOwnAndRecordsThem) {
   EXPECT_EQ(loop.record().period.count(), 19u);
 }
 
+TEST(RateLoop, WorkBesideItGoesOnUntilItIsGivenBack) {
+  RateLoop loop(kSlowHz);
+  std::atomic<int> calls{0};
+  auto work = loop.beside(std::chrono::milliseconds(1), [&] {
+    ++calls;
+    calls.notify_one();
+  });
+  for (int seen = calls; seen < 3; seen = calls) calls.wait(seen);
+  work.reset();
+  EXPECT_GE(calls, 3);
+}
+
 TEST(RateLoop, EveryPostOfAnotherThreadIsSeenByATickThatStartsLater) {
   // no lost wake-up: the waker waits for each tick before it wakes again
   RateLoop loop(kSlowHz);
