@@ -62,7 +62,8 @@ HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
     refuse(scene, "organ '" + scene.organs.front().name +
                       "' has no organ file: build one with organ_build and give it with --organ");
   organ::Organ organ = organ::load_organ(file, organ::Load::kWithTensors);
-  const node::LoadedScene loaded{scene.organs.size(), {{organ.name, organ.hash}}};
+  const node::LoadedScene loaded =
+      node::loaded_scene(scene, {{.name = organ.name, .hash = organ.hash, .kind = msg::KIND_SURFACE}});
   const runtime::HapticsSpec& h = scene.haptics;
   HapticSetup setup{
       make_model(scene, std::move(organ)),
