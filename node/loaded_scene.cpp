@@ -26,14 +26,11 @@ bool has(const Values& values, std::string_view key) {
                      [key](const std::string& line) { return split(line).key == key; });
 }
 
+// in one line, whoever wrote the values
 std::string differs(std::string_view key, std::string_view theirs, std::string_view ours) {
   std::string line = "scene: ";
-  return line.append(key)
-      .append(" is ")
-      .append(theirs)
-      .append(" at deform_node, ")
-      .append(ours)
-      .append(" here");
+  line.append(key).append(" is ").append(theirs).append(" at deform_node, ").append(ours).append(" here");
+  return runtime::printable(line);
 }
 
 // Where one list has a value more, the other's next one is not what differs.

@@ -26,16 +26,8 @@ std::string text_of(const std::optional<Triple>& t) {
   return t ? text_of(*t) : "none";
 }
 
-// in one line, whatever was written
 std::string text_of(const std::string& text) {
-  std::string line;
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    const bool control = byte < 0x20 || byte == 0x7f;
-    line += control ? std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15]
-                    : std::string(1, letter);
-  }
-  return line;
+  return printable(text);
 }
 
 std::string supports_of(const OrganSpec& organ) {
@@ -118,6 +110,17 @@ std::vector<std::string> scene_values(const Scene& scene) {
   for (std::size_t i = 0; i < scene.hands.size(); ++i) add(scene.hands[i], {"hands", i, values});
   add(scene.haptics, {"haptics", values});
   return values;
+}
+
+std::string printable(std::string_view text) {
+  std::string line;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool control = byte < 0x20 || byte == 0x7f;
+    line += control ? std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15]
+                    : std::string(1, letter);
+  }
+  return line;
 }
 
 std::string scene_hash(const std::vector<std::string>& values) {

@@ -4,6 +4,7 @@
 #include "runtime/scene.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace omentum::runtime {
@@ -12,6 +13,9 @@ namespace omentum::runtime {
 /// "organs[0].young_pa = 6000". Numbers are the shortest that are read back the same. Left out is what a
 /// machine may have its own way: the scene's name, paths (an organ file has a hash of its own) and camera.
 std::vector<std::string> scene_values(const Scene& scene);
+
+/// The text in one line: control characters as "\x0a".
+std::string printable(std::string_view text);
 
 /// SHA-256 of the values, each with a line feed behind it; 64 hexadecimal digits.
 std::string scene_hash(const std::vector<std::string>& values);

@@ -67,7 +67,7 @@ class Listener {
   explicit Listener(transport::Bus& bus)
       : reader_(bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) {
           orders_.hear(status, runtime::steady_now_ns());
-          heard_ = true;
+          if (status.kind != msg::NODE_LAUNCHER) heard_ = true;  // which hears no commands
           if (status.kind == msg::NODE_HAPTIC) said_ = status.paused ? Said::kPaused : Said::kRunning;
         })) {}
 

@@ -210,6 +210,7 @@ TEST_P(DeformNodeTest, WhoJoinsAPausedSessionIsPaused) {
   ASSERT_TRUE(test::comes_true([&] { return bench_.status() && bench_.status()->paused; }));
   bench_.command(msg::COMMAND_START);
   EXPECT_TRUE(test::comes_true([&] { return !bench_.status()->paused; }));
+  EXPECT_EQ(bench_.status()->newest_order, 1u) << "for those who have just come";
 }
 
 TEST_P(DeformNodeTest, ASceneWithAnotherOrganIsNotJoined) {

@@ -66,7 +66,8 @@ TEST_F(LoadedSceneTest, AValueThatOneSideHasNotIsNamed) {
 TEST_F(LoadedSceneTest, NonsenseIsRefusedInOneLine) {
   announced_.hash = "0";
   std::vector<std::vector<std::string>> nonsense = {
-      {}, loaded_.values, {loaded_.values.rbegin(), loaded_.values.rend()}, {"", "", ""}, {" = ", "organs"}};
+      {},           loaded_.values,    {loaded_.values.rbegin(), loaded_.values.rend()},
+      {"", "", ""}, {" = ", "organs"}, {"organs[0].name = a\nb"}};
   for (const auto& values : nonsense) {
     announced_.values = values;
     const auto why = contradicts(loaded_, announced_);
