@@ -42,8 +42,7 @@ DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& o
       book_(numbers_of_all(organs_), bounds_of(scene_), faults_),
       loop_(loop),
       start_ns_(loop_.now_ns()),
-      scene_info_(describe_scene(scene_, organs_)),
-      loaded_{organs_.size(), scene_info_.organs},
+      loaded_(node::loaded_scene(scene_, describe(organs_))),
       orders_(start_ns_),
       refusal_(loop),
       status_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
@@ -92,7 +91,7 @@ void DeformLoop::take_up() {
   if (role_ == Role::kStandingBy) say_once(told_serving_, "the other one fell silent, this one serves");
   role_ = Role::kServing;
   if (std::exchange(introduced_, true)) return;
-  scene_writer_->write(scene_info_);
+  scene_writer_->write(node::to_message(loaded_, scene_.name));
   for (std::size_t i = 0; i < organs_.size(); ++i)
     topology_writer_->write(uncut_topology(static_cast<std::uint32_t>(i), organs_[i].organ));
 }
@@ -144,7 +143,7 @@ void DeformLoop::publish(std::int64_t now_ns) noexcept {
 }
 
 void DeformLoop::publish_status() noexcept {
-  status_.paused = orders_.paused();
+  orders_.tell(status_);
   status_.echoes.assign(book_.echoes().begin(), book_.echoes().end());
   node::fill_status(loop_.record(), faults_, status_);
   standby_.serving(status_);

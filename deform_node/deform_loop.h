@@ -55,7 +55,6 @@ class DeformLoop {
   runtime::Pace& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
   std::int64_t start_ns_;
-  msg::SceneInfo scene_info_;
   node::LoadedScene loaded_;
   node::SessionOrders orders_;
   node::Refusal refusal_;

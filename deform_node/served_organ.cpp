@@ -10,12 +10,6 @@ namespace omentum::deform {
 
 namespace {
 
-constexpr std::size_t kNameBytes = 64;  // string<64> of the IDL
-
-std::string bounded(const std::string& text) {
-  return text.substr(0, kNameBytes);
-}
-
 std::vector<msg::OrganState> prepare_blocks(std::uint32_t organ, std::int32_t node_count,
                                             transport::Profile profile) {
   const std::vector<StateBlock> split = split_state(node_count, nodes_per_block(profile));
@@ -70,13 +64,12 @@ msg::Topology uncut_topology(std::uint32_t organ, const organ::Organ& source) {
   return topology;
 }
 
-msg::SceneInfo describe_scene(const runtime::Scene& scene, const std::vector<ServedOrgan>& organs) {
-  msg::SceneInfo info{};
-  info.protocol = msg::PROTOCOL_VERSION;
-  info.scene = bounded(scene.name);
+std::vector<msg::OrganInfo> describe(const std::vector<ServedOrgan>& organs) {
+  std::vector<msg::OrganInfo> infos;
   for (const ServedOrgan& served : organs)
-    info.organs.push_back({.name = bounded(served.organ.name), .hash = bounded(served.organ.hash)});
-  return info;
+    infos.push_back(
+        {.name = served.organ.name, .hash = served.organ.hash, .kind = served.blocks.front().kind});
+  return infos;
 }
 
 void fill_blocks(ServedOrgan& organ, std::uint64_t seq, std::int64_t stamp_ns,

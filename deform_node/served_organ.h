@@ -24,9 +24,11 @@ std::vector<ServedOrgan> load_organs(const runtime::Scene& scene, transport::Pro
 /// Refers to the organ's tensors.
 OrganNumbers numbers_of(const organ::Organ& organ);
 
-/// Durable messages: topology version 0 (nothing removed) and who is in the scene.
+/// The topology of an organ as it was loaded: version 0, nothing removed. A reset publishes none, since no
+/// model of today cuts: an organ that comes back whole from a cut gets the next version (idl/organ.idl).
 msg::Topology uncut_topology(std::uint32_t organ, const organ::Organ& source);
-msg::SceneInfo describe_scene(const runtime::Scene& scene, const std::vector<ServedOrgan>& organs);
+/// Who is in the scene, as SceneInfo tells it.
+std::vector<msg::OrganInfo> describe(const std::vector<ServedOrgan>& organs);
 
 /// Fills `organ`'s blocks with the state of this moment; allocates nothing.
 void fill_blocks(ServedOrgan& organ, std::uint64_t seq, std::int64_t stamp_ns,

@@ -267,7 +267,7 @@ void HapticLoop::account() noexcept {
 void HapticLoop::publish_status() {
   snapshots_.fetch();
   const Snapshot& snapshot = snapshots_.value();
-  status_.paused = orders_.paused();
+  orders_.tell(status_);
   status_.tools_served = served_.load(std::memory_order_relaxed);
   status_.echoes.assign(snapshot.echoes.begin(),
                         snapshot.echoes.begin() + static_cast<std::ptrdiff_t>(lines_.size()));

@@ -64,12 +64,13 @@ HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
   if (scene.organs.empty()) refuse(scene, "no organ, expected one at least");
   const runtime::HapticsSpec& h = scene.haptics;
   HapticSetup setup;
+  std::vector<msg::OrganInfo> organs;
   for (const runtime::OrganSpec& spec : scene.organs) {
     organ::Organ organ = load(scene, spec);
-    setup.scene.organs.push_back({organ.name, organ.hash});
+    organs.push_back({.name = organ.name, .hash = organ.hash, .kind = msg::KIND_SURFACE});
     setup.model.organs.push_back(make_surface(std::move(organ)));
   }
-  setup.scene.organ_count = scene.organs.size();
+  setup.scene = node::loaded_scene(scene, std::move(organs));
   setup.model.tools = make_tools(scene);
   setup.model.friction = h.friction;
   setup.model.mode = h.contact == "spread" ? ContactMode::kSpread : ContactMode::kPoint;

@@ -1,5 +1,7 @@
 #include "node/node_identity.h"
 
+#include "node/loaded_scene.h"
+
 #include <unistd.h>
 
 #include <chrono>
@@ -7,19 +9,13 @@
 
 namespace omentum::node {
 
-namespace {
-
-constexpr std::size_t kFaultBytes = 160;  // string<160> of idl/session.idl
-constexpr std::size_t kHostBytes = 64;    // string<64> of idl/session.idl
-
-}  // namespace
-
 msg::Percentiles to_message(const runtime::Percentiles& p) {
   return {.p50 = p.p50, .p99 = p.p99, .p999 = p.p999, .max = p.max, .count = p.count};
 }
 
 runtime::Scene load_scene(const runtime::NodeOptions& options) {
   runtime::Scene scene = runtime::load_scene(options.scene);
+  require_tellable(scene);
   if (!options.organ.empty() && !scene.organs.empty()) scene.organs.front().file = options.organ;
   return scene;
 }
@@ -44,8 +40,8 @@ msg::NodeStatus introduce(std::uint32_t kind, double rate_hz) {
   status.kind = kind;
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
   status.instance = static_cast<std::uint64_t>(std::chrono::nanoseconds(since_epoch).count());
-  char host[kHostBytes + 1] = {};
-  gethostname(host, kHostBytes);
+  char host[msg::MAX_NAME + 1] = {};
+  gethostname(host, msg::MAX_NAME);
   status.host = host;
   status.rate_hz = rate_hz;
   return status;
@@ -59,7 +55,7 @@ void fill_status(const runtime::LoopRecord& record, const runtime::FaultList& fa
   status.compute_us = to_message(record.compute.percentiles());
   status.faults.clear();
   if (!faults.any()) return;
-  for (const std::string& fault : faults.lines()) status.faults.push_back(fault.substr(0, kFaultBytes));
+  for (const std::string& fault : faults.lines()) status.faults.push_back(fault.substr(0, msg::MAX_LINE));
 }
 
 }  // namespace omentum::node

@@ -10,7 +10,7 @@
 namespace omentum::node {
 
 /// The scene of --scene, its first organ's file replaced by --organ when that is given. Throws as
-/// runtime::load_scene.
+/// runtime::load_scene and require_tellable (loaded_scene.h).
 runtime::Scene load_scene(const runtime::NodeOptions& options);
 
 /// The participant of a node called `name`. Throws std::invalid_argument for an unknown vendor or profile.

@@ -8,15 +8,15 @@
 
 namespace omentum::node {
 
-/// The command (msg::COMMAND_*) as a sender of ours writes it, now: its number is the wall clock's, ns.
-msg::SessionCommand make_command(std::uint32_t command);
-
 /// A pause is a state of the session: a node that joins adopts it from the others. A reset is an event.
 ///
-/// Every command is obeyed once, although senders send it twice, since a first sample may be lost: the same
-/// command under the same number within kCopies_ns is a copy, whatever came between. Of a pause and a start
-/// that two people give at the same moment the one with the later stamp holds, in whatever order they come to
-/// whichever node; numbers that are no stamps (another sender may count) hold in the order of arrival.
+/// Commands have an order that no clock makes (Lamport 1978): each sender writes one more than the highest it
+/// heard of, and of equal orders the one of the larger sender is later. Of a pause and a start that two
+/// people give at the same moment the later one holds, in whatever order they come to whichever node. Every
+/// command is obeyed once, although senders send it twice, since a first sample may be lost: the same command
+/// of the same sender and order within kCopies_ns is a copy, whatever came between. Who writes an order
+/// without having listened is obeyed too, once kCrossing_ns have passed since a later command came: no number
+/// shuts out what comes after it.
 ///
 /// Commands and statuses are heard on one thread each (their readers'), the rest may be asked by any; nobody
 /// waits or allocates. Reads no clock.
@@ -27,9 +27,8 @@ class SessionOrders {
   static constexpr std::int64_t kJoining_ns = 5'000'000'000;
   /// omentum_session sends its copy after 0.2 s; a stalled machine may deliver it later, ns.
   static constexpr std::int64_t kCopies_ns = 2'000'000'000;
-  /// Stamps that are nearer than this were given at the same moment, ns: a person presses no faster, and
-  /// clocks of two machines that are further apart say nothing.
-  static constexpr std::uint64_t kSameMoment_ns = 1'000'000'000;
+  /// Commands that come to this node within this may have crossed on their way, ns: as late as a copy may be.
+  static constexpr std::int64_t kCrossing_ns = 2'000'000'000;
 
   /// `start_ns`: when the node joined, on the clock of hear().
   explicit SessionOrders(std::int64_t start_ns) : start_ns_(start_ns) {}
@@ -38,6 +37,13 @@ class SessionOrders {
   /// Another node's status; the node's own says nothing new.
   void hear(const msg::NodeStatus& status, std::int64_t now_ns) noexcept;
 
+  /// The command (msg::COMMAND_*) as `sender` gives it now: later than all that was heard of.
+  msg::SessionCommand issue(std::uint32_t command, std::uint64_t sender) noexcept;
+  /// The highest order that was heard of.
+  std::uint64_t newest_order() const noexcept { return newest_order_.load(std::memory_order_relaxed); }
+  /// What a node's status says of its orders: whether it is paused, and the newest.
+  void tell(msg::NodeStatus& status) const noexcept;
+
   bool paused() const noexcept;
   /// Whether somebody asked since the last call.
   bool take_reset() noexcept { return reset_.exchange(false, std::memory_order_acquire); }
@@ -45,21 +51,25 @@ class SessionOrders {
 
  private:
   enum class Flow : std::uint8_t { kRunning, kPauseAdopted, kOrderedToRun, kOrderedToPause };
+  /// What makes a command itself.
   struct Heard {
-    std::uint64_t seq = 0;
+    std::uint64_t order = 0, sender = 0;
     std::uint32_t command = 0;
     std::int64_t arrived_ns = 0;
   };
   // more commands than people give within kCopies_ns (kCommandDepth of transport/topics.h)
   static constexpr std::size_t kRemembered = 32;
 
-  bool is_copy(const msg::SessionCommand& command, std::int64_t now_ns) noexcept;
-  void order(Flow flow, std::uint64_t seq) noexcept;
+  bool is_copy(const Heard& command) noexcept;
+  void order(Flow flow, const Heard& command) noexcept;
+  void raise_newest(std::uint64_t order) noexcept;
 
   std::int64_t start_ns_;
   std::array<Heard, kRemembered> heard_{};
   std::size_t heard_count_ = 0;
-  std::uint64_t flow_seq_ = 0;  // of the pause or start that holds
+  Heard flow_order_;  // the pause or start that holds
+  bool ordered_ = false;
+  std::atomic<std::uint64_t> newest_order_{0};
   std::atomic<Flow> flow_{Flow::kRunning};
   std::atomic<bool> reset_{false}, clear_fault_{false};
 };

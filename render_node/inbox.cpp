@@ -53,9 +53,7 @@ Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const 
       forces_(bus, {}, [this] { return clock_.now_ns(); }),
       orders_(clock_.now_ns()) {
   for (const LoadedOrgan& organ : organs) organs_.push_back(std::make_unique<OrganBox>(organ));
-  contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) {
-    if (contact.tool < contacts_.size()) contacts_[contact.tool].post(contact);
-  });
+  contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) { take_contact(contact); });
   state_reader_ = bus.reader<msg::OrganState>([this](const msg::OrganState& block) { take_state(block); });
   status_reader_ =
       bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) { take_status(status); });
@@ -64,6 +62,13 @@ Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const 
   scene_reader_ = bus.reader<msg::SceneInfo>([this](const msg::SceneInfo& info) { scene_info_.post(info); });
   topology_reader_ =
       bus.reader<msg::Topology>([this](const msg::Topology& topology) { take_topology(topology); });
+}
+
+void Inbox::take_contact(const msg::Contact& contact) {
+  if (contact.tool >= msg::MAX_TOOLS) return;
+  if (contact.organ >= organs_.size())
+    return faults_.raise("contact with an organ that the scene does not have");
+  organs_[contact.organ]->contacts[contact.tool].post(contact);
 }
 
 void Inbox::take_state(const msg::OrganState& block) {
@@ -91,9 +96,10 @@ void Inbox::take_status(const msg::NodeStatus& status) {
   statuses_.post(heard_);
 }
 
-const msg::Contact& Inbox::contact(std::uint32_t tool) {
-  contacts_[tool].fetch();
-  return contacts_[tool].value();
+const msg::Contact& Inbox::contact(std::size_t organ, std::uint32_t tool) {
+  auto& newest = organs_[organ]->contacts[tool];
+  newest.fetch();
+  return newest.value();
 }
 
 const AssembledState* Inbox::fetch_state(std::size_t organ) {

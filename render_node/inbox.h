@@ -53,7 +53,8 @@ class Inbox {
   std::optional<std::int64_t> arrival_of(std::uint32_t tool, std::uint64_t seq) const {
     return tool < arrivals_.size() ? arrivals_[tool].find(seq) : std::nullopt;
   }
-  const msg::Contact& contact(std::uint32_t tool);
+  /// The newest contact of a tool with an organ; without nodes before one came.
+  const msg::Contact& contact(std::size_t organ, std::uint32_t tool);
   /// The newest state of an organ if one came since the last call.
   const AssembledState* fetch_state(std::size_t organ);
   const std::vector<HeardStatus>& statuses();
@@ -69,7 +70,9 @@ class Inbox {
     StateAssembly assembly;
     runtime::Mailbox<AssembledState> newest;
     runtime::Mailbox<msg::Topology> topology;
+    std::array<runtime::Mailbox<msg::Contact>, msg::MAX_TOOLS> contacts;
   };
+  void take_contact(const msg::Contact& contact);
   void take_state(const msg::OrganState& block);
   void take_topology(const msg::Topology& topology);
   void take_status(const msg::NodeStatus& status);
@@ -79,7 +82,6 @@ class Inbox {
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
   transport::LatestByTool<msg::ToolPose> poses_;
   transport::LatestByTool<msg::ToolForce> forces_;
-  std::array<runtime::Mailbox<msg::Contact>, msg::MAX_TOOLS> contacts_;
   std::vector<std::unique_ptr<OrganBox>> organs_;
   std::vector<HeardStatus> heard_;  // the status callback's own
   node::SessionOrders orders_;

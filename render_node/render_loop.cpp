@@ -1,7 +1,6 @@
 #include "render_node/render_loop.h"
 
 #include "node/node_identity.h"
-#include "node/session_orders.h"
 #include "organ/organ.h"
 #include "render_node/plausible.h"
 #include "runtime/report.h"
@@ -161,7 +160,8 @@ void RenderLoop::obey(const PanelActions& actions) {
 }
 
 void RenderLoop::command(std::uint32_t command) {
-  if (!command_writer_->write(node::make_command(command))) faults_.raise("a command could not be sent");
+  const msg::SessionCommand order = inbox_->orders().issue(command, status_.instance);
+  if (!command_writer_->write(order)) faults_.raise("a command could not be sent");
 }
 
 PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
@@ -177,7 +177,8 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
 void RenderLoop::tell_status(std::int64_t now_ns) {
   next_status_ns_ = now_ns + kStatusPeriodNs;
   status_.echoes = watch_.echoes();
-  status_.paused = watch_.paused(now_ns);
+  inbox_->orders().tell(status_);
+  status_.paused = watch_.paused(now_ns);  // as the panel shows it
   node::fill_status(account_.record(), faults_, status_);
   status_writer_->write(status_);
 }

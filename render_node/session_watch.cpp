@@ -1,5 +1,6 @@
 #include "render_node/session_watch.h"
 
+#include "node/contact_bounds.h"
 #include "node/rivals.h"
 #include "render_node/plausible.h"
 
@@ -13,6 +14,18 @@ constexpr std::int64_t kToolGoneNs =
     1'000'000'000;  // a pose this old: the device has left, its tool is not drawn
 constexpr std::int64_t kForceGoneNs = 250'000'000;  // a force this old is nobody's any more
 
+std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
+  std::vector<msg::OrganInfo> infos;
+  for (const LoadedOrgan& organ : organs)
+    infos.push_back({.name = organ.name, .hash = organ.hash, .kind = msg::KIND_SURFACE});
+  return infos;
+}
+
+bool is_cut(const msg::Topology& topology) {
+  return std::any_of(topology.removed_bits.begin(), topology.removed_bits.end(),
+                     [](std::uint8_t byte) { return byte != 0; });
+}
+
 Vec3 to_eigen(const msg::Vec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -23,14 +36,13 @@ SessionWatch::SessionWatch(const runtime::Scene& scene, const std::vector<Loaded
                            std::int64_t begin_ns)
     : scene_name_(scene.name),
       max_force_n_(scene.haptics.max_force_n),
-      loaded_{organs.size(), {}},
+      loaded_(node::loaded_scene(scene, infos_of(organs))),
       begin_ns_(begin_ns),
       tools_(scene.tools.size()),
       rows_(scene.tools.size()),
       histories_(scene.tools.size()),
       echoes_(organs.size()),
       state_arrived_ns_(organs.size(), 0) {
-  for (const LoadedOrgan& organ : organs) loaded_.organs.push_back({organ.name, organ.hash});
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     ids_.push_back(scene.tools[t].id);
     rows_[t].name = scene.tools[t].name;
@@ -58,7 +70,7 @@ void SessionWatch::listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std
     if (why) faults.raise(node::kForeignScene);
   }
   for (std::size_t i = 0; i < loaded_.organ_count; ++i) {
-    if (const msg::Topology* topology = inbox.fetch_topology(i); topology && topology->version > 0)
+    if (const msg::Topology* topology = inbox.fetch_topology(i); topology && is_cut(*topology))
       faults.raise("an organ was cut, but this render_node draws whole organs only");
   }
 }
@@ -104,10 +116,21 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
 void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns) {
   ToolNow& now = tools_[tool];
   histories_[tool].add(seconds_since_begin(now_ns), now.force_n.norm());
-  const msg::Contact& contact = inbox.contact(ids_[tool]);
-  if (!is_plausible(contact, max_force_n_)) return;
+  // a tool is drawn with the organ that it presses hardest
+  double most_n = -1;
+  for (std::size_t organ = 0; organ < loaded_.organ_count; ++organ) {
+    const msg::Contact& contact = inbox.contact(organ, ids_[tool]);
+    const double total_n = node::total_force_n(contact);
+    if (contact.nodes.empty() || !is_plausible(contact, max_force_n_) || total_n <= most_n) continue;
+    most_n = total_n;
+    draw_contact(contact, now);
+  }
+}
+
+void SessionWatch::draw_contact(const msg::Contact& contact, ToolNow& now) {
   now.contact_organ = contact.organ;
   now.contact_nodes = contact.nodes;
+  now.contact_forces_n.clear();
   for (const msg::Vec3& on_node : contact.forces) {
     now.contact_forces_n.push_back(static_cast<float>(to_eigen(on_node).norm()));
   }

@@ -1,5 +1,6 @@
 #include "runtime/scene.h"
 
+#include "messages/common.h"
 #include "runtime/toml_section.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace {
 
 using enum TomlSection::Need;
 
-constexpr std::uint32_t kMaxTools = 8;  // idl/common.idl, MAX_TOOLS
-constexpr std::size_t kMaxOrgans = 16;  // idl/common.idl, MAX_ORGANS
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
@@ -58,7 +57,7 @@ OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
 
 ToolSpec read_tool(TomlSection& s) {
   ToolSpec tool;
-  s.read("id", tool.id, kRequired, kMaxTools - 1);
+  s.read("id", tool.id, kRequired, msg::MAX_TOOLS - 1);
   s.read("name", tool.name, kRequired);
   s.read_word("shape", tool.shape, kRequired, {"probe", "grasper"});
   s.read("points", tool.points, kRequired);
@@ -71,7 +70,7 @@ ToolSpec read_tool(TomlSection& s) {
 
 HandSpec read_hand(TomlSection& s) {
   HandSpec hand;
-  s.read("tool", hand.tool, kRequired, kMaxTools - 1);
+  s.read("tool", hand.tool, kRequired, msg::MAX_TOOLS - 1);
   s.read("mass_kg", hand.mass_kg, kOptional, kPositive);
   s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
   s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
@@ -167,8 +166,8 @@ Scene load_scene(const std::filesystem::path& file) {
   for (TomlSection& s : organs) scene.organs.push_back(read_organ(s, file));
   for (TomlSection& s : tools) scene.tools.push_back(read_tool(s));
   for (TomlSection& s : hands) scene.hands.push_back(read_hand(s));
-  refuse_wrong_count(root, "organs", organs.size(), kMaxOrgans);
-  refuse_wrong_count(root, "tools", tools.size(), kMaxTools);
+  refuse_wrong_count(root, "organs", organs.size(), msg::MAX_ORGANS);
+  refuse_wrong_count(root, "tools", tools.size(), msg::MAX_TOOLS);
   refuse_repeated_tools(scene, tools);
   refuse_wrong_hands(scene, hands);
   return scene;

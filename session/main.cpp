@@ -1,5 +1,6 @@
 // omentum_session: sends one command (start, pause, reset, ...) to every node of a session. Of a pause it
 // says what haptic_node made of it.
+#include "node/node_identity.h"
 #include "node/session_orders.h"
 #include "runtime/clock.h"
 #include "runtime/command_line.h"
@@ -22,8 +23,8 @@ constexpr double kDiscoveryS = 5.0;
 /// Other vendors' nodes are found up to this much after the first one.
 constexpr double kSettleS = 1.2;
 /// "Matched" is not "ready": a first sample may be lost across vendors, so a command is sent twice,
-/// this far apart, under one sequence number, by which nodes know the second one (node/session_orders.h). The
-/// same time is left for delivery.
+/// this far apart, under one order, by which nodes know the second one (node/session_orders.h). The same time
+/// is left for delivery.
 constexpr double kDeliveryS = 0.2;
 /// haptic_node tells its state several times a second; a second participant's first status takes discovery
 /// besides.
@@ -60,15 +61,23 @@ bool comes_true(double patience_s, Condition&& condition) {
   return true;
 }
 
-/// Whether haptic_node is paused, in its own words.
-class HapticState {
+/// What the nodes say of themselves: the commands they know of, and whether haptic_node is paused.
+class Listener {
  public:
-  explicit HapticState(transport::Bus& bus)
+  explicit Listener(transport::Bus& bus)
       : reader_(bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) {
+          orders_.hear(status, runtime::steady_now_ns());
+          if (status.kind != msg::NODE_LAUNCHER) heard_ = true;  // which hears no commands
           if (status.kind == msg::NODE_HAPTIC) said_ = status.paused ? Said::kPaused : Said::kRunning;
         })) {}
 
-  /// Throws when no haptic_node speaks.
+  /// A command that is later than all that the nodes know of. Where no node tells what it knows, the first
+  /// one.
+  msg::SessionCommand issue(std::uint32_t command) {
+    comes_true(kAnswerS, [&] { return heard_.load(); });
+    return orders_.issue(command, sender_);
+  }
+  /// Whether haptic_node is paused, in its own words. Throws when no haptic_node speaks.
   bool paused() const {
     if (!comes_true(kAnswerS, [&] { return said_ != Said::kNothing; }))
       throw std::runtime_error("no haptic_node answers (expected one that says whether it is paused)");
@@ -82,17 +91,21 @@ class HapticState {
 
  private:
   enum class Said { kNothing, kRunning, kPaused };
+  const std::uint64_t sender_ = node::introduce(msg::NODE_LAUNCHER, 0).instance;
+  node::SessionOrders orders_{runtime::steady_now_ns()};
+  std::atomic<bool> heard_{false};
   std::atomic<Said> said_{Said::kNothing};
   std::unique_ptr<transport::Reader<msg::NodeStatus>> reader_;  // last: its callback uses what is above
 };
 
-void send(transport::Bus& bus, const transport::BusOptions& options, std::uint32_t command, int nodes) {
+void send(transport::Bus& bus, const transport::BusOptions& options, Listener& listener,
+          std::uint32_t command, int nodes) {
   const auto writer = bus.writer<msg::SessionCommand>();
   const int matched = wait_for_readers(*writer, nodes);
   if (matched == 0)
     throw std::runtime_error("no node found in domain " + std::to_string(options.domain) +
                              " (expected a running session)");
-  const msg::SessionCommand message = node::make_command(command);
+  const msg::SessionCommand message = listener.issue(command);
   for (int copy = 0; copy < 2; ++copy) {
     if (!writer->write(message)) throw std::runtime_error("the command could not be written");
     sleep_s(kDeliveryS);
@@ -100,10 +113,10 @@ void send(transport::Bus& bus, const transport::BusOptions& options, std::uint32
 }
 
 /// Returns when haptic_node says that it obeyed, and says so.
-void send_pause(transport::Bus& bus, const transport::BusOptions& options, const HapticState& haptic,
-                bool paused, int nodes) {
-  send(bus, options, paused ? msg::COMMAND_PAUSE : msg::COMMAND_START, nodes);
-  haptic.expect(paused);
+void send_pause(transport::Bus& bus, const transport::BusOptions& options, Listener& listener, bool paused,
+                int nodes) {
+  send(bus, options, listener, paused ? msg::COMMAND_PAUSE : msg::COMMAND_START, nodes);
+  listener.expect(paused);
   std::puts(paused ? "paused" : "goes on");
 }
 
@@ -112,12 +125,12 @@ constexpr std::uint32_t kTogglePause =
 
 void run(const transport::BusOptions& options, std::uint32_t command, int nodes) {
   const auto bus = transport::Bus::open(options);
+  Listener listener(*bus);
   if (command == kTogglePause || command == msg::COMMAND_PAUSE || command == msg::COMMAND_START) {
-    const HapticState haptic(*bus);
-    const bool pause = command == kTogglePause ? !haptic.paused() : command == msg::COMMAND_PAUSE;
-    return send_pause(*bus, options, haptic, pause, nodes);
+    const bool pause = command == kTogglePause ? !listener.paused() : command == msg::COMMAND_PAUSE;
+    return send_pause(*bus, options, listener, pause, nodes);
   }
-  send(*bus, options, command, nodes);
+  send(*bus, options, listener, command, nodes);
 }
 
 }  // namespace

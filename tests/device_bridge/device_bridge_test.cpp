@@ -35,7 +35,7 @@ class Wall {
         poses_(bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { answer(pose); })) {}
 
   void send(std::uint32_t command) {
-    command_.seq += 1;
+    command_.order += 1;
     command_.command = command;
     send_again();
   }

@@ -1,6 +1,7 @@
 // A scene for the real deform_node: one block, one probe.
 #pragma once
 
+#include "node/loaded_scene.h"
 #include "organ/organ.h"
 
 #include "tests/support/meshes.h"
@@ -32,6 +33,18 @@ class BlockScene {
   }
   std::string scene() const { return folder_ / "scene.toml"; }
   std::string report() const { return folder_ / "report.json"; }
+  /// The same scene, but for a few letters.
+  std::string scene_with(const std::string& text, const std::string& instead) const {
+    std::string changed = test::read_text(scene());
+    changed.replace(changed.find(text), text.size(), instead);
+    std::ofstream(folder_ / "other.toml") << changed;
+    return folder_ / "other.toml";
+  }
+  /// What a deform_node tells that serves this scene with the organ file of that hash.
+  msg::SceneInfo info(const std::string& organ_hash) const {
+    const runtime::Scene loaded = runtime::load_scene(scene());
+    return node::to_message(node::loaded_scene(loaded, {{.name = "block", .hash = organ_hash}}), loaded.name);
+  }
   organ::Organ organ() const { return organ::load_organ(folder_ / "block.h5", organ::Load::kWithTensors); }
 
  private:

@@ -84,6 +84,57 @@ TEST_F(ContactBookTest, NewestContactOfEachToolCounts) {
   EXPECT_THAT(loads[1].nodes, ::testing::ElementsAre(SurfaceId(6)));
 }
 
+// Two organs, tools 0 and 3: what a tool does to one is nobody else's.
+class TwoOrgansTest : public ContactBookTest {
+ protected:
+  ContactBook both_{{organ(), organ()}, {.tools = kTools, .max_force_n = kMaxForce_n}, faults_};
+
+  void take(std::uint32_t organ, msg::Contact contact, double seconds) {
+    contact.organ = organ;
+    both_.take(contact, static_cast<std::int64_t>(seconds * kNsPerS));
+  }
+  /// Of tool 0 on the organ, N; and how many tools load it.
+  std::pair<double, std::size_t> load(std::uint32_t organ, double seconds) {
+    both_.advance(static_cast<std::int64_t>(seconds * kNsPerS));
+    const auto loads = both_.loads(organ);
+    return {loads.empty() ? 0 : -loads.front().forces.front().z(), loads.size()};
+  }
+};
+
+TEST_F(TwoOrgansTest, AToolMayPressBothAtOnce) {
+  take(0, contact_on(0, {3}, {kPush}), 1);
+  take(1, contact_on(0, {3}, {2 * kPush}), 1);
+  take(1, contact_on(3, {3}, {3 * kPush}), 1);
+  EXPECT_EQ(load(0, 1), std::pair(1.0, std::size_t{1}));
+  EXPECT_EQ(load(1, 1), std::pair(2.0, std::size_t{2}));
+}
+
+TEST_F(TwoOrgansTest, AToolThatGoesToAnotherLeavesNoLoadBehind) {
+  take(0, contact_on(0, {3}, {kPush}), 1);
+  take(0, contact_on(0, {}, {}), 1.004);
+  take(1, contact_on(0, {5}, {kPush}), 1.004);
+  EXPECT_EQ(load(0, 1.005).second, 0u);
+  EXPECT_EQ(load(1, 1.005).second, 1u);
+}
+
+TEST_F(TwoOrgansTest, WithoutAnEmptyContactWhatWasLeftFades) {
+  take(0, contact_on(0, {3}, {kPush}), 1);
+  const double gone_s = 1 + kContactStaleS + kContactFadeS;
+  take(1, contact_on(0, {5}, {kPush}), gone_s);
+  EXPECT_EQ(load(0, gone_s).second, 0u);
+  EXPECT_EQ(load(1, gone_s).second, 1u);
+}
+
+TEST_F(TwoOrgansTest, TheEchoIsTheNewestOfAllOrgans) {
+  msg::Contact later = contact_on(0, {}, {});
+  later.cause.seq = 500;
+  take(1, later, 2);
+  take(0, contact_on(0, {3}, {kPush}), 1);
+  load(0, 2);
+  ASSERT_EQ(both_.echoes().size(), 1u);
+  EXPECT_EQ(both_.echoes()[0].seq, 500u);
+}
+
 TEST_F(ContactBookTest, EchoesTheNewestPoseOfEachTool) {
   book_.take(contact_on(1, {}, {}), kNsPerS);
   book_.take(contact_on(4, {2}, {kPush}), kNsPerS);

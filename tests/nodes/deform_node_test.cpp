@@ -60,7 +60,7 @@ class Bench {
   void send(const msg::SceneInfo& scene) { other_scenes_->write(scene); }
   void send(const msg::NodeStatus& status) { others_->write(status); }
   void command(std::uint32_t command) {
-    commands_->write({.seq = ++commands_sent_, .command = command, .argument = {}});
+    commands_->write({.order = ++commands_sent_, .sender = 1, .command = command, .argument = {}});
   }
 
   /// Sends the contact, as often as haptic_node might, until a state with its echo comes back.
@@ -210,11 +210,11 @@ TEST_P(DeformNodeTest, WhoJoinsAPausedSessionIsPaused) {
   ASSERT_TRUE(test::comes_true([&] { return bench_.status() && bench_.status()->paused; }));
   bench_.command(msg::COMMAND_START);
   EXPECT_TRUE(test::comes_true([&] { return !bench_.status()->paused; }));
+  EXPECT_EQ(bench_.status()->newest_order, 1u) << "for those who have just come";
 }
 
 TEST_P(DeformNodeTest, ASceneWithAnotherOrganIsNotJoined) {
-  bench_.send(msg::SceneInfo{
-      .protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{.name = "o", .hash = "abc"}}});
+  bench_.send(block_.info("abc"));
   EXPECT_EQ(bench_.node().wait(), 2);
   EXPECT_NE(bench_.node().messages().find("abc"), std::string::npos) << bench_.node().messages();
   EXPECT_NE(bench_.node().messages().find(organ_.hash), std::string::npos) << bench_.node().messages();

@@ -1,6 +1,7 @@
 // The real haptic_node on a domain of its own, and a device of the test's.
 #pragma once
 
+#include "node/loaded_scene.h"
 #include "organ/organ.h"
 #include "runtime/clock.h"
 #include "transport/bus.h"
@@ -43,6 +44,11 @@ class BlockScene {
   }
   std::string scene() const { return folder_ / "scene.toml"; }
   std::string report() const { return folder_ / "report.json"; }
+  /// What a deform_node tells that serves this scene with the organ file of that hash.
+  msg::SceneInfo info(const std::string& organ_hash) const {
+    const runtime::Scene loaded = runtime::load_scene(scene());
+    return node::to_message(node::loaded_scene(loaded, {{.name = "block", .hash = organ_hash}}), loaded.name);
+  }
   std::string organ_hash() const {
     return organ::load_organ(folder_ / "block.h5", organ::Load::kMeshOnly).hash;
   }
@@ -114,7 +120,7 @@ class NodeBench {
   void send(const msg::SceneInfo& info) { scenes_->write(info); }
   void send(const msg::NodeStatus& status) { others_->write(status); }
   void command(std::uint32_t command) {
-    commands_->write({.seq = ++commands_sent_, .command = command, .argument = {}});
+    commands_->write({.order = ++commands_sent_, .sender = 1, .command = command, .argument = {}});
   }
 
   /// Presses, or goes on pressing, until an answer is as `felt` says. A tip that a busy machine made the node

@@ -114,9 +114,7 @@ TEST_P(HapticNodeTest, WhoJoinsAPausedSessionIsPaused) {
 }
 
 TEST_P(HapticNodeTest, EndsCleanlyWithItsReport) {
-  bench_.send(msg::SceneInfo{.protocol = msg::PROTOCOL_VERSION,
-                             .scene = "s",
-                             .organs = {{.name = "o", .hash = block_.organ_hash()}}});
+  bench_.send(block_.info(block_.organ_hash()));
   ASSERT_TRUE(bench_.press());
   const double pressed = bench_.newton();
   EXPECT_EQ(bench_.node().terminate(), 0) << bench_.node().messages();

@@ -34,11 +34,8 @@ TEST_P(HapticStrangersTest, AnotherNodeForItsToolsYields) {
   EXPECT_TRUE(bench_.node().running());
 }
 
-const msg::SceneInfo kStrangersScene{
-    .protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{.name = "o", .hash = "abc"}}};
-
 TEST_P(HapticStrangersTest, AnotherOrganFileIsRefusedWithBothHashes) {
-  bench_.send(kStrangersScene);
+  bench_.send(block_.info("abc"));
   EXPECT_EQ(bench_.node().wait(), 2);
   EXPECT_NE(bench_.node().messages().find("abc"), std::string::npos) << bench_.node().messages();
   EXPECT_NE(bench_.node().messages().find(block_.organ_hash()), std::string::npos);
@@ -46,10 +43,11 @@ TEST_P(HapticStrangersTest, AnotherOrganFileIsRefusedWithBothHashes) {
 
 TEST_P(HapticStrangersTest, AStrangersSceneDoesNotEndAPress) {
   const std::string other = "scene: a deform_node with other organs";
+  const msg::SceneInfo strangers = block_.info("abc");
   ASSERT_TRUE(is_settled());
   EXPECT_TRUE(bench_.press_outlives([&] {
     const std::string before = bench_.fault(other);
-    bench_.send(kStrangersScene);
+    bench_.send(strangers);
     return bench_.hold(NodeBench::kPressed, [&] { return bench_.fault(other) != before; });
   })) << bench_.node().messages();
   EXPECT_TRUE(bench_.node().running());

@@ -1,5 +1,4 @@
 #include "node/rivals.h"
-#include "node/loaded_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -105,40 +104,6 @@ TEST(GoesBefore, OneOfTwoDoes) {
       }
     }
   }
-}
-
-class LoadedSceneTest : public testing::Test {
- protected:
-  const LoadedScene loaded_{.organ_count = 1, .organs = {{.name = "liver", .hash = "aaaa"}}};
-  msg::SceneInfo announced_{
-      .protocol = msg::PROTOCOL_VERSION, .scene = "s", .organs = {{.name = "liver", .hash = "aaaa"}}};
-};
-
-TEST_F(LoadedSceneTest, AgreesWithItsOwn) {
-  EXPECT_FALSE(contradicts(loaded_, announced_));
-  LoadedScene first_of_two = loaded_;
-  first_of_two.organ_count = 2;
-  announced_.organs.push_back({.name = "spleen", .hash = "cccc"});
-  EXPECT_FALSE(contradicts(first_of_two, announced_)) << "a node may load the first organ only";
-}
-
-TEST_F(LoadedSceneTest, AnotherOrganIsRefusedWithBothHashes) {
-  announced_.organs[0].hash = "bbbb";
-  const auto why = contradicts(loaded_, announced_);
-  ASSERT_TRUE(why);
-  for (const char* part : {"aaaa", "bbbb", "liver"}) EXPECT_NE(why->find(part), std::string::npos) << *why;
-}
-
-TEST_F(LoadedSceneTest, AnotherProtocolAndAnotherNumberOfOrgansAreRefused) {
-  msg::SceneInfo newer = announced_;
-  ++newer.protocol;
-  ASSERT_TRUE(contradicts(loaded_, newer));
-  EXPECT_NE(contradicts(loaded_, newer)->find("protocol"), std::string::npos);
-  msg::SceneInfo more = announced_;
-  more.organs.push_back({.name = "spleen", .hash = "cccc"});
-  EXPECT_TRUE(contradicts(loaded_, more));
-  announced_.organs.clear();
-  EXPECT_TRUE(contradicts(loaded_, announced_));
 }
 
 }  // namespace

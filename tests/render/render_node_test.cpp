@@ -122,12 +122,29 @@ TEST(RenderNode, RefusesToShowAnotherOrganThanTheOneServed) {
   const auto bus =
       transport::Bus::open({.vendor = transport::Vendor::kFast, .domain = domain, .name = "test"});
   const auto scenes = bus->writer<msg::SceneInfo>();
-  scenes->write({.protocol = msg::PROTOCOL_VERSION, .scene = "a block", .organs = {{"block", "0123abcd"}}});
+  scenes->write(scene.info("0123abcd"));
   test::Process node("render_node", arguments(scene, domain));
   const int code = node.wait();
   if (skipped_without_egl(node)) GTEST_SKIP() << node.messages();
   EXPECT_EQ(code, 2);
   EXPECT_THAT(node.messages(), AllOf(HasSubstr("0123abcd"), HasSubstr(scene.organ().hash)));
+}
+
+TEST(RenderNode, RefusesToShowAnotherScene) {
+  const BlockScene scene;
+  const int domain = test::domain_of_test();
+  const auto bus =
+      transport::Bus::open({.vendor = transport::Vendor::kFast, .domain = domain, .name = "test"});
+  const auto scenes = bus->writer<msg::SceneInfo>();
+  runtime::Scene other = runtime::load_scene(scene.scene());
+  other.organs[0].young_pa = 6000;
+  scenes->write(node::to_message(node::loaded_scene(other, {{.name = "block", .hash = scene.organ().hash}}),
+                                 "a block"));
+  test::Process node("render_node", arguments(scene, domain));
+  const int code = node.wait();
+  if (skipped_without_egl(node)) GTEST_SKIP() << node.messages();
+  EXPECT_EQ(code, 2);
+  EXPECT_THAT(node.messages(), HasSubstr("scene: organs[0].young_pa is 6000 at deform_node, 10000 here\n"));
 }
 
 TEST(RenderNode, SaysWhereThePicturesGoWhenThereIsNoDisplay) {

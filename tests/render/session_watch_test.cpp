@@ -26,6 +26,11 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 /// A session of two balls and one probe; everything else is the test's own writers.
 class SessionWatchTest : public testing::Test {
  protected:
+  static runtime::Scene scene_of_two() {
+    runtime::Scene scene = test::scene_with({"probe"});
+    scene.organs.resize(2);
+    return scene;
+  }
   void listen(std::int64_t now_ns) { watch_.listen(inbox_, view_, faults_, now_ns); }
   bool has_fault(const std::string& text) {
     const auto lines = faults_.lines();
@@ -35,7 +40,7 @@ class SessionWatchTest : public testing::Test {
   const OrganShape ball_ = test::ball_organ(kRadiusM, 2);
   const std::vector<LoadedOrgan> organs_{{"left", "aaaa", ball_.rest.size(), reach_of(ball_.rest)},
                                          {"right", "bbbb", ball_.rest.size(), reach_of(ball_.rest)}};
-  const runtime::Scene scene_ = test::scene_with({"probe"});
+  const runtime::Scene scene_ = scene_of_two();
   RecordingRenderer renderer_;
   SceneView view_{scene_, {ball_, ball_}, renderer_};
   runtime::FaultList faults_;
@@ -71,6 +76,7 @@ TEST_F(SessionWatchTest, EachOrganHasItsOwnTopology) {
   const auto topologies = bus_->writer<msg::Topology>();
   msg::Topology cut{}, whole{}, nowhere{};
   cut.version = 1;
+  cut.removed_bits = {0, 4};
   whole.organ = 1;
   nowhere.organ = 7;
   // what came before the last one is in its box: one writer's samples come in order
@@ -82,11 +88,52 @@ TEST_F(SessionWatchTest, EachOrganHasItsOwnTopology) {
   EXPECT_TRUE(has_fault("an organ was cut"));
 }
 
+TEST_F(SessionWatchTest, AnOrganThatIsWholeAgainIsNotCutWhateverItsVersion) {
+  const auto topologies = bus_->writer<msg::Topology>();
+  msg::Topology restored{}, nowhere{};
+  restored.version = 7;
+  restored.removed_bits = {0, 0};
+  nowhere.organ = 7;
+  EXPECT_TRUE(comes_true([&] {
+    for (const msg::Topology& topology : {restored, nowhere}) topologies->write(topology);
+    return has_fault("topology of an organ that the scene does not have");
+  }));
+  listen(kSecond);
+  EXPECT_FALSE(has_fault("an organ was cut"));
+}
+
+TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
+  const auto contacts = bus_->writer<msg::Contact>();
+  const auto forces = bus_->writer<msg::ToolForce>();
+  const auto poses = bus_->writer<msg::ToolPose>();
+  msg::ToolForce force{};
+  msg::ToolPose pose{};
+  pose.valid = true;
+  pose.orientation.w = 1;
+  msg::Contact left{}, pressed{}, nowhere{};
+  pressed.organ = 1;
+  pressed.nodes = {5};
+  pressed.forces = {{0, 0, -1}};
+  pressed.displacements = {{0, 0, 0}};
+  nowhere.organ = 7;
+  EXPECT_TRUE(comes_true([&] {
+    ++pose.seq, ++force.seq;
+    poses->write(pose);
+    forces->write(force);
+    for (const msg::Contact& contact : {pressed, left, nowhere}) contacts->write(contact);
+    listen(transport::arrival_clock_ns());
+    return has_fault("contact with an organ that the scene does not have") &&
+           !watch_.tools()[0].contact_nodes.empty();
+  }));
+  EXPECT_EQ(watch_.tools()[0].contact_organ, 1u);
+  EXPECT_THAT(watch_.tools()[0].contact_nodes, ElementsAre(5u));
+}
+
 // Both of a pause's copies around a start that another person gave.
 TEST_F(SessionWatchTest, ObeysCommandsByTheRuleOfAllNodes) {
   const auto commands = bus_->writer<msg::SessionCommand>();
-  const auto send = [&](std::uint32_t what, std::uint64_t seq) {
-    commands->write({.seq = seq, .command = what, .argument = {}});
+  const auto send = [&](std::uint32_t what, std::uint64_t order) {
+    commands->write({.order = order, .sender = 1, .command = what, .argument = {}});
   };
   EXPECT_TRUE(comes_true([&] {
     send(msg::COMMAND_PAUSE, 0);

@@ -16,7 +16,7 @@ FLOORS = {
     "organ": {"files", "geometry", "physics"},
     "idl": set(),
     "transport": {"idl"},
-    "runtime": {"files"},
+    "runtime": {"files", "idl"},
     "node": {"idl", "transport", "runtime"},
 }
 STANDING_ON = set(FLOORS)
