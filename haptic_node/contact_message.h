@@ -6,8 +6,7 @@
 
 namespace omentum::haptic {
 
-/// A message to the scene's first organ, the one that tools touch, with room for every node that one tool can
-/// touch: filling it allocates nothing.
+/// A message with room for every node that one tool can touch: filling it allocates nothing.
 msg::Contact make_contact_message(std::uint32_t tool_id);
 
 /// This tool's forces, and what all tools together move its nodes by: u_A = C_AA f_A. Pinned nodes, which
