@@ -1,8 +1,8 @@
 #include "deform_node/contact_book.h"
 
 #include "deform_node/contact_reach.h"
-#include "node/contact_bounds.h"
-#include "node/vectors.h"
+#include "node_common/contact_bounds.h"
+#include "node_common/vectors.h"
 
 #include <algorithm>
 
@@ -36,9 +36,9 @@ const char* describe(Rejection rejection) noexcept {
   return "contact dropped";
 }
 
-ContactBounds bounds_of(const runtime::Scene& scene) {
+ContactBounds bounds_of(const scene::Scene& scene) {
   ContactBounds bounds{.tools = 0, .max_force_n = scene.haptics.max_force_n};
-  for (const runtime::ToolSpec& tool : scene.tools)
+  for (const scene::ToolSpec& tool : scene.tools)
     if (tool.id < msg::MAX_TOOLS) bounds.tools |= 1u << tool.id;
   return bounds;
 }

@@ -6,7 +6,7 @@
 #include "physics/surface_compliance.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 #include "transport/messages.h"
 
 #include <array>
@@ -42,7 +42,7 @@ struct ContactBounds {
   std::uint32_t tools = 0;  // bit t: the scene has tool t
   double max_force_n = 0;   // on a hand; for the tissue see node/contact_bounds.h
 };
-ContactBounds bounds_of(const runtime::Scene& scene);
+ContactBounds bounds_of(const scene::Scene& scene);
 
 /// Why a Contact is dropped.
 enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kForce, kReach };

@@ -1,6 +1,6 @@
 #include "deform_node/deform_loop.h"
 
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/report.h"
 
 #include <nlohmann/json.hpp>

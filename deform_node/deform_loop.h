@@ -3,9 +3,9 @@
 
 #include "deform_node/served_organ.h"
 #include "deform_node/standby.h"
-#include "node/loaded_scene.h"
-#include "node/refusal.h"
-#include "node/session_orders.h"
+#include "node_common/loaded_scene.h"
+#include "node_common/refusal.h"
+#include "node_common/session_orders.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/pace.h"
@@ -48,7 +48,7 @@ class DeformLoop {
   void publish_status() noexcept;
 
   DeformOptions options_;
-  runtime::Scene scene_;
+  scene::Scene scene_;
   std::vector<ServedOrgan> organs_;
   runtime::FaultList faults_;
   ContactBook book_;

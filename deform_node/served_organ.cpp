@@ -29,9 +29,9 @@ std::vector<msg::OrganState> prepare_blocks(std::uint32_t organ, std::int32_t no
 
 }  // namespace
 
-std::vector<ServedOrgan> load_organs(const runtime::Scene& scene, transport::Profile profile) {
+std::vector<ServedOrgan> load_organs(const scene::Scene& scene, transport::Profile profile) {
   std::vector<ServedOrgan> organs;
-  for (const runtime::OrganSpec& spec : scene.organs) {
+  for (const scene::OrganSpec& spec : scene.organs) {
     if (spec.file.empty())
       throw std::runtime_error(scene.file.string() + ": organ " + spec.name +
                                " has no file; expected a resolved scene (scene_prepare) or --organ FILE.h5");

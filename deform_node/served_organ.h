@@ -4,7 +4,7 @@
 #include "deform_node/contact_book.h"
 #include "deform_node/state_blocks.h"
 #include "organ/organ.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include <memory>
 #include <vector>
@@ -19,7 +19,7 @@ struct ServedOrgan {
 
 /// Loads every organ of the scene and chooses its model. Throws geometry::InputError (organ file) or
 /// std::runtime_error (a scene whose organ has no file).
-std::vector<ServedOrgan> load_organs(const runtime::Scene& scene, transport::Profile profile);
+std::vector<ServedOrgan> load_organs(const scene::Scene& scene, transport::Profile profile);
 
 /// Refers to the organ's tensors.
 OrganNumbers numbers_of(const organ::Organ& organ);

@@ -1,6 +1,6 @@
 #include "device_bridge/device_bridge.h"
 
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/clock.h"
 #include "runtime/report.h"
 

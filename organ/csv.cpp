@@ -1,6 +1,6 @@
 #include "organ/csv.h"
 
-#include "geometry/file_kind.h"
+#include "geometry/mesh_io/file_kind.h"
 #include "geometry/tetra_mesh.h"
 
 #include <algorithm>

@@ -54,8 +54,8 @@ Ball ball_around(std::span<const Vec3> points) {
   return ball;
 }
 
-Camera start_camera(const runtime::CameraSpec& spec, const Ball& ball, const Vec3& from, float aspect) {
-  Camera camera{Vec3(spec.eye.data()), Vec3(spec.target.data()), Vec3(spec.up.data()),
+Camera start_camera(const scene::CameraSpec& spec, const Ball& ball, const Vec3& from, float aspect) {
+  Camera camera{spec.eye, spec.target, spec.up,
                 spec.field_of_view_deg};
   if (camera.eye != Vec3::Zero() || camera.target != Vec3::Zero()) return camera;
   // the narrower of the two half angles must hold the ball

@@ -1,7 +1,7 @@
 // Everything that render_node hears, handed from the vendor's threads to the one that draws.
 #pragma once
 
-#include "node/session_orders.h"
+#include "node_common/session_orders.h"
 #include "render_node/pose_arrivals.h"
 #include "render_node/state_assembly.h"
 #include "runtime/clock.h"

@@ -1,7 +1,7 @@
 #include "render_node/plausible.h"
 
-#include "node/contact_bounds.h"
-#include "node/vectors.h"
+#include "node_common/contact_bounds.h"
+#include "node_common/vectors.h"
 
 #include <Eigen/Geometry>
 

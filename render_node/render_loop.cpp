@@ -1,6 +1,6 @@
 #include "render_node/render_loop.h"
 
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "organ/organ.h"
 #include "render_node/plausible.h"
 #include "runtime/report.h"
@@ -34,7 +34,7 @@ double picture_period_s(const RenderOptions& options, bool has_window) {
 
 RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
   Loaded loaded{node::load_scene(options.node), {}, {}};
-  for (const runtime::OrganSpec& spec : loaded.scene.organs) {
+  for (const scene::OrganSpec& spec : loaded.scene.organs) {
     if (spec.file.empty()) {
       throw std::runtime_error(loaded.scene.file.string() + ": organ " + spec.name +
                                " has no file; expected a resolved scene or --organ FILE");

@@ -25,9 +25,9 @@ constexpr double kScopeFieldDeg = 62;    // a laparoscope's, bottom to top
 constexpr double kLeastHeight = 0.45;  // of the unit viewing direction: never from under the table
 
 // From where a whole scene is best seen: the side on which it is pressed, from above.
-Vec3 viewing_direction(const runtime::Scene& scene) {
+Vec3 viewing_direction(const scene::Scene& scene) {
   Vec3 pressed = Vec3::Zero();
-  for (const auto& hand : scene.hands) pressed += Vec3(hand.press_normal.data());
+  for (const auto& hand : scene.hands) pressed += hand.press_normal;
   Vec3 along(pressed.x(), pressed.y(), 0);
   along = along.norm() > 0.3 * std::max(1.0, pressed.norm()) ? along.normalized() : Vec3(0, -1, 0);
   const Vec3 side = along.cross(Vec3::UnitZ());
@@ -57,14 +57,14 @@ Material signal_material(std::uint32_t tool) {
 
 }  // namespace
 
-std::optional<std::size_t> scope_of(const runtime::Scene& scene) {
+std::optional<std::size_t> scope_of(const scene::Scene& scene) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     if (scene.tools[t].name == "endoscope") return t;
   }
   return std::nullopt;
 }
 
-SceneView::SceneView(const runtime::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer)
+SceneView::SceneView(const scene::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer)
     : renderer_(renderer), scene_(scene) {
   std::vector<Vec3> all;
   std::vector<Vec3f> normals;

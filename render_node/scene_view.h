@@ -44,7 +44,7 @@ inline constexpr double kLeastArrowN = 0.02;  // below what a hand feels
 /// Holds the meshes that it gave the renderer. One thread, the renderer's.
 class SceneView {
  public:
-  SceneView(const runtime::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer);
+  SceneView(const scene::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer);
 
   /// `displacements`: [3S] of that organ, m.
   void deform(std::size_t organ, std::span<const float> displacements);
@@ -88,7 +88,7 @@ class SceneView {
   void add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
 
   Renderer& renderer_;
-  runtime::Scene scene_;
+  scene::Scene scene_;
   std::vector<DrawnOrgan> organs_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
@@ -97,6 +97,6 @@ class SceneView {
 };
 
 /// The scope among the scene's tools (one named "endoscope"), or none.
-std::optional<std::size_t> scope_of(const runtime::Scene& scene);
+std::optional<std::size_t> scope_of(const scene::Scene& scene);
 
 }  // namespace omentum::render

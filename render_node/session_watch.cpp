@@ -1,7 +1,7 @@
 #include "render_node/session_watch.h"
 
-#include "node/contact_bounds.h"
-#include "node/rivals.h"
+#include "node_common/contact_bounds.h"
+#include "node_common/rivals.h"
 #include "render_node/plausible.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Vec3 to_eigen(const msg::Vec3& v) {
 
 }  // namespace
 
-SessionWatch::SessionWatch(const runtime::Scene& scene, const std::vector<LoadedOrgan>& organs,
+SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
                            std::int64_t begin_ns)
     : scene_name_(scene.name),
       max_force_n_(scene.haptics.max_force_n),

@@ -1,7 +1,7 @@
 // What render_node knows of its session at this moment.
 #pragma once
 
-#include "node/loaded_scene.h"
+#include "node_common/loaded_scene.h"
 #include "render_node/force_history.h"
 #include "render_node/inbox.h"
 #include "render_node/panel_view.h"
@@ -14,7 +14,7 @@ namespace omentum::render {
 /// times are given (steady clock, ns). One thread, the drawing one.
 class SessionWatch {
  public:
-  SessionWatch(const runtime::Scene& scene, const std::vector<LoadedOrgan>& organs, std::int64_t begin_ns);
+  SessionWatch(const scene::Scene& scene, const std::vector<LoadedOrgan>& organs, std::int64_t begin_ns);
 
   /// What came since the last call. Throws std::runtime_error when deform_node serves another scene, within
   /// node::kSettled_s of the beginning; later such a scene is a fault.

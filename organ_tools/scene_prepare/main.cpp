@@ -31,7 +31,7 @@ nlohmann::json measure(const std::filesystem::path& file) {
   return {{"min", corner(box.min())}, {"max", corner(box.max())}, {"tetrahedra", raw.tetrahedra.size()}};
 }
 
-void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const runtime::Scene& scene) {
+void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const scene::Scene& scene) {
   for (const auto& sentences :
        {organ::implausible(organ.mesh, organ.material), scene_prepare::smaller_than_tips(organ, scene)}) {
     for (const std::string& sentence : sentences) std::cerr << "scene_prepare: warning: " << sentence << '\n';
@@ -39,7 +39,7 @@ void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const runtime::
 }
 
 void prepare(const Options& options) {
-  runtime::Scene scene = runtime::load_scene(options.scene);
+  scene::Scene scene = scene::load_scene(options.scene);
   scene.organs.front().file = options.organ;
   const organ::Organ organ = organ::load_organ(options.organ, organ::Load::kMeshOnly);
   warn_of_what_can_hardly_be_meant(organ, scene);
@@ -60,7 +60,7 @@ void run(const Options& options) {
   } else if (options.scene.empty()) {
     throw std::runtime_error("SCENE is missing (see scene_prepare --help)");
   } else if (options.describe) {
-    std::cout << scene_prepare::describe(runtime::load_scene(options.scene)) << '\n';
+    std::cout << scene_prepare::describe(scene::load_scene(options.scene)) << '\n';
   } else if (options.organ.empty() || options.output.empty()) {
     throw std::runtime_error("--organ and -o are needed (see scene_prepare --help)");
   } else {

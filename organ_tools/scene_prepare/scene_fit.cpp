@@ -21,32 +21,32 @@ constexpr double kSlideShare = 0.2;
 /// How much of the picture's height the organ's bounding sphere fills.
 constexpr double kFill = 0.9;
 
-Vec3 to_vector(const runtime::Triple& t) {
+Vec3 to_vector(const scene::Vec3& t) {
   return {t[0], t[1], t[2]};
 }
-runtime::Triple to_triple(const Vec3& v) {
+scene::Vec3 to_triple(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
 /// Rotation and translation that take the scene's press point and normal to the organ's.
-Eigen::Isometry3d carry(const runtime::HandSpec& from, const PressSite& to) {
+Eigen::Isometry3d carry(const scene::HandSpec& from, const PressSite& to) {
   const auto R = geometry::rotation_onto(to_vector(from.press_normal), to.normal);
   return Eigen::Translation3d(to.point) * R * Eigen::Translation3d(-to_vector(from.press_point));
 }
 
-void set_site(runtime::HandSpec& hand, const PressSite& site) {
+void set_site(scene::HandSpec& hand, const PressSite& site) {
   hand.press_point = to_triple(site.point);
   hand.press_normal = to_triple(site.normal);
   hand.slide_direction = to_triple(site.slide);
 }
 
-void move_trocar(runtime::Scene& scene, std::uint32_t tool, const Eigen::Isometry3d& motion) {
-  for (runtime::ToolSpec& spec : scene.tools)
+void move_trocar(scene::Scene& scene, std::uint32_t tool, const Eigen::Isometry3d& motion) {
+  for (scene::ToolSpec& spec : scene.tools)
     if (spec.id == tool && spec.trocar) spec.trocar = to_triple(motion * to_vector(*spec.trocar));
 }
 
 /// Looks at the organ from the side that the scene chose, far enough to see it whole.
-void move_camera(const OrganSkin& skin, runtime::CameraSpec& camera, const Eigen::Isometry3d& motion) {
+void move_camera(const OrganSkin& skin, scene::CameraSpec& camera, const Eigen::Isometry3d& motion) {
   const Vec3 view = to_vector(camera.eye) - to_vector(camera.target);
   if (camera.mode == "endoscope" || view.norm() == 0) {
     camera.eye = to_triple(motion * to_vector(camera.eye));
@@ -59,7 +59,7 @@ void move_camera(const OrganSkin& skin, runtime::CameraSpec& camera, const Eigen
   camera.eye = to_triple(skin.centre() + distance * view.normalized());
 }
 
-std::string shrunk(const runtime::HandSpec& hand, const char* what, double from_m, double to_m) {
+std::string shrunk(const scene::HandSpec& hand, const char* what, double from_m, double to_m) {
   char line[160];
   std::snprintf(line, sizeof line, "hand of tool %u: %s %.1f mm instead of %.1f mm on this organ", hand.tool,
                 what, 1e3 * to_m, 1e3 * from_m);
@@ -68,8 +68,8 @@ std::string shrunk(const runtime::HandSpec& hand, const char* what, double from_
 
 }  // namespace
 
-void project_hands(const OrganSkin& skin, runtime::Scene& scene) {
-  for (runtime::HandSpec& hand : scene.hands) {
+void project_hands(const OrganSkin& skin, scene::Scene& scene) {
+  for (scene::HandSpec& hand : scene.hands) {
     const SkinPoint at = skin.closest(to_vector(hand.press_point));
     Vec3 slide = to_vector(hand.slide_direction);
     slide -= slide.dot(at.normal) * at.normal;
@@ -78,10 +78,10 @@ void project_hands(const OrganSkin& skin, runtime::Scene& scene) {
   }
 }
 
-std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scene) {
+std::vector<std::string> place_hands(const OrganSkin& skin, scene::Scene& scene) {
   std::vector<std::string> notes;
   std::vector<double> slides;
-  for (runtime::HandSpec& hand : scene.hands) {
+  for (scene::HandSpec& hand : scene.hands) {
     const double slide = std::min(hand.slide_m, kSlideShare * skin.diagonal());
     if (slide < hand.slide_m) notes.push_back(shrunk(hand, "slides", hand.slide_m, slide));
     hand.slide_m = slide;
@@ -90,7 +90,7 @@ std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scen
   const std::vector<PressSite> sites = choose_press_sites(skin, slides);
   Eigen::Isometry3d first = Eigen::Isometry3d::Identity();
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    runtime::HandSpec& hand = scene.hands[i];
+    scene::HandSpec& hand = scene.hands[i];
     const Eigen::Isometry3d motion = carry(hand, sites[i]);
     if (i == 0) first = motion;
     move_trocar(scene, hand.tool, motion);
@@ -104,7 +104,7 @@ std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scen
   return notes;
 }
 
-void name_after(const std::string& organ, runtime::Scene& scene) {
+void name_after(const std::string& organ, scene::Scene& scene) {
   scene.organs.front().name = organ;
   scene.name = scene.hands.empty() ? organ : organ + " pressed by a simulated hand";
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "organ_tools/scene_prepare/organ_skin.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include <string>
 #include <vector>
@@ -11,13 +11,13 @@ namespace omentum::scene_prepare {
 
 /// For the scene's own organ: press points come to lie exactly on its surface, normals and slide directions
 /// follow.
-void project_hands(const OrganSkin& skin, runtime::Scene& scene);
+void project_hands(const OrganSkin& skin, scene::Scene& scene);
 
 /// For another organ: press points are chosen anew (press_sites.h), trocars and camera move along, depth and
 /// slide shrink where the organ is thin or small. Returns a line for everything that shrank.
-std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scene);
+std::vector<std::string> place_hands(const OrganSkin& skin, scene::Scene& scene);
 
 /// For another organ: the scene and its first organ are called after it.
-void name_after(const std::string& organ, runtime::Scene& scene);
+void name_after(const std::string& organ, scene::Scene& scene);
 
 }  // namespace omentum::scene_prepare

@@ -10,7 +10,7 @@ namespace omentum::scene_prepare {
 
 namespace {
 
-toml::array to_array(const runtime::Triple& t) {
+toml::array to_array(const scene::Vec3& t) {
   return toml::array{t[0], t[1], t[2]};
 }
 
@@ -18,14 +18,14 @@ toml::table& entry(toml::table& root, const char* list, std::size_t index) {
   return *root[list].as_array()->get(index)->as_table();
 }
 
-void write_organ(const runtime::OrganSpec& organ, toml::table& table) {
+void write_organ(const scene::OrganSpec& organ, toml::table& table) {
   table.insert_or_assign("name", organ.name);
   if (!organ.mesh.starts_with("phantom:"))
     table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
   if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
 }
 
-void write_hand(const runtime::HandSpec& hand, toml::table& table) {
+void write_hand(const scene::HandSpec& hand, toml::table& table) {
   table.insert_or_assign("press_point", to_array(hand.press_point));
   table.insert_or_assign("press_normal", to_array(hand.press_normal));
   table.insert_or_assign("slide_direction", to_array(hand.slide_direction));
@@ -35,7 +35,7 @@ void write_hand(const runtime::HandSpec& hand, toml::table& table) {
 
 }  // namespace
 
-std::string resolved_toml(const runtime::Scene& scene) {
+std::string resolved_toml(const scene::Scene& scene) {
   // load_scene has accepted this file: every list below has the scene's length
   toml::table root = toml::parse_file(scene.file.string());
   root.insert_or_assign("name", scene.name);
@@ -54,9 +54,9 @@ std::string resolved_toml(const runtime::Scene& scene) {
   return text.str();
 }
 
-nlohmann::json describe(const runtime::Scene& scene) {
+nlohmann::json describe(const scene::Scene& scene) {
   nlohmann::json organs = nlohmann::json::array();
-  for (const runtime::OrganSpec& organ : scene.organs)
+  for (const scene::OrganSpec& organ : scene.organs)
     organs.push_back({{"name", organ.name},
                       {"mesh", organ.mesh},
                       {"file", organ.file.string()},

@@ -256,9 +256,9 @@ TEST_F(ToolChannelTest, ReleaseLetsTheHandGo) {
 
 TEST(ToolChannel, PressingAnElasticWallGivesTheHandNoEnergy) {
   constexpr double kRate_hz = 1000, kWall_n_m = 500;
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   runtime::FaultList faults;
-  ToolChannel channel(std::make_unique<VirtualHand>(hand, runtime::ToolSpec{}, kRate_hz), faults);
+  ToolChannel channel(std::make_unique<VirtualHand>(hand, scene::ToolSpec{}, kRate_hz), faults);
   double deepest = 0, stored_j = 0;
   for (int i = 0; i < static_cast<int>(script_period_s(hand) * kRate_hz); ++i) {
     const std::int64_t now_ns = i * kMs;
@@ -281,9 +281,9 @@ TEST(ToolChannel, PressingAnElasticWallGivesTheHandNoEnergy) {
 }
 
 TEST(ToolChannel, TicksUseNoHeap) {
-  const runtime::HandSpec hand;
-  runtime::ToolSpec tool;
-  tool.trocar = runtime::Triple{0, 0.1, 0.2};
+  const scene::HandSpec hand;
+  scene::ToolSpec tool;
+  tool.trocar = scene::Vec3{0, 0.1, 0.2};
   runtime::FaultList faults;
   ToolChannel channel(std::make_unique<VirtualHand>(hand, tool, 1000), faults);
   const std::size_t before = test::heap_allocations();

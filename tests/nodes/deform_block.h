@@ -1,7 +1,7 @@
 // A scene for the real deform_node: one block, one probe.
 #pragma once
 
-#include "node/loaded_scene.h"
+#include "node_common/loaded_scene.h"
 #include "organ/organ.h"
 
 #include "tests/support/meshes.h"
@@ -42,7 +42,7 @@ class BlockScene {
   }
   /// What a deform_node tells that serves this scene with the organ file of that hash.
   msg::SceneInfo info(const std::string& organ_hash) const {
-    const runtime::Scene loaded = runtime::load_scene(scene());
+    const scene::Scene loaded = scene::load_scene(scene());
     return node::to_message(node::loaded_scene(loaded, {{.name = "block", .hash = organ_hash}}), loaded.name);
   }
   organ::Organ organ() const { return organ::load_organ(folder_ / "block.h5", organ::Load::kWithTensors); }

@@ -1,6 +1,6 @@
 #include "deform_node/contact_book.h"
 
-#include "node/contact_bounds.h"
+#include "node_common/contact_bounds.h"
 #include "tests/nodes/deform_fixtures.h"
 
 #include <gmock/gmock.h>

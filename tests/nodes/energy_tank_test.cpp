@@ -1,4 +1,4 @@
-#include "node/energy_tank.h"
+#include "node_common/energy_tank.h"
 
 #include <gtest/gtest.h>
 

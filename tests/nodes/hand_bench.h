@@ -5,7 +5,7 @@
 #include "device_bridge/force_hold.h"
 #include "device_bridge/tool_channel.h"
 #include "haptic_node/tool_line.h"
-#include "node/vectors.h"
+#include "node_common/vectors.h"
 
 #include <algorithm>
 #include <array>

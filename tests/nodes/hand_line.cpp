@@ -1,7 +1,7 @@
 #include "hand_line.h"
 
 #include "haptic_node/tool_kinematics.h"
-#include "node/vectors.h"
+#include "node_common/vectors.h"
 
 #include <algorithm>
 

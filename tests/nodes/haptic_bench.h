@@ -1,7 +1,7 @@
 // The real haptic_node on a domain of its own, and a device of the test's.
 #pragma once
 
-#include "node/loaded_scene.h"
+#include "node_common/loaded_scene.h"
 #include "organ/organ.h"
 #include "runtime/clock.h"
 #include "transport/bus.h"
@@ -46,7 +46,7 @@ class BlockScene {
   std::string report() const { return folder_ / "report.json"; }
   /// What a deform_node tells that serves this scene with the organ file of that hash.
   msg::SceneInfo info(const std::string& organ_hash) const {
-    const runtime::Scene loaded = runtime::load_scene(scene());
+    const scene::Scene loaded = scene::load_scene(scene());
     return node::to_message(node::loaded_scene(loaded, {{.name = "block", .hash = organ_hash}}), loaded.name);
   }
   std::string organ_hash() const {

@@ -1,7 +1,7 @@
 // Through the scene's liver and back by continuous motion: what was left behind in the air (issue 6, A1).
 #include "device_bridge/hand_model.h"
 #include "path_trial.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 #include "tests/support/trial_organs.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ void PrintTo(const Passage& passage, std::ostream* out) {
 // circle.
 class ThereAndBack {
  public:
-  ThereAndBack(const runtime::HandSpec& hand, const Passage& passage)
+  ThereAndBack(const scene::HandSpec& hand, const Passage& passage)
       : normal_(hand.press_normal.data()), speed_m_s_(passage.speed_m_s) {
     const Vec3 point(hand.press_point.data());
     out_ = passage.along_normal ? normal_ : Vec3::UnitZ();
@@ -63,7 +63,7 @@ class Passages : public testing::TestWithParam<Passage> {
   void SetUp() override {
     model_ = test::scene_model("phantom");
     if (!model_) GTEST_SKIP() << "organ_phantom is absent";
-    const auto scene = runtime::load_scene(OMENTUM_SOURCE_DIR "/scenes/liver.toml");
+    const auto scene = scene::load_scene(OMENTUM_SOURCE_DIR "/scenes/liver.toml");
     hand_ = scene.hands[static_cast<std::size_t>(GetParam().hand)];
     way_ = std::make_unique<ThereAndBack>(hand_, GetParam());
   }
@@ -86,7 +86,7 @@ class Passages : public testing::TestWithParam<Passage> {
   }
 
   const haptic::HapticModel* model_ = nullptr;
-  runtime::HandSpec hand_;
+  scene::HandSpec hand_;
   std::unique_ptr<ThereAndBack> way_;
 };
 

@@ -62,7 +62,7 @@ class SceneEnergy : public testing::TestWithParam<Tissue> {
            energy.turned_over_j;
   }
 
-  std::optional<runtime::Scene> scene_;
+  std::optional<scene::Scene> scene_;
 };
 
 INSTANTIATE_TEST_SUITE_P(
@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(SceneEnergy, AHandAloneIsNeverGivenMoreThanAHundredthOfWhatItHadPutIn) {
-  const std::vector<runtime::HandSpec> hands = scene_->hands;
-  for (const runtime::HandSpec& hand : hands) {
+  const std::vector<scene::HandSpec> hands = scene_->hands;
+  for (const scene::HandSpec& hand : hands) {
     scene_->hands = {hand};
     SceneSession session(*scene_, GetParam().rate_hz);
     session.run();

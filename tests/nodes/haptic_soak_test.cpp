@@ -3,7 +3,7 @@
 // haptic_scene_test.cpp.)
 #include "device_bridge/virtual_hand.h"
 #include "haptic_node/haptic_step.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 #include "tests/support/trial_organs.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ void PrintTo(const Soak& soak, std::ostream* out) {
 // A simulated hand and the work of what it feels.
 class SoakedHand {
  public:
-  SoakedHand(const runtime::HandSpec& hand, const runtime::ToolSpec& tool, double rate_hz)
+  SoakedHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz)
       : round_s_(device::script_period_s(hand)), hand_(hand, tool, rate_hz), info_(hand_.info()) {}
   haptic::ToolInput move(std::int64_t now_ns) {
     hand_.command(wrench_);
@@ -79,10 +79,10 @@ class EnergySoak : public testing::TestWithParam<Soak> {
   // Every hand of the scene plays its script twice.
   std::vector<std::unique_ptr<SoakedHand>> soak() const {
     constexpr int kRounds = 2;
-    const auto scene = runtime::load_scene(OMENTUM_SOURCE_DIR "/scenes/liver.toml");
+    const auto scene = scene::load_scene(OMENTUM_SOURCE_DIR "/scenes/liver.toml");
     const double rate_hz = GetParam().rate_hz;
     std::vector<std::unique_ptr<SoakedHand>> hands;
-    for (const runtime::HandSpec& hand : scene.hands)
+    for (const scene::HandSpec& hand : scene.hands)
       hands.push_back(std::make_unique<SoakedHand>(hand, scene.tools[hand.tool], rate_hz));
     double seconds = 0;
     for (const auto& hand : hands) seconds = std::max(seconds, kRounds * hand->round_s());

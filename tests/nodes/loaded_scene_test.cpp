@@ -1,6 +1,6 @@
-#include "node/loaded_scene.h"
+#include "node_common/loaded_scene.h"
 
-#include "runtime/scene_values.h"
+#include "scene/scene_values.h"
 #include "transport/bounds.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 namespace omentum::node {
 namespace {
 
-runtime::Scene scene() {
-  runtime::Scene scene;
+scene::Scene scene() {
+  scene::Scene scene;
   scene.file = "a.toml";
   scene.name = "s";
   scene.organs.resize(2);
@@ -23,14 +23,14 @@ runtime::Scene scene() {
   return scene;
 }
 
-LoadedScene load(const runtime::Scene& scene) {
+LoadedScene load(const scene::Scene& scene) {
   return loaded_scene(scene, {{.name = "liver", .hash = "aaaa"}, {.name = "spleen", .hash = "cccc"}});
 }
 
 class LoadedSceneTest : public testing::Test {
  protected:
   /// What a deform_node with `theirs` tells a node with scene().
-  std::string refusal_of(const runtime::Scene& theirs) const {
+  std::string refusal_of(const scene::Scene& theirs) const {
     return contradicts(loaded_, to_message(load(theirs), "s")).value_or("agrees");
   }
   const LoadedScene loaded_ = load(scene());
@@ -45,14 +45,14 @@ TEST_F(LoadedSceneTest, AgreesWithItsOwn) {
 }
 
 TEST_F(LoadedSceneTest, TheFirstValueThatDiffersIsNamed) {
-  runtime::Scene softer = scene();
+  scene::Scene softer = scene();
   softer.organs[0].young_pa = 6000;
   softer.haptics.friction = 0.5;
   EXPECT_EQ(refusal_of(softer), "scene: organs[0].young_pa is 6000 at deform_node, 12000 here");
 }
 
 TEST_F(LoadedSceneTest, AValueThatOneSideHasNotIsNamed) {
-  runtime::Scene longer = scene(), shorter = scene();
+  scene::Scene longer = scene(), shorter = scene();
   longer.tools[0].points.push_back({1, 2, 3});
   EXPECT_EQ(refusal_of(longer), "scene: tools[0].points[2] is [1, 2, 3] at deform_node, not given here");
   shorter.tools[0].points.pop_back();
@@ -102,7 +102,7 @@ TEST_F(LoadedSceneTest, WhatIsToldFitsItsMessage) {
   EXPECT_TRUE(transport::within_bounds(to_message(loaded, std::string(100, 'y'))));
 }
 
-std::string message_of(const runtime::Scene& scene) {
+std::string message_of(const scene::Scene& scene) {
   try {
     require_tellable(scene);
   } catch (const std::runtime_error& e) {
@@ -112,14 +112,14 @@ std::string message_of(const runtime::Scene& scene) {
 }
 
 TEST(RequireTellable, ValuesThatSceneInfoCannotCarryAreNamed) {
-  runtime::Scene wordy = scene();
+  scene::Scene wordy = scene();
   const std::size_t most = msg::MAX_LINE - std::string("tools[0].name = ").size();
   wordy.tools[0].name.assign(most, 'x');
   EXPECT_EQ(message_of(wordy), "accepted");
   wordy.tools[0].name += 'x';
   EXPECT_EQ(message_of(wordy), "a.toml: tools[0].name: found " + std::to_string(most + 1) +
                                    " characters, expected at most " + std::to_string(most));
-  runtime::Scene large = scene();
+  scene::Scene large = scene();
   large.tools[0].points.resize(msg::MAX_SCENE_LINES);
   const std::string expected = " values, expected at most " + std::to_string(msg::MAX_SCENE_LINES);
   EXPECT_NE(message_of(large).find(expected), std::string::npos) << message_of(large);

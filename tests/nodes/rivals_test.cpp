@@ -1,4 +1,4 @@
-#include "node/rivals.h"
+#include "node_common/rivals.h"
 
 #include <gtest/gtest.h>
 

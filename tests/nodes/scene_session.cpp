@@ -17,7 +17,7 @@ constexpr std::int64_t kBegin_ns = 1'000'000'000;  // the clock began before the
 
 }  // namespace
 
-std::optional<runtime::Scene> liver_scene(double young_pa) {
+std::optional<scene::Scene> liver_scene(double young_pa) {
   test::OrganRecipe recipe = test::organ_recipe("phantom");
   recipe.young_pa = young_pa;
   const auto organ = test::trial_organ_file(recipe);
@@ -26,7 +26,7 @@ std::optional<runtime::Scene> liver_scene(double young_pa) {
   test::Process prepare("scene_prepare", {OMENTUM_SOURCE_DIR "/scenes/liver.toml", "--organ", organ->string(),
                                           "--keep-points", "-o", folder / "scene.toml"});
   if (prepare.wait() != 0) throw std::runtime_error(prepare.messages());
-  return runtime::load_scene(folder / "scene.toml");
+  return scene::load_scene(folder / "scene.toml");
 }
 
 void EnergyAccount::add(double work_j) {
@@ -49,17 +49,17 @@ device::Measurement CountedHand::measure(std::int64_t now_ns) noexcept {
   return measured;
 }
 
-SceneSession::SceneSession(const runtime::Scene& scene, double rate_hz)
+SceneSession::SceneSession(const scene::Scene& scene, double rate_hz)
     : rate_hz_(rate_hz),
       setup_(haptic::make_setup(scene, rate_hz)),
       state_(setup_.model),
       work_(setup_.model),
       inputs_(setup_.tool_ids.size()),
       outputs_(setup_.tool_ids.size()) {
-  for (const runtime::HandSpec& spec : scene.hands) add_hand(scene, spec);
+  for (const scene::HandSpec& spec : scene.hands) add_hand(scene, spec);
 }
 
-void SceneSession::add_hand(const runtime::Scene& scene, const runtime::HandSpec& spec) {
+void SceneSession::add_hand(const scene::Scene& scene, const scene::HandSpec& spec) {
   const auto id = std::ranges::find(setup_.tool_ids, spec.tool);
   const auto tool = static_cast<std::size_t>(id - setup_.tool_ids.begin());
   auto counted = std::make_unique<CountedHand>(spec, scene.tools.at(tool), rate_hz_);

@@ -16,7 +16,7 @@ namespace omentum::haptic_test {
 
 /// scenes/liver.toml with its phantom of `young_pa`, made ready by scene_prepare as launch_scripts/run does.
 /// Nothing where the phantom's program is absent.
-std::optional<runtime::Scene> liver_scene(double young_pa);
+std::optional<scene::Scene> liver_scene(double young_pa);
 
 /// What hands got for what they put in, J.
 struct EnergyAccount {
@@ -35,7 +35,7 @@ struct EnergyAccount {
 /// times way is its work.
 class CountedHand : public device::Device {
  public:
-  CountedHand(const runtime::HandSpec& hand, const runtime::ToolSpec& tool, double rate_hz)
+  CountedHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz)
       : hand_(hand, tool, rate_hz) {}
 
   msg::DeviceInfo info() const override { return hand_.info(); }
@@ -57,7 +57,7 @@ class CountedHand : public device::Device {
 class SceneSession {
  public:
   /// The scene names its organ file.
-  SceneSession(const runtime::Scene& scene, double rate_hz);
+  SceneSession(const scene::Scene& scene, double rate_hz);
 
   /// Until every hand has played its script.
   void run();
@@ -78,7 +78,7 @@ class SceneSession {
     std::unique_ptr<haptic::ToolLine> line;
   };
 
-  void add_hand(const runtime::Scene& scene, const runtime::HandSpec& spec);
+  void add_hand(const scene::Scene& scene, const scene::HandSpec& spec);
   void tick(std::int64_t now_ns);
 
   double rate_hz_, seconds_ = 0;

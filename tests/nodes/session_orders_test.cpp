@@ -1,4 +1,4 @@
-#include "node/session_orders.h"
+#include "node_common/session_orders.h"
 
 #include <gtest/gtest.h>
 

@@ -64,11 +64,11 @@ inline std::vector<float> dent(const OrganShape& shape, const Vec3& where, doubl
   return displacements;
 }
 
-inline runtime::Scene scene_with(std::initializer_list<const char*> shapes) {
-  runtime::Scene scene;
+inline scene::Scene scene_with(std::initializer_list<const char*> shapes) {
+  scene::Scene scene;
   scene.name = "a ball";
   for (const char* shape : shapes) {
-    runtime::ToolSpec& tool = scene.tools.emplace_back();
+    scene::ToolSpec& tool = scene.tools.emplace_back();
     tool.id = static_cast<std::uint32_t>(scene.tools.size() - 1);
     tool.name = tool.shape = shape;
   }

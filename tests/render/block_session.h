@@ -1,7 +1,7 @@
 // A block as an organ, and what the other nodes of its session would say of it.
 #pragma once
 
-#include "node/loaded_scene.h"
+#include "node_common/loaded_scene.h"
 #include "organ/build_organ.h"
 #include "transport/bus.h"
 
@@ -39,7 +39,7 @@ class BlockScene {
   const organ::Organ& organ() const { return organ_; }
   /// What a deform_node tells that serves this scene with the organ file of that hash.
   msg::SceneInfo info(const std::string& organ_hash) const {
-    const runtime::Scene loaded = runtime::load_scene(scene());
+    const scene::Scene loaded = scene::load_scene(scene());
     return node::to_message(node::loaded_scene(loaded, {{.name = "block", .hash = organ_hash}}), loaded.name);
   }
 

@@ -26,7 +26,7 @@ Vec3f on_screen(const View& view, const Vec3& p) {
 }
 
 TEST(Camera, ExplicitPoseIsKept) {
-  runtime::CameraSpec spec;
+  scene::CameraSpec spec;
   spec.eye = {1, 2, 3};
   spec.target = {0, 0, 1};
   const Camera camera = start_camera(spec, kBall, Vec3::UnitX(), 1);

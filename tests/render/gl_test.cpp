@@ -94,7 +94,7 @@ class Drawing : public testing::Test {
   }
 
   OrganShape shape_ = ball_organ(kRadius, 4);
-  runtime::Scene scene_;
+  scene::Scene scene_;
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<SceneView> view_;
   ViewChoices choices_;

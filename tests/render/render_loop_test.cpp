@@ -1,7 +1,7 @@
 // The node's loop on a renderer that only remembers, with a scripted person at its window.
 #include "render_node/render_loop.h"
 
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/rate_loop.h"
 
 #include "block_session.h"

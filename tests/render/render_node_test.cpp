@@ -136,7 +136,7 @@ TEST(RenderNode, RefusesToShowAnotherScene) {
   const auto bus =
       transport::Bus::open({.vendor = transport::Vendor::kFast, .domain = domain, .name = "test"});
   const auto scenes = bus->writer<msg::SceneInfo>();
-  runtime::Scene other = runtime::load_scene(scene.scene());
+  scene::Scene other = scene::load_scene(scene.scene());
   other.organs[0].young_pa = 6000;
   scenes->write(node::to_message(node::loaded_scene(other, {{.name = "block", .hash = scene.organ().hash}}),
                                  "a block"));

@@ -20,7 +20,7 @@ constexpr float kFloat = 1e-5f;
 const Vec3 kTop(0, 0, kRadius);
 
 struct Stage {
-  explicit Stage(runtime::Scene with = scene_with({"probe", "grasper"}))
+  explicit Stage(scene::Scene with = scene_with({"probe", "grasper"}))
       : scene(std::move(with)), view(scene, {shape}, renderer) {
     choices.orbit = view.first_camera();
   }
@@ -28,7 +28,7 @@ struct Stage {
     return view.frame(choices, tools, panel_share);
   }
   OrganShape shape = ball_organ(kRadius, 3);
-  runtime::Scene scene;
+  scene::Scene scene;
   RecordingRenderer renderer;
   SceneView view;
   ViewChoices choices;
@@ -147,7 +147,7 @@ TEST(SceneView, ContactOfAnUnknownOrganIsIgnored) {
 }
 
 TEST(SceneView, CameraLooksAtTheSideThatIsPressed) {
-  runtime::Scene scene = scene_with({"probe"});
+  scene::Scene scene = scene_with({"probe"});
   scene.hands.emplace_back();
   scene.hands[0].press_normal = {1, 0, 0};
   const Stage stage(scene);
@@ -157,7 +157,7 @@ TEST(SceneView, CameraLooksAtTheSideThatIsPressed) {
 }
 
 TEST(SceneView, EndoscopeFollowsTheScope) {
-  runtime::Scene scene = scene_with({"probe", "probe"});
+  scene::Scene scene = scene_with({"probe", "probe"});
   scene.tools[1].name = "endoscope";
   Stage stage(scene);
   stage.choices.endoscope = true;

@@ -26,8 +26,8 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 /// A session of two balls and one probe; everything else is the test's own writers.
 class SessionWatchTest : public testing::Test {
  protected:
-  static runtime::Scene scene_of_two() {
-    runtime::Scene scene = test::scene_with({"probe"});
+  static scene::Scene scene_of_two() {
+    scene::Scene scene = test::scene_with({"probe"});
     scene.organs.resize(2);
     return scene;
   }
@@ -40,7 +40,7 @@ class SessionWatchTest : public testing::Test {
   const OrganShape ball_ = test::ball_organ(kRadiusM, 2);
   const std::vector<LoadedOrgan> organs_{{"left", "aaaa", ball_.rest.size(), reach_of(ball_.rest)},
                                          {"right", "bbbb", ball_.rest.size(), reach_of(ball_.rest)}};
-  const runtime::Scene scene_ = scene_of_two();
+  const scene::Scene scene_ = scene_of_two();
   RecordingRenderer renderer_;
   SceneView view_{scene_, {ball_, ball_}, renderer_};
   runtime::FaultList faults_;

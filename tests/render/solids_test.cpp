@@ -65,7 +65,7 @@ TEST(Solids, GroundIsDarkUnderTheOrganAndOpenFarAway) {
 
 TEST(Instruments, AreClosedAndTurnedOutwards) {
   for (const char* shape : {"probe", "grasper"}) {
-    runtime::ToolSpec tool;
+    scene::ToolSpec tool;
     tool.shape = shape;
     for (const auto& part : instrument_parts(tool, Vec3f::Ones())) {
       EXPECT_GT(volume(part.mesh), 0) << shape;
@@ -76,7 +76,7 @@ TEST(Instruments, AreClosedAndTurnedOutwards) {
 
 TEST(Instruments, ReachFromTheTipAlongZ) {
   for (const char* shape : {"probe", "grasper"}) {
-    runtime::ToolSpec tool;
+    scene::ToolSpec tool;
     tool.shape = shape;
     float lowest = 1, highest = 0;
     for (const auto& part : instrument_parts(tool, Vec3f::Ones())) {
@@ -92,7 +92,7 @@ TEST(Instruments, ReachFromTheTipAlongZ) {
 }
 
 TEST(Instruments, JawsOpenAlongXByTheGripAngle) {
-  runtime::ToolSpec tool;
+  scene::ToolSpec tool;
   tool.shape = "grasper";
   const double grip = 0.8;
   std::vector<double> tips;

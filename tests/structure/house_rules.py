@@ -17,10 +17,11 @@ FLOORS = {
     "idl": set(),
     "transport": {"idl"},
     "runtime": {"files", "idl"},
-    "node": {"idl", "transport", "runtime"},
+    "scene": {"files", "geometry", "idl"},
+    "node_common": {"geometry", "idl", "transport", "runtime", "scene"},
 }
 STANDING_ON = set(FLOORS)
-PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session", "organ_tools"}
+PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session_tools", "organ_tools"}
 FREE = {"tests", "benchmarks"}  # may look into every room
 ROOMS = set(FLOORS) | PROGRAMS | FREE
 NO_ROOMS = ("build", "install", "cmake", ".")  # how the folders are called that may hold sources without being a room

@@ -2,7 +2,7 @@
 
 #include "organ/build_organ.h"
 #include "organ/support_spec.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
 
@@ -89,11 +89,11 @@ std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe) {
 
 std::vector<haptic::ToolModel> scene_tools(bool with_trocars) {
   std::vector<haptic::ToolModel> tools;
-  for (const runtime::ToolSpec& spec : runtime::load_scene(kScene).tools) {
+  for (const scene::ToolSpec& spec : scene::load_scene(kScene).tools) {
     haptic::ToolModel tool;
-    for (const runtime::Triple& p : spec.points) tool.points.emplace_back(p.data());
+    tool.points = spec.points;
     tool.grasps = spec.shape == "grasper";
-    if (with_trocars && spec.trocar) tool.trocar = Vec3(spec.trocar->data());
+    if (with_trocars) tool.trocar = spec.trocar;
     tools.push_back(std::move(tool));
   }
   return tools;

@@ -1,7 +1,7 @@
 // The force that is felt is the force of the elastic organ: recorded contacts, solved again without any
 // tensors.
 #include "organ/organ.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include "tests/support/meshes.h"
 #include "tests/system/session_on_trial.h"
@@ -155,7 +155,7 @@ void expect_same_surface(const organ::Organ& organ, const Moment& moment, const 
 }
 
 void expect_replay_agrees(const std::string& scene, milliseconds apart) {
-  const std::string organ_file = runtime::load_scene(scene).organs.front().file;
+  const std::string organ_file = scene::load_scene(scene).organs.front().file;
   const organ::Organ organ = organ::load_organ(organ_file, organ::Load::kMeshOnly);
   const std::vector<Moment> moments = record(scene, apart);
   ASSERT_GE(moments.size(), kTicks) << "too few moments that all three topics told";

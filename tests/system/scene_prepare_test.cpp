@@ -1,7 +1,7 @@
 // scene_prepare: a scene fits its organ, whichever organ that is.
 #include "geometry/closest_points.h"
 #include "organ/organ.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
@@ -24,7 +24,7 @@ constexpr double kOnSurfaceM = 1e-9;
 /// A slide may leave a curved surface by this part of its length: the hand's target is 10 mm below it.
 constexpr double kLiftShare = 0.3;
 
-Vec3 to_vector(const runtime::Triple& t) {
+Vec3 to_vector(const scene::Vec3& t) {
   return {t[0], t[1], t[2]};
 }
 
@@ -67,7 +67,7 @@ class Skin {
   std::vector<Vec3> x_;
 };
 
-void expect_hand_fits(const Skin& skin, const runtime::HandSpec& hand) {
+void expect_hand_fits(const Skin& skin, const scene::HandSpec& hand) {
   const Vec3 p = to_vector(hand.press_point), n = to_vector(hand.press_normal),
              d = to_vector(hand.slide_direction);
   EXPECT_LE(skin.distance(p), kOnSurfaceM);
@@ -94,10 +94,10 @@ TEST_P(ForeignOrganTest, HandsPressOnTheSurfaceApartAndAwayFromTheSupportsAndSli
   Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
   ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
 
-  const runtime::Scene scene = runtime::load_scene(fitted);
+  const scene::Scene scene = scene::load_scene(fitted);
   EXPECT_EQ(scene.organs.front().file, organ);
   const Skin skin(organ);
-  for (const runtime::HandSpec& hand : scene.hands) {
+  for (const scene::HandSpec& hand : scene.hands) {
     SCOPED_TRACE(hand.tool);
     expect_hand_fits(skin, hand);
     const Vec3 p = to_vector(hand.press_point), d = to_vector(hand.slide_direction);
@@ -146,19 +146,19 @@ TEST(BoxTest, AForeignOrganGivesTheSceneItsName) {
   ASSERT_EQ(build.wait(), 0) << build.messages();
   Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
   ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
-  const runtime::Scene scene = runtime::load_scene(fitted);
+  const scene::Scene scene = scene::load_scene(fitted);
   EXPECT_EQ(scene.name, "kidney pressed by a simulated hand");
   EXPECT_EQ(scene.organs.front().name, "kidney");
 }
 
 TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
-  const runtime::Scene held = runtime::load_scene(held_scene());
+  const scene::Scene held = scene::load_scene(held_scene());
   const ScratchFolder folder;
   const std::string fitted = folder / "scene.toml";
   Process prepare("scene_prepare",
                   {kOwnScene, "--organ", held.organs.front().file, "-o", fitted, "--keep-points"});
   ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
-  const runtime::Scene before = runtime::load_scene(kOwnScene), after = runtime::load_scene(fitted);
+  const scene::Scene before = scene::load_scene(kOwnScene), after = scene::load_scene(fitted);
   const Skin skin(held.organs.front().file);
   EXPECT_EQ(after.name, before.name);
   ASSERT_EQ(after.hands.size(), before.hands.size());

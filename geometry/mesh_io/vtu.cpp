@@ -1,0 +1,63 @@
+// VTK XML unstructured grids: "VTK File Formats" (Kitware), XML formats.
+#include "geometry/mesh_io/mesh_formats.h"
+#include "geometry/mesh_io/vtk_cells.h"
+#include "geometry/mesh_io/vtu_arrays.h"
+
+namespace omentum::geometry {
+namespace {
+
+pugi::xml_node child_of(const VtuArrays& arrays, pugi::xml_node parent, const char* name) {
+  const pugi::xml_node child = parent.child(name);
+  if (!child) arrays.fail("no <" + std::string(name) + "> in <" + parent.name() + ">", "one");
+  return child;
+}
+
+pugi::xml_node named_array(const VtuArrays& arrays, pugi::xml_node parent, const char* name) {
+  const pugi::xml_node array = parent.find_child_by_attribute("DataArray", "Name", name);
+  if (!array) arrays.fail("no array '" + std::string(name) + "' in <" + parent.name() + ">", "one");
+  return array;
+}
+
+void read_points(const VtuArrays& arrays, pugi::xml_node piece, RawMesh& mesh) {
+  const std::vector<double> xyz =
+      arrays.reals(child_of(arrays, child_of(arrays, piece, "Points"), "DataArray"));
+  if (xyz.size() % 3 != 0 || xyz.size() / 3 != piece.attribute("NumberOfPoints").as_ullong()) {
+    arrays.fail(std::to_string(xyz.size()) + " coordinates", "three for each of NumberOfPoints");
+  }
+  for (std::size_t i = 0; i < xyz.size(); i += 3) mesh.positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+}
+
+VtkCells read_cells(const VtuArrays& arrays, pugi::xml_node piece) {
+  const pugi::xml_node node = child_of(arrays, piece, "Cells");
+  VtkCells cells;
+  cells.nodes = arrays.integers(named_array(arrays, node, "connectivity"));
+  cells.types = arrays.integers(named_array(arrays, node, "types"));
+  cells.start = {0};
+  const std::vector<std::int64_t> ends = arrays.integers(named_array(arrays, node, "offsets"));
+  cells.start.insert(cells.start.end(), ends.begin(), ends.end());
+  const auto count = piece.attribute("NumberOfCells").as_ullong();
+  if (cells.types.size() != count || ends.size() != count) {
+    arrays.fail(std::to_string(cells.types.size()) + " types and " + std::to_string(ends.size()) + " offsets",
+                "NumberOfCells of both");
+  }
+  return cells;
+}
+
+}  // namespace
+
+RawMesh read_vtu(const std::filesystem::path& file) {
+  const VtuArrays arrays(file);
+  RawMesh mesh;
+  mesh.source = file.string();
+  std::size_t first_cell = 0;  // of a piece: the numbers go on from one to the next
+  for (const pugi::xml_node piece : child_of(arrays, arrays.root(), "UnstructuredGrid").children("Piece")) {
+    const std::size_t first_node = mesh.positions.size();
+    read_points(arrays, piece, mesh);
+    const VtkCells cells = read_cells(arrays, piece);
+    append_tetrahedra(cells, first_node, first_cell, mesh);
+    first_cell += cells.types.size();
+  }
+  return mesh;
+}
+
+}  // namespace omentum::geometry
