@@ -41,6 +41,7 @@ class StagedLoop {
   }
 
   ScriptedPace& pace() { return pace_; }
+  const ScriptedPace& pace() const { return pace_; }
   Loop& loop() { return loop_; }
 
  private:
