@@ -3,7 +3,7 @@
 
 #include "haptic_node/haptic_loop.h"
 
-#include "tests/support/block_scene.h"
+#include "tests/nodes/haptic_block.h"
 #include "tests/support/fake_bus.h"
 #include "tests/support/staged_loop.h"
 
@@ -18,14 +18,6 @@ using Node = test::StagedLoop<haptic::HapticLoop>;
 
 inline constexpr double kRate_hz = 1000;
 inline constexpr double kListens_s = 1;
-/// Forces leave as doubles; contacts' forces are summed again here.
-inline constexpr double kRelative = 1e-9;
-/// Of the tip: over the block, and 6 mm in it.
-inline const Vec3 kAbove{0.048, 0.053, 0.103}, kPressed{0.048, 0.053, 0.094};
-
-inline Vec3 vector(const msg::Vec3& v) {
-  return {v.x, v.y, v.z};
-}
 inline double newton(const msg::ToolForce& force) {
   return vector(force.force).norm();
 }
@@ -37,10 +29,7 @@ inline msg::SceneInfo scene_of(const std::string& hash) {
 class HapticLoopTest : public testing::Test {
  protected:
   static const test::BlockScene& block() {
-    static const test::BlockScene scene(
-        6,
-        "[[tools]]\nid = 0\nname = \"probe\"\nshape = \"probe\"\npoints = [[0,0,0], [0.003,0,0.001]]\n"
-        "[[tools]]\nid = 3\nname = \"grasper\"\nshape = \"grasper\"\npoints = [[0,0,0]]\n");
+    static const test::BlockScene scene = block_scene();
     return scene;
   }
 
