@@ -171,13 +171,13 @@ class Pictures(LauncherTest):
 
 
 class Devices(LauncherTest):
-    def check_run(self, *arguments):
-        done = self.run_it(HOLD, "--headless", "--seconds", "8", "--out", self.out, *arguments)
+    def check_run(self, *arguments, seconds=8):
+        done = self.run_it(HOLD, "--headless", "--seconds", seconds, "--out", self.out, *arguments)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout, self.report()["nodes"]
 
     def test_none_leaves_the_tools_to_others(self):
-        _, nodes = self.check_run("--device", "none")
+        _, nodes = self.check_run("--device", "none", seconds=3)
         self.assertNotIn("virtual_device", nodes)
         self.assertGreater(nodes["haptic_node"]["loop"]["ticks"], 0)
         self.assertEqual(nodes["haptic_node"]["contacts"]["ticks_in_contact"], 0)
