@@ -1,6 +1,7 @@
 // A node on one machine whose scene.toml is not the one that the session's deform_node serves.
-#include "tests/nodes/deform_block.h"
 #include "transport/bus.h"
+
+#include "tests/support/block_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 namespace omentum {
 namespace {
 
-using deform_test::BlockScene;
+using test::BlockScene;
 
 struct Vendors {
   std::string session, newcomer;
@@ -25,7 +26,7 @@ class ForeignSceneTest : public ::testing::TestWithParam<Vendors> {
     return test::comes_true([&] { return heard_.load(); });
   }
 
-  BlockScene block_;
+  BlockScene block_{4};
   int domain_ = test::domain_of_test();
   test::Process served_{"deform_node", arguments(block_.scene(), GetParam().session)};
   std::atomic<bool> heard_{false};
@@ -54,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, ForeignSceneTest,
 
 // What no SceneInfo could carry is refused where it is read.
 TEST(TellableScene, AValueThatIsTooLongForSceneInfoIsRefusedAtTheStart) {
-  const BlockScene block;
+  const BlockScene block(4);
   const std::string wordy = block.scene_with("\"probe\"", "\"" + std::string(1000, 'x') + "\"");
   for (const std::string program : {"haptic_node", "deform_node"}) {
     test::Process node(program, {"--scene", wordy});

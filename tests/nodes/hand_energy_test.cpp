@@ -2,6 +2,7 @@
 #include "hand_bench.h"
 
 #include "haptic_fixtures.h"
+#include "tests/support/effort.h"
 
 #include <gtest/gtest.h>
 
@@ -122,7 +123,7 @@ TEST(HandEnergy, IsBoundedWhateverTheModelAnswers) {
         for (const NamedModel& model : hostile_models()) {
           for (const bool simulated : {false, true}) {
             HandBench bench(rate_hz, path.path, model.model, {}, simulated);
-            EXPECT_LE(bench.run(4).most_j, kBound_j)
+            EXPECT_LE(bench.run(test::tried(4.0)).most_j, kBound_j)
                 << model.name << ", " << path.name << " at " << speed << " m/s, " << rate_hz << " Hz";
           }
         }
@@ -140,7 +141,7 @@ TEST(HandEnergy, IsBoundedByTheNodeAloneWhereNothingIsLost) {
         for (const NamedModel& model : hostile_models()) {
           HandBench bench(rate_hz, path.path, model.model);
           bench.kit = Kit::kHoldOnly;
-          EXPECT_LE(bench.run(4).most_j, kBound_j)
+          EXPECT_LE(bench.run(test::tried(4.0)).most_j, kBound_j)
               << model.name << ", " << path.name << " at " << speed << " m/s, " << rate_hz << " Hz";
         }
       }
@@ -165,8 +166,9 @@ TEST(HandEnergy, IsBoundedWhateverIsLost) {
         for (const NamedPath& path : paths(speed)) {
           for (const NamedModel& model : hostile_models()) {
             HandBench bench(rate_hz, path.path, model.model, wire);
-            EXPECT_LE(bench.run(2).most_j, kBound_j) << what << ", " << model.name << ", " << path.name
-                                                     << " at " << speed << " m/s, " << rate_hz << " Hz";
+            EXPECT_LE(bench.run(test::tried(2.0)).most_j, kBound_j)
+                << what << ", " << model.name << ", " << path.name << " at " << speed << " m/s, " << rate_hz
+                << " Hz";
           }
         }
       }
@@ -201,7 +203,7 @@ TEST(HandEnergy, AHundredNewBeginningsAreNotAHundredReserves) {
   enum class Event { kReset, kPause, kSilence };
   for (const Event event : {Event::kReset, Event::kPause, Event::kSilence}) {
     HandBench bench(1000, swing(0.4, 0.02), along);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < test::tried(100); ++i) {
       bench.run(0.4);
       if (event == Event::kReset) {
         bench.line().restart();
@@ -234,7 +236,7 @@ TEST(HandEnergy, OfAThrownHandIsBoundedByTwoPeriods) {
     for (const NamedPath& path : paths(kThrown_m_s)) {
       for (const NamedModel& model : hostile_models()) {
         HandBench bench(rate_hz, path.path, model.model);
-        EXPECT_LE(bench.run(4).most_j, kBound_j + kStrong_n * kThrown_m_s * 2 / rate_hz)
+        EXPECT_LE(bench.run(test::tried(4.0)).most_j, kBound_j + kStrong_n * kThrown_m_s * 2 / rate_hz)
             << model.name << ", " << path.name << ", " << rate_hz << " Hz";
       }
     }
@@ -243,7 +245,7 @@ TEST(HandEnergy, OfAThrownHandIsBoundedByTwoPeriods) {
 
 // Through a soft block, around it and along its faces, from one random place to the next.
 TEST(HandEnergy, OfAHandLedThroughAnOrganIsBounded) {
-  constexpr int kPaths = 30;
+  constexpr int kPaths = test::tried(30);
   for (int i = 0; i < kPaths; ++i) {
     const auto organ = std::make_shared<haptic_test::Bench>(
         haptic_test::make_model(haptic_test::block(), {haptic_test::round_tool()}));
@@ -314,7 +316,7 @@ TEST(HandEnergy, OfAHeldPressIsNotUsedUpByNoise) {
         return Vec3(noise(*random), noise(*random), noise(*random) - depth);
       };
       HandBench bench(rate_hz, held, spring(stiffness));
-      const Received& received = bench.run(300);
+      const Received& received = bench.run(test::tried(300.0));
       EXPECT_EQ(received.acted, 0u) << stiffness << " N/m at " << rate_hz << " Hz";
       EXPECT_EQ(received.smallest_share, 1);
     }
@@ -327,7 +329,7 @@ TEST(HandEnergy, OfEndlessPressesIsBoundedAndTheyAreStillFelt) {
     for (const double stiffness : {200.0, 1000.0}) {
       constexpr double kPeak_n = 4;
       HandBench bench(rate_hz, presses(0.05, kPeak_n / stiffness, 100'000, 10e-6), spring(stiffness));
-      bench.run(60);
+      bench.run(test::tried(60.0));
       bench.forget_peaks();
       const Received& late = bench.run(20);
       EXPECT_LE(late.most_j, kBound_j);

@@ -2,6 +2,7 @@
 
 #include "geometry/closest_points.h"
 #include "haptic_fixtures.h"
+#include "tests/support/effort.h"
 
 #include <random>
 #include <set>
@@ -130,11 +131,11 @@ void expect_no_miss(const TestOrgan& organ, int count, double newton, unsigned s
 }
 
 TEST(DeformedSurface, FastSegmentsAgreeWithBruteForceOnABlock) {
-  expect_no_miss(block(), 50'000, 0.5, 2);
+  expect_no_miss(block(), test::tried(50'000), 0.5, 2);
 }
 
 TEST(DeformedSurface, FastSegmentsAgreeWithBruteForceOnAThinPlate) {
-  expect_no_miss(plate(), 50'000, 0.002, 3);
+  expect_no_miss(plate(), test::tried(50'000), 0.002, 3);
 }
 
 // A dent that grows, wanders and goes again, a little in each tick, looked at around a moving place only:

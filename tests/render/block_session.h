@@ -1,12 +1,10 @@
-// A block as an organ, and what the other nodes of its session would say of it.
+// What the other nodes of a block's session would say of it.
 #pragma once
 
-#include "node_common/loaded_scene.h"
-#include "organ/build_organ.h"
+#include "organ/organ.h"
 #include "transport/bus.h"
 
-#include "tests/support/meshes.h"
-#include "tests/support/process.h"
+#include "tests/support/block_scene.h"
 
 #include <algorithm>
 #include <memory>
@@ -16,40 +14,8 @@ namespace omentum::render::test {
 using geometry::Vec3;
 using namespace omentum::test;
 
-/// A block of 10 cm, held at z = 0, and a scene around it.
-class BlockScene {
- public:
-  BlockScene() {
-    const geometry::TetraMesh mesh = test::make_box_mesh(3, 3, 3, Vec3::Constant(0.1));
-    organ::FixedComponents fixed(mesh.positions.size(), 0);
-    for (std::size_t n = 0; n < fixed.size(); ++n) {
-      if (mesh.positions[n].z() < 0.001) fixed[n] = 7;
-    }
-    organ_ = organ::make_organ("block", mesh, {.young_pa = 1e4, .poisson = 0.45, .density_kg_m3 = 1000},
-                               fixed, organ::Storage::kFloat);
-    organ::build_organ(organ_, folder_ / "block.h5", {});
-    std::ofstream(scene())
-        << "name = \"a block\"\n"
-           "[[organs]]\nname = \"block\"\nmesh = \"block.msh\"\nfile = \"block.h5\"\n"
-           "young_pa = 10000\npoisson = 0.45\ndensity_kg_m3 = 1000\nfixed = \"plane:z<0.001\"\n"
-           "[[tools]]\nid = 0\nname = \"probe\"\nshape = \"probe\"\npoints = [[0,0,0]]\n";
-  }
-  std::string scene() const { return folder_ / "scene.toml"; }
-  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
-  const organ::Organ& organ() const { return organ_; }
-  /// What a deform_node tells that serves this scene with the organ file of that hash.
-  msg::SceneInfo info(const std::string& organ_hash) const {
-    const scene::Scene loaded = scene::load_scene(scene());
-    return node::to_message(node::loaded_scene(loaded, {{.name = "block", .hash = organ_hash}}), loaded.name);
-  }
-
- private:
-  test::ScratchFolder folder_;
-  organ::Organ organ_;
-};
-
-/// The whole state in one block, every node moved by `u`, or only the highest ones.
-msg::OrganState state_of(const organ::Organ& organ, std::uint64_t seq, const Vec3& u) {
+/// The whole state in one block: nodes at the top moved by `u`, those below by their share of it.
+inline msg::OrganState state_of(const organ::Organ& organ, std::uint64_t seq, const Vec3& u) {
   msg::OrganState state{};
   state.block_count = 1;
   state.seq = seq;

@@ -1,12 +1,12 @@
-// The node's loop on a renderer that only remembers, with a scripted person at its window.
+// The node's loop between a scripted bus and a scripted pace, on a renderer that only remembers, with a
+// scripted person at its window.
 #include "render_node/render_loop.h"
-
-#include "node_common/node_identity.h"
-#include "runtime/rate_loop.h"
 
 #include "block_session.h"
 #include "panel_context.h"
 #include "recording_renderer.h"
+#include "tests/support/fake_bus.h"
+#include "tests/support/staged_loop.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,181 +14,223 @@
 #include <imgui_internal.h>
 #include <nlohmann/json.hpp>
 
-#include <deque>
-#include <mutex>
-
 namespace omentum::render {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::StartsWith;
 
-constexpr double kPaceHz = 1000;  // as fast as it goes: nobody looks
+constexpr double kPaceHz = 1000;
 constexpr Size kWindow{960, 600};
-
-/// What a person does before a frame; true: done, the next step may follow.
-using Step = std::function<bool(Input&)>;
-
-/// Moves the mouse over the panel until Dear ImGui says that it is over the item called `label`, then clicks.
-class Click {
- public:
-  explicit Click(const char* label) : label_(label) {}
-  bool operator()(Input&) {
-    ImGuiIO& io = ImGui::GetIO();
-    if (presses_ > 0 || hovered()) {
-      io.MouseDown[0] = presses_ == 0;
-      return ++presses_ > 2;
-    }
-    io.MousePos = {x_, y_};
-    y_ += kStep;
-    if (y_ > kWindow.height) x_ += 10 * kStep, y_ = kStep;
-    if (x_ > kWindow.width) ADD_FAILURE() << "no item " << label_;
-    return x_ > kWindow.width;
-  }
-
- private:
-  bool hovered() const {
-    const ImGuiWindow* panel = ImGui::FindWindowByName("omentum");
-    return panel != nullptr && ImGui::GetHoveredID() == ImHashStr(label_, 0, panel->ID);
-  }
-  static constexpr float kStep = 6;  // pixels, a third of a button's height
-  const char* label_;
-  float x_ = 30, y_ = kStep;
-  int presses_ = 0;
-};
+constexpr int kStatusFrames = 100;  // ten statuses in a second
 
 class RenderLoopTest : public testing::Test {
  protected:
+  using Node = omentum::test::StagedLoop<RenderLoop>;
+
   void SetUp() override {
     renderer_.windowed = true;
     renderer_.on_begin_frame = [this] { return next_input(); };
     renderer_.on_panel = [] { ImGui::Render(); };
-    options_.node.scene = block_.scene();
-    options_.node.domain = test::domain_of_test();
-    options_.fps = kPaceHz;
-    bus_ = transport::Bus::open(
-        {.vendor = transport::Vendor::kCyclone, .domain = options_.node.domain, .name = "test"});
+    options_.node.scene = block().scene();
+    options_.fps = 2 * kPaceHz;  // each tick of the pace is a frame
   }
 
-  void then(Step step) { script_.push_back(std::move(step)); }
-  void drag(float x, float y) {
-    then([=](Input& input) {
-      input.orbit_x = x, input.orbit_y = y;
-      return true;
-    });
+  static const test::BlockScene& block() {
+    static const test::BlockScene scene(3);
+    return scene;
   }
-  void remember_eye() {
-    then([this](Input&) {
-      eyes_.push_back(renderer_.frames.back().view.eye);
-      return true;
-    });
+  static const organ::Organ& organ() {
+    static const organ::Organ organ = block().organ();
+    return organ;
   }
-  void idle() {
-    then([](Input&) { return true; });
+  void start() { node_ = std::make_unique<Node>(kPaceHz, options_, bus_.opener(), renderer_); }
+  void frames(int count) { node_->tick(count); }
+  void frame(const Input& input) {
+    input_ = input;
+    node_->tick();
   }
-  nlohmann::json run() {
-    runtime::RateLoop pace(kPaceHz);
-    RenderLoop loop(
-        options_, [this] { return node::open_bus(options_.node, "render_node"); }, renderer_, pace);
-    loop.run();
-    return loop.report();
+  nlohmann::json close() {
+    frame({.close = true});
+    EXPECT_EQ(node_->end(), "");
+    return node_->loop().report();
+  }
+  Vec3f eye() {
+    frames(1);
+    return renderer_.frames.back().view.eye;
+  }
+  void drag() { frame({.orbit_x = 50}); }
+  /// Moves the mouse over the panel until Dear ImGui says that it is over the item called `label`, then
+  /// clicks.
+  void click(const char* label) {
+    constexpr float kStep = 6;  // pixels, a third of a button's height
+    for (float x = 30; x < kWindow.width; x += 10 * kStep) {
+      for (float y = kStep; y < kWindow.height; y += kStep) {
+        mouse_ = {x, y};
+        frames(1);
+        if (!hovers(label)) continue;
+        frames(1);  // where nothing is hovered Dear ImGui names what was
+        if (hovers(label)) return press_and_release();
+      }
+    }
+    ADD_FAILURE() << "no item " << label;
+  }
+  std::vector<std::string> faults() {
+    frames(kStatusFrames);
+    return bus_.newest<msg::NodeStatus>()->faults;
   }
 
   PanelContext context_;
-  test::BlockScene block_;
   RenderOptions options_;
   RecordingRenderer renderer_{kWindow};
-  std::unique_ptr<transport::Bus> bus_;
-  std::vector<Vec3f> eyes_;
+  omentum::test::FakeBus bus_;
+  std::unique_ptr<Node> node_;
 
  private:
-  // After the last step the person closes the window.
-  Input next_input() {
-    Input input;
-    if (script_.empty()) {
-      input.close = true;
-    } else if (script_.front()(input)) {
-      script_.pop_front();
-    }
-    ImGui::GetIO().DisplaySize = {static_cast<float>(kWindow.width), static_cast<float>(kWindow.height)};
-    ImGui::NewFrame();
-    return input;
+  static bool hovers(const char* label) {
+    const ImGuiWindow* panel = ImGui::FindWindowByName("omentum");
+    return panel != nullptr && ImGui::GetHoveredID() == ImHashStr(label, 0, panel->ID);
   }
-  std::deque<Step> script_;
+  void press_and_release() {
+    for (const bool down : {true, false, false}) {
+      mouse_down_ = down;
+      frames(1);
+    }
+  }
+  Input next_input() {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(kWindow.width), static_cast<float>(kWindow.height)};
+    io.MousePos = mouse_;
+    io.MouseDown[0] = mouse_down_;
+    ImGui::NewFrame();
+    return std::exchange(input_, Input{});
+  }
+
+  Input input_;
+  ImVec2 mouse_{0, 0};
+  bool mouse_down_ = false;
 };
 
 TEST_F(RenderLoopTest, ClosingTheWindowEndsItAndIsReported) {
-  EXPECT_EQ(run()["closed"], true);
+  start();
+  frame({.close = true});
+  EXPECT_FALSE(node_->tick());
+  EXPECT_EQ(node_->loop().report()["closed"], true);
 }
 
 TEST_F(RenderLoopTest, EndOfItsTimeIsNotAClosedWindow) {
   options_.seconds = 0.1;
-  then([](Input&) { return false; });
-  EXPECT_EQ(run()["closed"], false);
+  start();
+  EXPECT_TRUE(node_->tick(99));
+  EXPECT_FALSE(node_->tick());
+  EXPECT_EQ(node_->loop().report()["closed"], false);
 }
 
 TEST_F(RenderLoopTest, DraggingTurnsTheOrbitButNotTheEndoscope) {
-  idle();
-  remember_eye();
-  drag(50, 0);
-  idle();
-  remember_eye();
-  then(Click("endoscope"));
-  idle();
-  drag(50, 0);
-  idle();
-  then(Click("endoscope"));
-  idle();
-  remember_eye();
-  run();
-  ASSERT_EQ(eyes_.size(), 3u);
-  EXPECT_GT((eyes_[1] - eyes_[0]).norm(), 1e-3f);
-  EXPECT_LT((eyes_[2] - eyes_[1]).norm(), 1e-6f) << "the hidden camera stayed";
+  start();
+  const Vec3f before = eye();
+  drag();
+  const Vec3f turned = eye();
+  click("endoscope");
+  drag();
+  click("endoscope");
+  EXPECT_GT((turned - before).norm(), 1e-3f);
+  EXPECT_LT((eye() - turned).norm(), 1e-6f) << "the hidden camera stayed";
 }
 
 TEST_F(RenderLoopTest, ButtonsSendTheirCommands) {
-  std::mutex mutex;
-  std::vector<std::uint32_t> heard;
-  const auto commands = bus_->reader<msg::SessionCommand>([&](const msg::SessionCommand& command) {
-    const std::lock_guard lock(mutex);
-    heard.push_back(command.command);
-  });
-  const auto wait_for = [&](std::size_t count) {
-    then([&, count](Input&) {
-      const std::lock_guard lock(mutex);
-      return heard.size() >= count;
-    });
-  };
-  const auto begin = std::chrono::steady_clock::now();
-  then([&](Input&) {  // a sample sent before the reader listens is lost
-    using std::chrono::seconds;
-    return commands->status().matched > 0 && std::chrono::steady_clock::now() - begin > seconds(1);
-  });
-  then(Click("Pause"));
-  wait_for(1);
-  then(Click("Start"));
-  wait_for(2);
-  then(Click("Reset"));
-  wait_for(3);
-  then(Click("Clear fault"));
-  wait_for(4);
-  run();
-  EXPECT_THAT(heard, ElementsAre(msg::COMMAND_PAUSE, msg::COMMAND_START, msg::COMMAND_RESET,
-                                 msg::COMMAND_CLEAR_FAULT));
+  bus_.watch<msg::SessionCommand>();
+  start();
+  for (const auto& [label, sent] :
+       {std::pair("Pause", msg::COMMAND_PAUSE), std::pair("Start", msg::COMMAND_START),
+        std::pair("Reset", msg::COMMAND_RESET), std::pair("Clear fault", msg::COMMAND_CLEAR_FAULT)}) {
+    bus_.expect<msg::SessionCommand>(Field(&msg::SessionCommand::command, sent));
+    click(label);
+    EXPECT_THAT(bus_.left_over(), IsEmpty()) << label;
+  }
+}
+
+TEST_F(RenderLoopTest, ACommandThatCannotBeSentIsAFault) {
+  start();
+  bus_.refuse_writes<msg::SessionCommand>(true);
+  click("Pause");
+  EXPECT_THAT(faults(), ElementsAre(StartsWith("a command could not be sent")));
+}
+
+TEST_F(RenderLoopTest, DrawsAStateAndTellsThePoseThatItShows) {
+  start();
+  frames(1);
+  const int updates = renderer_.updates;
+  const msg::OrganState state = test::state_of(organ(), 7, {0, 0, -0.01});
+  bus_.post(state);
+  frames(1);
+  EXPECT_GT(renderer_.updates, updates);
+  frames(kStatusFrames);
+  const auto status = bus_.newest<msg::NodeStatus>();
+  EXPECT_EQ(status->kind, msg::NODE_RENDER);
+  EXPECT_THAT(status->echoes, ElementsAre(state.echoes[0]));
+}
+
+TEST_F(RenderLoopTest, AStateThatDoesNotFitIsAFaultAndNotDrawn) {
+  start();
+  frames(1);
+  const int updates = renderer_.updates;
+  msg::OrganState state = test::state_of(organ(), 1, {0, 0, -0.01});
+  state.values[0] = 1e30f;
+  bus_.post(state);
+  EXPECT_THAT(faults(), ElementsAre(StartsWith("organ state that does not fit")));
+  EXPECT_EQ(renderer_.updates, updates);
+}
+
+TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {
+  start();
+  frames(1000);
+  EXPECT_THAT(bus_.take_all<msg::NodeStatus>(), SizeIs(10));
+  bus_.post(msg::SessionCommand{.order = 1, .sender = 1, .command = msg::COMMAND_PAUSE, .argument = {}});
+  frames(kStatusFrames);
+  EXPECT_TRUE(bus_.newest<msg::NodeStatus>()->paused);
+  msg::NodeStatus haptic{};
+  haptic.kind = msg::NODE_HAPTIC;
+  haptic.instance = 1;
+  bus_.post(haptic);
+  frames(kStatusFrames);
+  EXPECT_FALSE(bus_.newest<msg::NodeStatus>()->paused) << "who makes the forces knows";
+}
+
+TEST_F(RenderLoopTest, RefusesToShowAnotherOrganThanTheOneServed) {
+  bus_.post(block().info("0123abcd"));
+  start();
+  EXPECT_FALSE(node_->tick());
+  EXPECT_THAT(node_->end(), AllOf(HasSubstr("0123abcd"), HasSubstr(block().organ_hash())));
+}
+
+TEST_F(RenderLoopTest, ALateStrangersSceneIsAFaultAndNoEnd) {
+  start();
+  frames(5500);
+  bus_.post(block().info("0123abcd"));
+  EXPECT_THAT(faults(), ElementsAre(StartsWith(node::kForeignScene)));
+  close();
 }
 
 TEST_F(RenderLoopTest, DeepestDentIsTakenFromNearbyWithoutThePanel) {
   const test::ScratchFolder folder;
   options_.out = folder.path();
-  const auto states = bus_->writer<msg::OrganState>();
-  test::PressingTool tool(*bus_, block_.organ());
-  std::uint64_t seq = 0;
-  then([&](Input&) {
-    states->write(test::state_of(block_.organ(), ++seq, {0, 0, -0.01}));
+  start();
+  const auto others = bus_.opener()();
+  test::PressingTool tool(*others, organ());
+  for (std::uint64_t seq = 1; seq < 50; ++seq) {
+    bus_.post(test::state_of(organ(), seq, {0, 0, -0.01}));
     tool.speak();
-    return !renderer_.read_back_from.empty();
-  });
-  const auto report = run();
-  ASSERT_FALSE(renderer_.read_back_from.empty());
+    frames(1);
+  }
+  ASSERT_THAT(renderer_.read_back_from, SizeIs(1));
+  const auto report = close();
   const Frame& close_up = renderer_.frames.at(renderer_.read_back_from.front());
   const Frame& final = renderer_.frames.at(renderer_.read_back_from.back());
   EXPECT_FALSE(close_up.with_panel);
@@ -201,13 +243,14 @@ TEST_F(RenderLoopTest, DeepestDentIsTakenFromNearbyWithoutThePanel) {
 TEST_F(RenderLoopTest, OrganOfALostDeformNodeHasNoDent) {
   const test::ScratchFolder folder;
   options_.out = folder.path();
-  test::PressingTool tool(*bus_, block_.organ());
-  int spoken = 0;
-  then([&](Input&) {  // a tool that presses an organ of which nothing is known
+  start();
+  const auto others = bus_.opener()();
+  test::PressingTool tool(*others, organ());
+  for (int k = 0; k < 300; ++k) {  // a tool that presses an organ of which nothing is known
     tool.speak();
-    return ++spoken > 300;
-  });
-  EXPECT_EQ(run()["deepest_dent_m"], 0);
+    frames(1);
+  }
+  EXPECT_EQ(close()["deepest_dent_m"], 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "indent.png"));
 }
 
@@ -215,8 +258,10 @@ TEST_F(RenderLoopTest, LogHoldsThePeriodsOfTheFramesThatWereDrawn) {
   const test::ScratchFolder folder;
   options_.node.log = folder / "frames.csv";
   options_.fps = 50;  // the pace ticks twenty times as often: most of its ticks draw nothing
-  for (int k = 0; k < 5; ++k) idle();
-  const auto report = run();
+  start();
+  frames(110);
+  const auto report = close();
+  node_->loop().require_written();
   std::istringstream lines(test::read_text(folder / "frames.csv"));
   std::string line;
   std::getline(lines, line);  // header
@@ -228,6 +273,7 @@ TEST_F(RenderLoopTest, LogHoldsThePeriodsOfTheFramesThatWereDrawn) {
     periods.push_back(period);
   }
   ASSERT_EQ(starts.size(), report["frames"].get<std::size_t>());
+  ASSERT_GE(starts.size(), 5u);
   for (std::size_t k = 1; k < starts.size(); ++k) EXPECT_EQ(periods[k], starts[k] - starts[k - 1]);
 }
 

@@ -41,7 +41,7 @@ bool skipped_without_egl(test::Process& node) {
 }
 
 TEST(RenderNode, BadInputEndsWithTwoAndOneLine) {
-  const BlockScene scene;
+  const BlockScene scene(3);
   const auto refused = [&](std::vector<std::string> args) {
     test::Process node("render_node", args);
     EXPECT_EQ(node.wait(), 2);
@@ -57,7 +57,7 @@ TEST(RenderNode, BadInputEndsWithTwoAndOneLine) {
 }
 
 TEST(RenderNode, ShowsStatesAndEchoesThePoseThatItDrew) {
-  const BlockScene scene;
+  const BlockScene scene(3);
   const int domain = test::domain_of_test();
   test::Process node("render_node", arguments(scene, domain));
   const auto bus =
@@ -107,7 +107,7 @@ TEST(RenderNode, ShowsStatesAndEchoesThePoseThatItDrew) {
 }
 
 TEST(RenderNode, EndsByItselfAfterItsTime) {
-  const BlockScene scene;
+  const BlockScene scene(3);
   test::Process node("render_node",
                      arguments(scene, test::domain_of_test(), {"--seconds", "1", "--no-panel"}));
   const int code = node.wait();
@@ -117,7 +117,7 @@ TEST(RenderNode, EndsByItselfAfterItsTime) {
 }
 
 TEST(RenderNode, RefusesToShowAnotherOrganThanTheOneServed) {
-  const BlockScene scene;
+  const BlockScene scene(3);
   const int domain = test::domain_of_test();
   const auto bus =
       transport::Bus::open({.vendor = transport::Vendor::kFast, .domain = domain, .name = "test"});
@@ -148,7 +148,7 @@ TEST(RenderNode, RefusesToShowAnotherScene) {
 }
 
 TEST(RenderNode, SaysWhereThePicturesGoWhenThereIsNoDisplay) {
-  const BlockScene scene;
+  const BlockScene scene(3);
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   test::Process node("render_node",

@@ -4,7 +4,8 @@
 
 #include "ball_organ.h"
 #include "recording_renderer.h"
-#include "tests/support/process.h"
+#include "tests/support/fake_bus.h"
+#include "tests/support/scripted_pace.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,6 @@
 namespace omentum::render {
 namespace {
 
-using omentum::test::comes_true;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -23,7 +23,7 @@ constexpr double kRadiusM = 0.05;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// A session of two balls and one probe; everything else is the test's own writers.
+/// A session of two balls and one probe; everything else is what the test posts.
 class SessionWatchTest : public testing::Test {
  protected:
   static scene::Scene scene_of_two() {
@@ -44,133 +44,100 @@ class SessionWatchTest : public testing::Test {
   RecordingRenderer renderer_;
   SceneView view_{scene_, {ball_, ball_}, renderer_};
   runtime::FaultList faults_;
-  std::unique_ptr<transport::Bus> bus_ = transport::Bus::open(
-      {.vendor = transport::Vendor::kCyclone, .domain = omentum::test::domain_of_test(), .name = "test"});
-  runtime::SteadyClock clock_;
-  Inbox inbox_{*bus_, organs_, clock_, faults_};
+  omentum::test::FakeBus bus_;
+  std::unique_ptr<transport::Bus> joined_ = bus_.opener()();
+  omentum::test::ScriptedPace clock_{1000};
+  Inbox inbox_{*joined_, organs_, clock_, faults_};
   SessionWatch watch_{scene_, organs_, 0};
 };
 
 TEST_F(SessionWatchTest, AForeignSceneEndsANodeThatStartsAndIsAFaultOfASettledOne) {
-  const auto scenes = bus_->writer<msg::SceneInfo>();
-  msg::SceneInfo foreign{.protocol = msg::PROTOCOL_VERSION + 1, .scene = "s", .organs = {}};
-  EXPECT_TRUE(comes_true([&] {
-    scenes->write(foreign);
-    listen(60 * kSecond);
-    return has_fault("scene: a deform_node with other organs");
-  }));
+  const msg::SceneInfo foreign{.protocol = msg::PROTOCOL_VERSION + 1, .scene = "s", .organs = {}};
+  bus_.post(foreign);
+  listen(60 * kSecond);
+  EXPECT_TRUE(has_fault("scene: a deform_node with other organs"));
+  bus_.post(foreign);
   std::string why;
-  EXPECT_TRUE(comes_true([&] {
-    scenes->write(foreign);
-    try {
-      listen(kSecond);
-    } catch (const std::runtime_error& error) {
-      why = error.what();
-    }
-    return !why.empty();
-  }));
+  try {
+    listen(kSecond);
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+  }
   EXPECT_THAT(why, HasSubstr("protocol"));
 }
 
 TEST_F(SessionWatchTest, EachOrganHasItsOwnTopology) {
-  const auto topologies = bus_->writer<msg::Topology>();
   msg::Topology cut{}, whole{}, nowhere{};
   cut.version = 1;
   cut.removed_bits = {0, 4};
   whole.organ = 1;
   nowhere.organ = 7;
-  // what came before the last one is in its box: one writer's samples come in order
-  EXPECT_TRUE(comes_true([&] {
-    for (const msg::Topology& topology : {cut, whole, nowhere}) topologies->write(topology);
-    return has_fault("topology of an organ that the scene does not have");
-  }));
+  for (const msg::Topology& topology : {cut, whole, nowhere}) bus_.post(topology);
+  EXPECT_TRUE(has_fault("topology of an organ that the scene does not have"));
   listen(kSecond);
   EXPECT_TRUE(has_fault("an organ was cut"));
 }
 
 TEST_F(SessionWatchTest, AnOrganThatIsWholeAgainIsNotCutWhateverItsVersion) {
-  const auto topologies = bus_->writer<msg::Topology>();
-  msg::Topology restored{}, nowhere{};
+  msg::Topology restored{};
   restored.version = 7;
   restored.removed_bits = {0, 0};
-  nowhere.organ = 7;
-  EXPECT_TRUE(comes_true([&] {
-    for (const msg::Topology& topology : {restored, nowhere}) topologies->write(topology);
-    return has_fault("topology of an organ that the scene does not have");
-  }));
+  bus_.post(restored);
   listen(kSecond);
   EXPECT_FALSE(has_fault("an organ was cut"));
 }
 
 TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
-  const auto contacts = bus_->writer<msg::Contact>();
-  const auto forces = bus_->writer<msg::ToolForce>();
-  const auto poses = bus_->writer<msg::ToolPose>();
-  msg::ToolForce force{};
   msg::ToolPose pose{};
+  pose.seq = 1;
   pose.valid = true;
   pose.orientation.w = 1;
+  msg::ToolForce force{};
+  force.seq = 1;
   msg::Contact left{}, pressed{}, nowhere{};
   pressed.organ = 1;
   pressed.nodes = {5};
   pressed.forces = {{0, 0, -1}};
   pressed.displacements = {{0, 0, 0}};
   nowhere.organ = 7;
-  EXPECT_TRUE(comes_true([&] {
-    ++pose.seq, ++force.seq;
-    poses->write(pose);
-    forces->write(force);
-    for (const msg::Contact& contact : {pressed, left, nowhere}) contacts->write(contact);
-    listen(transport::arrival_clock_ns());
-    return has_fault("contact with an organ that the scene does not have") &&
-           !watch_.tools()[0].contact_nodes.empty();
-  }));
+  bus_.post(pose);
+  bus_.post(force);
+  for (const msg::Contact& contact : {pressed, left, nowhere}) bus_.post(contact);
+  EXPECT_TRUE(has_fault("contact with an organ that the scene does not have"));
+  listen(kSecond);
   EXPECT_EQ(watch_.tools()[0].contact_organ, 1u);
   EXPECT_THAT(watch_.tools()[0].contact_nodes, ElementsAre(5u));
 }
 
 // Both of a pause's copies around a start that another person gave.
 TEST_F(SessionWatchTest, ObeysCommandsByTheRuleOfAllNodes) {
-  const auto commands = bus_->writer<msg::SessionCommand>();
   const auto send = [&](std::uint32_t what, std::uint64_t order) {
-    commands->write({.order = order, .sender = 1, .command = what, .argument = {}});
+    bus_.post(msg::SessionCommand{.order = order, .sender = 1, .command = what, .argument = {}});
   };
-  EXPECT_TRUE(comes_true([&] {
-    send(msg::COMMAND_PAUSE, 0);
-    listen(kSecond);
-    return watch_.paused(kSecond);
-  })) << "a sender may count from zero";
+  send(msg::COMMAND_PAUSE, 0);
+  listen(kSecond);
+  EXPECT_TRUE(watch_.paused(kSecond)) << "a sender may count from zero";
   send(msg::COMMAND_START, 1);
   send(msg::COMMAND_PAUSE, 0);
-  send(msg::COMMAND_RESET, 2);  // the last of them
-  EXPECT_TRUE(comes_true([&] { return inbox_.orders().take_reset(); }));
+  send(msg::COMMAND_RESET, 2);
+  EXPECT_TRUE(inbox_.orders().take_reset());
   listen(kSecond);
   EXPECT_FALSE(watch_.paused(kSecond));
 }
 
 TEST_F(SessionWatchTest, OnlyWhatCanBeDrawnIsDrawn) {
-  const auto poses = bus_->writer<msg::ToolPose>();
-  const auto forces = bus_->writer<msg::ToolForce>();
   msg::ToolPose pose{};
   pose.valid = true;
   pose.orientation.w = 1;
   msg::ToolForce force{};
   force.force = {0, 0, 1};
-  const auto seen = [&](const msg::ToolPose& p, const msg::ToolForce& f) {
-    const std::uint64_t seq = ++pose.seq;
-    return comes_true([&, p = p, f = f]() mutable {
-      p.seq = f.seq = seq;
-      poses->write(p);
-      forces->write(f);
-      listen(transport::arrival_clock_ns());
-      transport::Arrived<msg::ToolPose> came;
-      transport::Arrived<msg::ToolForce> felt;
-      return inbox_.pose(0, came) && came.sample.seq == seq && inbox_.force(0, felt) &&
-             felt.sample.seq == seq;
-    });
+  const auto show = [&](msg::ToolPose p, msg::ToolForce f) {
+    p.seq = f.seq = ++pose.seq;
+    bus_.post(p);
+    bus_.post(f);
+    listen(clock_.now_ns());
   };
-  ASSERT_TRUE(seen(pose, force));
-  listen(transport::arrival_clock_ns());
+  show(pose, force);
   EXPECT_TRUE(watch_.tools()[0].seen);
   EXPECT_EQ(watch_.tools()[0].force_n, Vec3(0, 0, 1));
   for (const double absurd : {kNan, kInf, 1e30, 1e4}) {
@@ -178,11 +145,27 @@ TEST_F(SessionWatchTest, OnlyWhatCanBeDrawnIsDrawn) {
     far.position.y = absurd;
     msg::ToolForce strong = force;
     strong.force.x = absurd;
-    ASSERT_TRUE(seen(far, strong));
-    listen(transport::arrival_clock_ns());
+    show(far, strong);
     EXPECT_FALSE(watch_.tools()[0].seen) << absurd;
     EXPECT_EQ(watch_.tools()[0].force_n, Vec3(0, 0, 0)) << absurd;
   }
+}
+
+TEST_F(SessionWatchTest, ToolsAndForcesOfWhoFellSilentAreGone) {
+  msg::ToolPose pose{};
+  pose.valid = true;
+  pose.orientation.w = 1;
+  msg::ToolForce force{};
+  force.force = {0, 0, 1};
+  bus_.post(pose);
+  bus_.post(force);
+  clock_.stall(kSecond / 2);
+  listen(clock_.now_ns());
+  EXPECT_TRUE(watch_.tools()[0].seen);
+  EXPECT_EQ(watch_.tools()[0].force_n, Vec3(0, 0, 0));
+  clock_.stall(kSecond);
+  listen(clock_.now_ns());
+  EXPECT_FALSE(watch_.tools()[0].seen);
 }
 
 TEST(Plausible, APoseIsAPlaceAndARotation) {

@@ -188,21 +188,6 @@ TEST(SessionTest, SecondHapticNodeForTheSameToolRefusesAndTheFirstGoesOn) {
   EXPECT_TRUE(session["haptic_node"].running());
 }
 
-TEST(SessionTest, PausedTheForceIsZeroAndSaysSoAndStartGoesOn) {
-  SessionOnTrial session(held_scene(), all_on("cyclone"));
-  Observer observer(session.domain(), transport::Vendor::kCyclone);
-  session.start_all(kHandAndOrgan);
-  const auto pause_and_start = [&] {
-    EXPECT_EQ(session.command("pause"), 0);
-    EXPECT_TRUE(comes_true([&] {
-      const auto force = observer.force();
-      return (force->state & msg::FORCE_PAUSED) != 0 && observer.force_n() < kNothingN;
-    }));
-    EXPECT_EQ(session.command("start"), 0);
-  };
-  EXPECT_TRUE(press_outlives(session, observer, pause_and_start));
-}
-
 TEST(SessionTest, ResetBringsOrganToRestAndTheHandToItsStartThenItPressesAgain) {
   SessionOnTrial session(held_scene(), all_on("fast"));
   Observer observer(session.domain(), transport::Vendor::kFast);
