@@ -1,8 +1,10 @@
 // The node around the models: topics in, topics out, at a fixed rate.
 #pragma once
 
-#include "deform_node/served_organ.h"
+#include "deform_node/local_publisher.h"
+#include "deform_node/organ_group.h"
 #include "deform_node/standby.h"
+#include "deform_node/state_publisher.h"
 #include "node/loaded_scene.h"
 #include "node/refusal.h"
 #include "node/session_orders.h"
@@ -37,35 +39,35 @@ class DeformLoop {
   void require_written();
 
  private:
+  void open_writers();
+  void open_readers();
   void serve_or_stand_by();
   void take_up();
   void stand_by();
   void hear(const msg::SceneInfo& other);
   void tick() noexcept;
   void obey() noexcept;
+  void take_figures() noexcept;
   void publish(std::int64_t now_ns) noexcept;
-  void publish_status() noexcept;
 
   DeformOptions options_;
   runtime::Scene scene_;
-  std::vector<ServedOrgan> organs_;
   runtime::FaultList faults_;
+  OrganGroup organs_;
   ContactBook book_;
   runtime::RateLoop& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
   std::int64_t start_ns_;
-  msg::SceneInfo scene_info_;
   node::LoadedScene loaded_;
   node::SessionOrders orders_;
   node::Refusal refusal_;
-  std::uint64_t steps_ = 0;
   std::uint64_t states_ = 0;
   std::uint64_t ticks_ = 0;
   enum class Role { kListening, kServing, kStandingBy };
   Role role_ = Role::kListening;
-  bool introduced_ = false;                               // its durable samples are out
   bool told_standing_by_ = false, told_serving_ = false;  // on stderr
-  msg::NodeStatus status_{};
+  msg::NodeStatus own_;  // who this is; what of it changes is the publisher's, but for the ticks
+  LoopFigures figures_;
   Standby standby_;
 
   // declared last: callbacks end before what they touch
@@ -74,6 +76,9 @@ class DeformLoop {
   std::unique_ptr<transport::Writer<msg::Topology>> topology_writer_;
   std::unique_ptr<transport::Writer<msg::OrganState>> state_writer_;
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
+  std::unique_ptr<transport::Writer<msg::LocalModel>> local_writer_;  // none where no organ offers any
+  std::unique_ptr<StatePublisher> publisher_;
+  std::unique_ptr<LocalPublisher> local_publisher_;
   std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;

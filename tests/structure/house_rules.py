@@ -17,7 +17,7 @@ FLOORS = {
     "idl": set(),
     "transport": {"idl"},
     "runtime": {"files"},
-    "node": {"idl", "transport", "runtime"},
+    "node": {"idl", "transport", "runtime", "geometry", "organ"},
 }
 STANDING_ON = set(FLOORS)
 PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session", "organ_tools"}
