@@ -19,6 +19,14 @@ OrganSource load_organ_source(const runtime::Scene& scene, const runtime::OrganS
   return source;
 }
 
+std::uint32_t state_kind(runtime::OrganKind kind) {
+  switch (kind) {
+    case runtime::OrganKind::kTetrahedralMesh:
+      return msg::KIND_SURFACE;
+  }
+  throw std::invalid_argument("an organ of a kind without states");
+}
+
 msg::OrganInfo describe(const OrganSource& source) {
   return {.name = source.organ.name.substr(0, kTextBytes), .hash = source.organ.hash.substr(0, kTextBytes)};
 }

@@ -20,6 +20,9 @@ struct OrganSource {
 /// "FILE: organ NAME has no file; expected ...").
 OrganSource load_organ_source(const runtime::Scene& scene, const runtime::OrganSpec& spec, organ::Load what);
 
+/// What the states of an organ of that kind are: KIND_* of idl/organ.idl.
+std::uint32_t state_kind(runtime::OrganKind kind);
+
 /// What other nodes are told of a loaded organ, its texts cut to the bounds of the IDL.
 msg::OrganInfo describe(const OrganSource& source);
 

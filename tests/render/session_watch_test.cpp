@@ -81,6 +81,19 @@ TEST_F(SessionWatchTest, EachOrganHasItsOwnTopology) {
   EXPECT_TRUE(has_fault("an organ was cut"));
 }
 
+TEST_F(SessionWatchTest, AStateOfAnotherKindIsAFault) {
+  const auto states = bus_->writer<msg::OrganState>();
+  msg::OrganState state{};
+  state.block_count = 1;
+  state.kind = msg::KIND_TUBE;
+  state.node_count = static_cast<std::uint32_t>(ball_.rest.size());
+  state.values.assign(3 * ball_.rest.size(), 0);
+  EXPECT_TRUE(comes_true([&] {
+    states->write(state);
+    return has_fault("organ state of another kind");
+  }));
+}
+
 // Both of a pause's copies around a start that another person gave.
 TEST_F(SessionWatchTest, ObeysCommandsByTheRuleOfAllNodes) {
   const auto commands = bus_->writer<msg::SessionCommand>();
