@@ -29,10 +29,11 @@ void say_once(bool& said, const char* what) {
 
 }  // namespace
 
-DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
+DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop,
+                       std::span<const ModelEntry> models)
     : options_(options),
       scene_(node::load_scene(options.node)),
-      organs_(load_organs(scene_), faults_),
+      organs_(load_organs(scene_, models), faults_),
       book_(numbers_of_all(organs_.organs()), bounds_of(scene_), faults_),
       loop_(loop),
       start_ns_(runtime::steady_now_ns()),
@@ -58,14 +59,16 @@ void DeformLoop::open_writers() {
   publisher_ = std::make_unique<StatePublisher>(
       StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_}, organs_.organs(),
       nodes_per_block(transport::parse_profile(options_.node.profile)),
-      describe_scene(scene_, organs_.organs()), own_, faults_);
+      describe_scene(scene_, organs_.organs()), own_, faults_, runtime::on_own_thread);
   if (offers_local_models(organs_.organs())) {
     local_writer_ = bus_->writer<msg::LocalModel>();
-    local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs());
+    local_publisher_ =
+        std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(), runtime::on_own_thread);
   }
 }
 
 void DeformLoop::open_readers() {
+  if (local_publisher_) tool_places_ = std::make_unique<ToolPlaces>(*bus_, scene_);
   contact_reader_ = bus_->reader<msg::Contact>(
       [this](const msg::Contact& contact) { book_.take(contact, runtime::steady_now_ns()); });
   command_reader_ = bus_->reader<msg::SessionCommand>(
@@ -124,7 +127,7 @@ void DeformLoop::tick() noexcept {
   const std::int64_t now_ns = runtime::steady_now_ns();
   book_.advance(now_ns);
   if (!orders_.paused()) organs_.step(book_, 1 / options_.rate_hz);
-  if (local_publisher_) local_publisher_->offer(book_, now_ns);
+  if (local_publisher_) local_publisher_->offer(tool_places_->find(now_ns), book_.echoes(), now_ns);
   const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRateHz));
   if (ticks_++ % ticks_per_status == 0) take_figures();
   publish(now_ns);

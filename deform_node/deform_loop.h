@@ -29,7 +29,9 @@ struct DeformOptions {
 class DeformLoop {
  public:
   /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace and must outlive this.
-  DeformLoop(const DeformOptions& options, runtime::RateLoop& loop);
+  /// `models`: those that scenes may choose from.
+  DeformLoop(const DeformOptions& options, runtime::RateLoop& loop,
+             std::span<const ModelEntry> models = model_table());
 
   /// Until loop.stop(). Throws std::runtime_error when another deform_node serves other organs.
   void run();
@@ -79,6 +81,7 @@ class DeformLoop {
   std::unique_ptr<transport::Writer<msg::LocalModel>> local_writer_;  // none where no organ offers any
   std::unique_ptr<StatePublisher> publisher_;
   std::unique_ptr<LocalPublisher> local_publisher_;
+  std::unique_ptr<ToolPlaces> tool_places_;  // where some organ offers local models
   std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;

@@ -27,18 +27,19 @@ std::vector<OrganMessages> messages_of(const std::vector<ServedOrgan>& organs, s
 
 StatePublisher::StatePublisher(const StateWriters& writers, const std::vector<ServedOrgan>& organs,
                                std::int32_t nodes_per_block, msg::SceneInfo info,
-                               msg::NodeStatus introduction, const runtime::FaultList& faults)
+                               msg::NodeStatus introduction, const runtime::FaultList& faults,
+                               const runtime::StartWork& start)
     : writers_(writers),
       faults_(faults),
       newest_(room_for(organs)),
       messages_(messages_of(organs, nodes_per_block)),
       info_(std::move(info)),
       status_(std::move(introduction)),
-      thread_([this] { write_newest(); }) {}
+      writing_(start([this] { write_newest(); })) {}
 
 void StatePublisher::publish() noexcept {
   newest_.post();
-  thread_.wake();
+  writing_->wake();
 }
 
 void StatePublisher::write_newest() {

@@ -26,10 +26,10 @@ struct StateWriters {
 class StatePublisher {
  public:
   /// `info`, and `introduction`: what the node tells of itself; the faults are told with every status and
-  /// outlive this.
+  /// outlive this. `start`: how the publishing thread is made.
   StatePublisher(const StateWriters& writers, const std::vector<ServedOrgan>& organs,
                  std::int32_t nodes_per_block, msg::SceneInfo info, msg::NodeStatus introduction,
-                 const runtime::FaultList& faults);
+                 const runtime::FaultList& faults, const runtime::StartWork& start);
 
   /// The loop's thread; neither waits nor allocates. Fill the draft wholly, then publish it.
   TickSnapshot& draft() noexcept { return newest_.draft(); }
@@ -49,7 +49,7 @@ class StatePublisher {
   bool scene_told_ = false;
   msg::NodeStatus status_;
   std::uint64_t status_told_ = 0;
-  runtime::WokenThread thread_;  // last: it uses what is above
+  std::unique_ptr<runtime::WokenWork> writing_;  // last: it uses what is above
 };
 
 }  // namespace omentum::deform

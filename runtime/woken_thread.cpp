@@ -27,4 +27,8 @@ void WokenThread::wake() noexcept {
   wakes_.notify_one();
 }
 
+std::unique_ptr<WokenWork> on_own_thread(std::function<void()> work) {
+  return std::make_unique<WokenThread>(std::move(work));
+}
+
 }  // namespace omentum::runtime

@@ -1,7 +1,6 @@
 #include "deform_node/local_publisher.h"
 #include "deform_node/state_publisher.h"
 
-#include "tests/nodes/deform_fixtures.h"
 #include "tests/nodes/deform_toy.h"
 #include "tests/nodes/written_messages.h"
 #include "tests/support/heap_count.h"
@@ -14,7 +13,6 @@ namespace {
 
 using deform_test::HangingMass;
 using deform_test::Journal;
-using deform_test::kNsPerS;
 using deform_test::WrittenMessages;
 using ::testing::ElementsAre;
 
@@ -36,7 +34,8 @@ class PublisherTest : public ::testing::Test {
             kManyNodes,
             describe_scene(scene, organs_),
             introduction,
-            faults_};
+            faults_,
+            runtime::on_own_thread};
   }
   HangingMass& mass() { return static_cast<HangingMass&>(*organs_[0].model); }
   void cut() {
@@ -171,34 +170,24 @@ TEST_F(PublisherTest, WhatWasRefusedIsToldAgainAndNoStateLeavesBefore) {
   EXPECT_THAT(journal_.lines(), ElementsAre("scene", "topology", "state"));
 }
 
-/// Contacts of tool 0 on the toy's one node.
+/// Tool 0 at the toy.
 class LocalPublisherTest : public PublisherTest {
  protected:
-  void press_and_step() {
-    msg::Contact contact = deform_test::contact_on(0, {0}, {{0, 0, -1}});
-    const Vec3& at = mass().position();
-    contact.displacements[0] = {at.x(), at.y(), at.z()};
-    book_.take(contact, kNsPerS);
-    book_.advance(kNsPerS);
-    mass().step({.presses = book_.loads(0), .cuts = {}}, kTickS);
+  ToolPlace tool_at(const Vec3& tip) const { return {0, {tip, kPatchRadiusM}}; }
+  void offer(LocalPublisher& publisher, const Vec3& tip, std::int64_t now_ns) {
+    const ToolPlace place = tool_at(tip);
+    publisher.offer({&place, 1}, {&echo_, 1}, now_ns);
   }
-
+  const msg::Echo echo_{.tool = 0, .seq = 100, .stamp_ns = 5};
   WrittenMessages<msg::LocalModel> models_{"local", &journal_};
-  ContactBook book_{{numbers()}, {.tools = 1, .max_force_n = 10}, faults_};
-
- private:
-  static OrganNumbers numbers() {
-    OrganNumbers numbers = deform_test::odd_numbers(1, 0);
-    numbers.reach_m = 1;
-    return numbers;
-  }
 };
 
-TEST_F(LocalPublisherTest, AroundAToolThatTouchesLeavesWhatTheModelOffers) {
+TEST_F(LocalPublisherTest, AroundAToolLeavesWhatTheModelOffers) {
   ASSERT_TRUE(offers_local_models(organs_));
-  LocalPublisher publisher(models_, organs_);
-  press_and_step();
-  publisher.offer(book_, 77);
+  LocalPublisher publisher(models_, organs_, runtime::on_own_thread);
+  mass().push(Vec3(0, 0, 0.1));
+  mass().step({}, kTickS);
+  offer(publisher, Vec3::Zero(), 77);
   const msg::LocalModel model = models_.await(1)[0];
   EXPECT_EQ(model.seq, 1u);
   EXPECT_EQ(model.stamp_ns, 77);
@@ -210,35 +199,33 @@ TEST_F(LocalPublisherTest, AroundAToolThatTouchesLeavesWhatTheModelOffers) {
   EXPECT_THAT(model.compliance, ElementsAre(c, 0, 0, 0, c, 0, 0, 0, c));
 }
 
-TEST_F(LocalPublisherTest, WithoutAToolNothingLeaves) {
+TEST_F(LocalPublisherTest, WithoutAToolNearNothingLeaves) {
   {
-    LocalPublisher publisher(models_, organs_);
-    book_.advance(kNsPerS);
-    publisher.offer(book_, 1);
+    LocalPublisher publisher(models_, organs_, runtime::on_own_thread);
+    publisher.offer({}, {}, 1);
+    offer(publisher, Vec3(1, 0, 0), 2);
   }
   EXPECT_TRUE(models_.all().empty());
 }
 
 TEST_F(LocalPublisherTest, AStuckStateDelaysNoLocalModel) {
   StatePublisher states = make_publisher();
-  LocalPublisher locals(models_, organs_);
+  LocalPublisher locals(models_, organs_, runtime::on_own_thread);
   states_.get_stuck();
   publish(states, 1);
   states_.await_begun(1);
   for (std::size_t i = 1; i <= 5; ++i) {
-    press_and_step();
     publish(states, 1 + i);
-    locals.offer(book_, static_cast<std::int64_t>(i));
+    offer(locals, Vec3::Zero(), static_cast<std::int64_t>(i));
     EXPECT_EQ(models_.await(i).back().seq, i);
   }
   states_.come_free();
 }
 
 TEST_F(LocalPublisherTest, OfferingTakesNoMemory) {
-  LocalPublisher publisher(models_, organs_);
-  press_and_step();
+  LocalPublisher publisher(models_, organs_, runtime::on_own_thread);
   const std::size_t before = test::heap_allocations();
-  for (int i = 0; i < 50; ++i) publisher.offer(book_, i);
+  for (int i = 0; i < 50; ++i) offer(publisher, Vec3::Zero(), i);
   EXPECT_EQ(test::heap_allocations(), before);
 }
 
