@@ -21,8 +21,7 @@ struct OrganContact {
   geometry::Vec3 normal = geometry::Vec3::UnitZ();   // from the other sphere to this one, in W, unit
   double depth_m = 0;                                // of the overlap
   geometry::Vec3 velocity = geometry::Vec3::Zero();  // of the other sphere, in W, m/s
-  double share =
-      1;  // of the correction that is this organ's: m_other / (m_other + m_own), so that momentum stays
+  double share = 1;  // of the correction, this organ's: m_other / (m_other + m_own), so that momentum stays
 };
 
 }  // namespace omentum::deform
