@@ -29,11 +29,10 @@ void say_once(bool& said, const char* what) {
 
 }  // namespace
 
-DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop,
-                       std::span<const ModelEntry> models)
+DeformLoop::DeformLoop(const DeformOptions& options, runtime::RateLoop& loop)
     : options_(options),
       scene_(node::load_scene(options.node)),
-      organs_(load_organs(scene_, models), faults_),
+      organs_(load_organs(scene_, options.models), faults_),
       book_(numbers_of_all(organs_.organs()), bounds_of(scene_), faults_),
       loop_(loop),
       start_ns_(runtime::steady_now_ns()),

@@ -16,10 +16,11 @@
 
 namespace omentum::deform {
 
-/// What deform_node's command line asks for.
+/// What deform_node's command line asks for, and the models that its scenes may choose from.
 struct DeformOptions {
   runtime::NodeOptions node;
   double rate_hz = 100;  // faster than any screen, slow beside a step (docs/topics.md promises 60)
+  std::span<const ModelEntry> models = model_table();
 };
 
 /// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo and
@@ -29,9 +30,7 @@ struct DeformOptions {
 class DeformLoop {
  public:
   /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace and must outlive this.
-  /// `models`: those that scenes may choose from.
-  DeformLoop(const DeformOptions& options, runtime::RateLoop& loop,
-             std::span<const ModelEntry> models = model_table());
+  DeformLoop(const DeformOptions& options, runtime::RateLoop& loop);
 
   /// Until loop.stop(). Throws std::runtime_error when another deform_node serves other organs.
   void run();

@@ -24,7 +24,8 @@ class ToyInTheLoop : public ::testing::Test {
     options_.node.scene = block_.scene();
     options_.node.dds = "cyclone";
     options_.node.domain = domain_;
-    loop_ = std::make_unique<DeformLoop>(options_, pace_, kModels);
+    options_.models = kModels;
+    loop_ = std::make_unique<DeformLoop>(options_, pace_);
     thread_ = std::thread([this] { loop_->run(); });
   }
   ~ToyInTheLoop() override { end(); }
