@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_setup.h"
 
+#include "node_common/organ_source.h"
 #include "runtime/memory_limit.h"
 #include "transport/messages.h"
 
@@ -33,20 +34,14 @@ std::vector<ToolModel> make_tools(const scene::Scene& scene) {
   return tools;
 }
 
-ElasticSurface make_surface(organ::Organ&& organ) {
-  std::vector<Vec3> rest = geometry::surface_positions(organ.mesh, organ.surface);
+ElasticSurface make_surface(node::OrganSource&& source) {
+  organ::Organ& organ = source.organ;
   std::vector<std::uint32_t> file_node;
   for (const geometry::NodeId n : organ.surface.node) {
     file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
   }
-  return {std::move(organ.surface), std::move(rest), *std::move(organ.compliance), std::move(file_node)};
-}
-
-organ::Organ load(const scene::Scene& scene, const scene::OrganSpec& spec) {
-  if (spec.file.empty())
-    refuse(scene, "organ '" + spec.name +
-                      "' has no organ file: build one with organ_build and give it with --organ");
-  return organ::load_organ(spec.file, organ::Load::kWithTensors);
+  return {std::move(organ.surface), std::move(source.rest), *std::move(organ.compliance),
+          std::move(file_node)};
 }
 
 std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
@@ -62,9 +57,9 @@ HapticSetup make_setup(const scene::Scene& scene, double rate_hz) {
   HapticSetup setup;
   std::vector<msg::OrganInfo> organs;
   for (const scene::OrganSpec& spec : scene.organs) {
-    organ::Organ organ = load(scene, spec);
-    organs.push_back({.name = organ.name, .hash = organ.hash, .kind = msg::KIND_SURFACE});
-    setup.model.organs.push_back(make_surface(std::move(organ)));
+    node::OrganSource source = node::load_organ_source(scene, spec, organ::Load::kWithTensors);
+    organs.push_back(node::describe(source));
+    setup.model.organs.push_back(make_surface(std::move(source)));
   }
   setup.scene = node::loaded_scene(scene, std::move(organs));
   setup.model.tools = make_tools(scene);

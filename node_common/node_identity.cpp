@@ -53,6 +53,10 @@ void fill_status(const runtime::LoopRecord& record, const runtime::FaultList& fa
   status.missed = record.missed;
   status.period_us = to_message(record.period.percentiles());
   status.compute_us = to_message(record.compute.percentiles());
+  fill_faults(faults, status);
+}
+
+void fill_faults(const runtime::FaultList& faults, msg::NodeStatus& status) {
   status.faults.clear();
   if (!faults.any()) return;
   for (const std::string& fault : faults.lines()) status.faults.push_back(fault.substr(0, msg::MAX_LINE));

@@ -3,8 +3,8 @@
 
 #include "runtime/faults.h"
 #include "runtime/node_options.h"
-#include "scene/scene.h"
 #include "runtime/tick_account.h"
+#include "scene/scene.h"
 #include "transport/bus.h"
 
 namespace omentum::node {
@@ -30,5 +30,7 @@ msg::Percentiles to_message(const runtime::Percentiles& percentiles);
 /// Fills in the loop's figures and the faults; the rest stays. Not for a real-time thread (texts allocate).
 void fill_status(const runtime::LoopRecord& record, const runtime::FaultList& faults,
                  msg::NodeStatus& status);
+/// The faults alone.
+void fill_faults(const runtime::FaultList& faults, msg::NodeStatus& status);
 
 }  // namespace omentum::node

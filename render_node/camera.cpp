@@ -55,8 +55,7 @@ Ball ball_around(std::span<const Vec3> points) {
 }
 
 Camera start_camera(const scene::CameraSpec& spec, const Ball& ball, const Vec3& from, float aspect) {
-  Camera camera{spec.eye, spec.target, spec.up,
-                spec.field_of_view_deg};
+  Camera camera{spec.eye, spec.target, spec.up, spec.field_of_view_deg};
   if (camera.eye != Vec3::Zero() || camera.target != Vec3::Zero()) return camera;
   // the narrower of the two half angles must hold the ball
   const double vertical = radians(camera.field_of_view_deg) / 2;

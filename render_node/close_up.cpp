@@ -54,11 +54,11 @@ bool presses(const Shaft& shaft, const Vec3& target) {
 /// What lines of sight to a dent may meet: the drawn triangles around it, and the shafts of the other tools.
 class Obstacles {
  public:
-  Obstacles(std::span<const OrganSkin* const> skins, std::span<const Shaft> shafts, const Vec3& target) {
+  Obstacles(std::span<const MeshData* const> organs, std::span<const Shaft> shafts, const Vec3& target) {
     std::copy_if(shafts.begin(), shafts.end(), std::back_inserter(shafts_),
                  [&](const Shaft& shaft) { return !presses(shaft, target); });
-    for (const OrganSkin* skin : skins) {
-      const MeshData& mesh = skin->mesh();
+    for (const MeshData* organ : organs) {
+      const MeshData& mesh = *organ;
       for (const MeshTriangle& t : mesh.triangles) {
         const std::array<Vec3, 3> corners{mesh.vertices[t[0]].position.cast<double>(),
                                           mesh.vertices[t[1]].position.cast<double>(),
@@ -129,12 +129,12 @@ double hidden_share(const Obstacles& obstacles, const Dent& dent, const Camera& 
 
 }  // namespace
 
-Camera close_up_of(const Dent& dent, std::span<const OrganSkin* const> skins, std::span<const Shaft> shafts,
+Camera close_up_of(const Dent& dent, std::span<const MeshData* const> organs, std::span<const Shaft> shafts,
                    const Camera& familiar, double ground_m) {
   const Vec3 normal = dent.outward.cast<double>();
   const Vec3 target = dent.bottom.cast<double>() + kAboveBottomM * normal;
   Camera best{target, target, normal, kFieldDeg};
-  const Obstacles obstacles(skins, shafts, target);
+  const Obstacles obstacles(organs, shafts, target);
   double least_cost = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates(best, (familiar.eye - target).normalized(), shafts, ground_m)) {
     if (c.cost >= least_cost) break;  // the others cost more, even if nothing hides the dent from there

@@ -80,7 +80,7 @@ void Inbox::take_state(const msg::OrganState& block) {
     organ.newest.post(state);
   });
   if (outcome == StateAssembly::Outcome::kMisfit)
-    faults_.raise("organ state that does not fit the organ's surface");
+    faults_.raise("organ state of another kind or size than the organ's");
 }
 
 void Inbox::take_topology(const msg::Topology& topology) {

@@ -17,8 +17,9 @@ namespace omentum::render {
 struct LoadedOrgan {
   std::string name;
   std::string hash;
-  std::size_t node_count = 0;  // of its surface
+  std::size_t node_count = 0;  // of its states
   double reach_m = 0;          // a state that moves a node farther is none (plausible.h)
+  std::uint32_t state_kind = msg::KIND_SURFACE;
 };
 
 /// A node's newest status and when it came (the inbox's clock).
@@ -66,7 +67,8 @@ class Inbox {
 
  private:
   struct OrganBox {
-    explicit OrganBox(const LoadedOrgan& organ) : assembly(organ.node_count, organ.reach_m) {}
+    explicit OrganBox(const LoadedOrgan& organ)
+        : assembly(organ.state_kind, organ.node_count, organ.reach_m) {}
     StateAssembly assembly;
     runtime::Mailbox<AssembledState> newest;
     runtime::Mailbox<msg::Topology> topology;

@@ -1,7 +1,8 @@
 #include "render_node/render_loop.h"
 
 #include "node_common/node_identity.h"
-#include "organ/organ.h"
+#include "node_common/organ_source.h"
+#include "node_common/session_orders.h"
 #include "render_node/plausible.h"
 #include "runtime/report.h"
 
@@ -20,9 +21,8 @@ constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
-OrganShape shape_of(const organ::Organ& organ) {
-  return {organ.surface, geometry::surface_positions(organ.mesh, organ.surface),
-          organ.surface_of_file_node()};
+OrganShape shape_of(const node::OrganSource& source) {
+  return {source.kind, source.organ.surface, source.rest, source.organ.surface_of_file_node()};
 }
 
 double picture_period_s(const RenderOptions& options, bool has_window) {
@@ -35,14 +35,10 @@ double picture_period_s(const RenderOptions& options, bool has_window) {
 RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
   Loaded loaded{node::load_scene(options.node), {}, {}};
   for (const scene::OrganSpec& spec : loaded.scene.organs) {
-    if (spec.file.empty()) {
-      throw std::runtime_error(loaded.scene.file.string() + ": organ " + spec.name +
-                               " has no file; expected a resolved scene or --organ FILE");
-    }
-    const organ::Organ organ = organ::load_organ(spec.file, organ::Load::kMeshOnly);
-    loaded.shapes.push_back(shape_of(organ));
-    const std::vector<Vec3>& rest = loaded.shapes.back().rest;
-    loaded.organs.push_back({organ.name, organ.hash, rest.size(), reach_of(rest)});
+    const node::OrganSource source = node::load_organ_source(loaded.scene, spec, organ::Load::kMeshOnly);
+    loaded.organs.push_back({source.organ.name, source.organ.hash, source.rest.size(), reach_of(source.rest),
+                             node::state_kind(source.kind)});
+    loaded.shapes.push_back(shape_of(source));
   }
   return loaded;
 }

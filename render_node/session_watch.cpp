@@ -79,7 +79,7 @@ void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t 
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
     const AssembledState* state = inbox.fetch_state(i);
     if (!state) continue;
-    view.deform(i, state->displacements);
+    view.deform(i, state->values);
     echoes_[i] = state->echoes;
     state_arrived_ns_[i] = now_ns;
     fresh_echoes_ = true;
@@ -180,9 +180,13 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
   panel.dent_mm = dent_ ? 1e3 * dent_->depth_m : 0;
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
-    const OrganSkin& skin = view.skin(i);
-    panel.organs.push_back({1e3 * skin.largest_displacement_m(), 1e3 * kLinearShare * skin.extent_m(),
-                            state_arrived_ns_[i] > 0, now_ns - std::max(state_arrived_ns_[i], begin_ns_)});
+    OrganRow& row = panel.organs.emplace_back();
+    row.known = state_arrived_ns_[i] > 0;
+    row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);
+    if (const PressedSurface* surface = view.surface(i)) {
+      row.moved_mm = 1e3 * surface->skin.largest_displacement_m();
+      row.limit_mm = 1e3 * kLinearShare * surface->skin.extent_m();
+    }
   }
   panel.incomplete_states = incomplete_states_;
   panel.faults = all_faults(statuses_);

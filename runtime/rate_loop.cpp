@@ -81,6 +81,10 @@ void RateLoop::stop() noexcept {
   wake();
 }
 
+std::unique_ptr<WokenWork> RateLoop::on_wake(std::function<void()> work) {
+  return std::make_unique<WokenThread>(std::move(work));
+}
+
 std::unique_ptr<SideWork> RateLoop::beside(std::chrono::milliseconds pause, std::function<void()> work) {
   return std::make_unique<Background>(pause, std::move(work));
 }

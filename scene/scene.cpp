@@ -34,10 +34,20 @@ std::filesystem::path beside(const std::filesystem::path& scene, const std::file
   return (scene.parent_path() / file).lexically_normal();
 }
 
+void read_model(TomlSection& s, OrganSpec& organ) {
+  std::vector<std::string> words;
+  for (const OrganModelWord& model : kOrganModels) words.emplace_back(model.word);
+  s.read_word("model", organ.model, kOptional, words);
+  organ.kind = std::find_if(kOrganModels.begin(), kOrganModels.end(), [&](const OrganModelWord& model) {
+                 return model.word == organ.model;
+               })->kind;
+}
+
 OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   OrganSpec organ;
   std::string file;
   s.read("name", organ.name, kRequired);
+  read_model(s, organ);
   s.read("mesh", organ.mesh, kRequired);
   s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
   s.read("young_pa", organ.young_pa, kRequired, kPositive);

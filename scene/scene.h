@@ -7,15 +7,28 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace omentum::scene {
 
 using geometry::Vec3;
 
+/// What an organ consists of: how it is loaded, touched and drawn. How it moves is its model's affair.
+enum class OrganKind : std::uint8_t { kTetrahedralMesh };
+
+/// A model that a scene may choose for an organ, and the kind of organ that it moves.
+struct OrganModelWord {
+  std::string_view word;
+  OrganKind kind;
+};
+inline constexpr std::array kOrganModels{OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh}};
+
 /// An organ as the scene describes it: enough to build its file, or a built file.
 struct OrganSpec {
   std::string name;
+  std::string model{kOrganModels.front().word};
+  OrganKind kind = kOrganModels.front().kind;  // the model's
   std::string mesh;  // a mesh or organ file (relative to the scene), "phantom:paper" or "phantom:fine"
   double metres_per_unit = 1;
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;

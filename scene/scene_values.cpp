@@ -54,6 +54,7 @@ class Table {
 
 void add(const OrganSpec& organ, Table table) {
   table.add("name", organ.name);
+  table.add("model", organ.model);
   table.add("young_pa", organ.young_pa);
   table.add("poisson", organ.poisson);
   table.add("density_kg_m3", organ.density_kg_m3);

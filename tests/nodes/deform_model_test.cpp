@@ -34,12 +34,12 @@ class QuasiStaticModelTest : public ::testing::Test {
     book_.advance(kNsPerS);
   }
   Vec3 displacement(std::int32_t n) const {
-    const auto u = model_.displacements().subspan(3 * static_cast<std::size_t>(n), 3);
+    const auto u = model_.view().values.subspan(3 * static_cast<std::size_t>(n), 3);
     return {u[0], u[1], u[2]};
   }
   double largest() const {
     double value = 0;
-    for (const float u : model_.displacements()) value = std::max(value, std::abs(static_cast<double>(u)));
+    for (const float u : model_.view().values) value = std::max(value, std::abs(static_cast<double>(u)));
     return value;
   }
 };
@@ -47,7 +47,7 @@ class QuasiStaticModelTest : public ::testing::Test {
 TEST_F(QuasiStaticModelTest, SuperpositionEqualsThePlainSumOfAllTools) {
   press();
   const auto loads = book_.loads(0);
-  model_.step(loads, 0.01);
+  model_.step({.presses = loads, .cuts = {}}, 0.01);
   const double tolerance = kFloatSum * largest();
   for (std::int32_t n = 0; n < kSurfaceNodes; ++n) {
     Vec3 plain = Vec3::Zero();
@@ -62,24 +62,24 @@ TEST_F(QuasiStaticModelTest, SuperpositionEqualsThePlainSumOfAllTools) {
 
 TEST_F(QuasiStaticModelTest, ReleaseAndResetBringTheOrganBackToRest) {
   press();
-  model_.step(book_.loads(0), 0.01);
+  model_.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
   ASSERT_GT(largest(), 0);
   model_.reset();
   EXPECT_EQ(largest(), 0);
-  model_.step(book_.loads(0), 0.01);
+  model_.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
   ASSERT_GT(largest(), 0);
   book_.advance(kNsPerS + static_cast<std::int64_t>((kContactStaleS + kContactFadeS) * kNsPerS));
-  model_.step(book_.loads(0), 0.01);
+  model_.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
   EXPECT_EQ(largest(), 0) << "haptic_node fell silent";
 }
 
 TEST_F(QuasiStaticModelTest, StepTakesNoMemory) {
   press();
-  model_.step(book_.loads(0), 0.01);
+  model_.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
   const std::size_t before = test::heap_allocations();
   for (int tick = 0; tick < 100; ++tick) {
     book_.advance(kNsPerS + tick);
-    model_.step(book_.loads(0), 0.01);
+    model_.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
   }
   EXPECT_EQ(test::heap_allocations(), before);
 }

@@ -40,8 +40,8 @@ struct Stage {
     dent = {kDepth_m, (kTop - Vec3(0, 0, kDepth_m)).cast<float>(), Vec3f::UnitZ()};
   }
   Camera camera(const Camera& familiar = kFamiliar, std::span<const Shaft> shafts = {}) const {
-    const OrganSkin* const skins[] = {&skin};
-    return close_up_of(dent, skins, shafts, familiar, kGround_m);
+    const MeshData* const organs[] = {&skin.mesh()};
+    return close_up_of(dent, organs, shafts, familiar, kGround_m);
   }
   OrganSkin skin;
   Dent dent;

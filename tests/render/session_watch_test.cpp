@@ -109,6 +109,16 @@ TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
   EXPECT_THAT(watch_.tools()[0].contact_nodes, ElementsAre(5u));
 }
 
+TEST_F(SessionWatchTest, AStateOfAnotherKindIsAFault) {
+  msg::OrganState state{};
+  state.block_count = 1;
+  state.kind = msg::KIND_TUBE;
+  state.node_count = static_cast<std::uint32_t>(ball_.rest.size());
+  state.values.assign(3 * ball_.rest.size(), 0);
+  bus_.post(state);
+  EXPECT_TRUE(has_fault("organ state of another kind"));
+}
+
 // Both of a pause's copies around a start that another person gave.
 TEST_F(SessionWatchTest, ObeysCommandsByTheRuleOfAllNodes) {
   const auto send = [&](std::uint32_t what, std::uint64_t order) {

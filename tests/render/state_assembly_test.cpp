@@ -26,7 +26,7 @@ msg::OrganState block(std::uint64_t seq, std::uint32_t number, float value) {
 
 struct Shown {
   std::vector<AssembledState> states;
-  StateAssembly assembly{kNodes, kReachM};
+  StateAssembly assembly{msg::KIND_SURFACE, kNodes, kReachM};
   StateAssembly::Outcome take(const msg::OrganState& block) {
     return assembly.take(block, [this](const AssembledState& s) { states.push_back(s); });
   }
@@ -39,7 +39,7 @@ TEST(StateAssembly, ShowsAStateOnceAllBlocksCameInAnyOrder) {
   shown.take(block(1, 1, 1));
   ASSERT_EQ(shown.states.size(), 1u);
   EXPECT_EQ(shown.states[0].missing_blocks, 0u);
-  EXPECT_EQ(shown.states[0].displacements, std::vector<float>(3 * kNodes, 1));
+  EXPECT_EQ(shown.states[0].values, std::vector<float>(3 * kNodes, 1));
   ASSERT_EQ(shown.states[0].echoes.size(), 1u);
   EXPECT_EQ(shown.states[0].echoes[0].seq, 10u);
 }
@@ -54,10 +54,10 @@ TEST(StateAssembly, LostBlockKeepsItsOldValuesForOneState) {
   const AssembledState& holed = shown.states[1];
   EXPECT_EQ(holed.seq, 2u);
   EXPECT_EQ(holed.missing_blocks, 1u);
-  EXPECT_EQ(holed.displacements.front(), 2);
-  EXPECT_EQ(holed.displacements[3 * kPerBlock], 1) << "the lost block";
-  EXPECT_EQ(holed.displacements.back(), 2);
-  EXPECT_EQ(shown.states[2].displacements, std::vector<float>(3 * kNodes, 3));
+  EXPECT_EQ(holed.values.front(), 2);
+  EXPECT_EQ(holed.values[3 * kPerBlock], 1) << "the lost block";
+  EXPECT_EQ(holed.values.back(), 2);
+  EXPECT_EQ(shown.states[2].values, std::vector<float>(3 * kNodes, 3));
 }
 
 TEST(StateAssembly, LateAndRepeatedBlocksChangeNothing) {
@@ -67,7 +67,7 @@ TEST(StateAssembly, LateAndRepeatedBlocksChangeNothing) {
   EXPECT_EQ(shown.take(block(5, 1, 9)), StateAssembly::Outcome::kLate);
   EXPECT_EQ(shown.states.size(), 1u);
   for (std::uint32_t b = 0; b < kBlocks; ++b) shown.take(block(6, b, 6));
-  EXPECT_EQ(shown.states.back().displacements, std::vector<float>(3 * kNodes, 6));
+  EXPECT_EQ(shown.states.back().values, std::vector<float>(3 * kNodes, 6));
 }
 
 TEST(StateAssembly, RestartedWriterIsBelievedByItsStamp) {
@@ -109,6 +109,18 @@ TEST(StateAssembly, MisfitsAreRefusedWhole) {
   EXPECT_TRUE(refuses([](msg::OrganState& s) { s.values[1] = std::numeric_limits<float>::quiet_NaN(); }));
   EXPECT_TRUE(refuses([](msg::OrganState& s) { s.values[2] = -1e30f; })) << "farther than it reaches";
   EXPECT_TRUE(shown.states.empty());
+}
+
+TEST(StateAssembly, TakesStatesOfItsOwnKindOnly) {
+  StateAssembly tube(msg::KIND_TUBE, kPerBlock, kReachM);
+  msg::OrganState state = block(1, 0, 1);
+  state.block_count = 1;
+  state.node_count = kPerBlock;
+  EXPECT_EQ(tube.take(state, {}), StateAssembly::Outcome::kMisfit);
+  state.kind = msg::KIND_TUBE;
+  int shown = 0;
+  EXPECT_EQ(tube.take(state, [&](const AssembledState&) { ++shown; }), StateAssembly::Outcome::kTaken);
+  EXPECT_EQ(shown, 1);
 }
 
 TEST(MergeEchoes, TakesTheNewestOfEachTool) {

@@ -67,6 +67,8 @@ TEST(Scene, WhatIsNotWrittenKeepsItsDefault) {
   EXPECT_EQ(scene.name, "test");
   EXPECT_EQ(scene.organs[0].mesh, (file.parent_path() / "meshes/liver.msh").string());
   EXPECT_TRUE(scene.organs[0].file.empty());
+  EXPECT_EQ(scene.organs[0].model, "quasi-static");
+  EXPECT_EQ(scene.organs[0].kind, OrganKind::kTetrahedralMesh);
   EXPECT_EQ(scene.tools[0].id, 2u);
   ASSERT_EQ(scene.tools[0].points.size(), 2u);
   EXPECT_EQ(scene.tools[0].points[1], (Triple{0, 0.001, 0}));
@@ -97,6 +99,15 @@ target = [4, 5, 6]
   EXPECT_EQ(scene.haptics.stale_s, 0.01);
   EXPECT_EQ(scene.camera.mode, "endoscope");
   EXPECT_EQ(scene.camera.target, (Triple{4, 5, 6}));
+}
+
+TEST(Scene, AnOrgansModelSaysItsKind) {
+  for (const auto& [word, kind] : kOrganModels) {
+    const Scene scene = load_scene(
+        write_scene(with("name = \"liver\"", "name = \"liver\"\nmodel = \"" + std::string(word) + "\"")));
+    EXPECT_EQ(scene.organs[0].model, word);
+    EXPECT_EQ(scene.organs[0].kind, kind);
+  }
 }
 
 TEST(Scene, ThePapersSpreadIsFrictionless) {
@@ -173,6 +184,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"UnknownTable", "[[tools]]", "[[tool]]", 9, "tool: found an unknown key"},
         BadScene{"UnknownPhantom", "meshes/liver.msh", "phantom:kidney", 4,
                  "organs[0].mesh: found \"phantom:kidney\""},
+        BadScene{"UnknownModel", "name = \"liver\"", "name = \"liver\"\nmodel = \"jelly\"", 4,
+                 "organs[0].model: found 'jelly', expected one of \"quasi-static\""},
         BadScene{"IdTooLarge", "id = 2", "id = 8", 10,
                  "tools[0].id: found 8, expected a whole number from 0 to 7"},
         BadScene{"IdNegative", "id = 2", "id = -1", 10, "tools[0].id: found -1"},

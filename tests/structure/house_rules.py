@@ -18,7 +18,7 @@ FLOORS = {
     "transport": {"idl"},
     "runtime": {"files", "idl"},
     "scene": {"files", "geometry", "idl"},
-    "node_common": {"geometry", "idl", "transport", "runtime", "scene"},
+    "node_common": {"geometry", "organ", "idl", "transport", "runtime", "scene"},
 }
 STANDING_ON = set(FLOORS)
 PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session_tools", "organ_tools"}

@@ -92,6 +92,25 @@ void ScriptedPace::finish_tick() noexcept {
   }
 }
 
+namespace {
+
+/// Does it in turn, in the call that wakes it.
+class AtOnce final : public runtime::WokenWork {
+ public:
+  explicit AtOnce(std::function<void()> work) : work_(std::move(work)) {}
+  ~AtOnce() override { work_(); }
+  void wake() noexcept override { work_(); }
+
+ private:
+  std::function<void()> work_;
+};
+
+}  // namespace
+
+std::unique_ptr<runtime::WokenWork> ScriptedPace::on_wake(std::function<void()> work) {
+  return std::make_unique<AtOnce>(std::move(work));
+}
+
 std::unique_ptr<runtime::SideWork> ScriptedPace::beside(std::chrono::milliseconds pause,
                                                         std::function<void()> work) {
   return std::make_unique<Chore>(*this, pause, std::move(work));

@@ -53,6 +53,7 @@ class ScriptedPace final : public runtime::Pace {
   void stop() noexcept override { stopped_ = true; }
   std::unique_ptr<runtime::SideWork> beside(std::chrono::milliseconds pause,
                                             std::function<void()> work) override;
+  std::unique_ptr<runtime::WokenWork> on_wake(std::function<void()> work) override;
   const runtime::LoopRecord& record() const override { return account_.record(); }
   std::int64_t now_ns() const noexcept override { return now_ns_; }
 

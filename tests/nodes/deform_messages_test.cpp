@@ -1,0 +1,108 @@
+#include "deform_node/local_model_message.h"
+#include "deform_node/organ_messages.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace omentum::deform {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr std::uint32_t kTetrahedra = 10;
+constexpr std::int32_t kMostNodes = 2;
+
+TickSnapshot tick_of(const std::vector<float>& values) {
+  TickSnapshot tick;
+  OrganSnapshot& organ = tick.organs.emplace_back(ModelSizes{.values = 12, .removed_bytes = 2});
+  organ.take({.values = values});
+  return tick;
+}
+
+TEST(OrganSnapshot, KeepsWhatIsRemovedOnlyAsLongAsItsVersionStays) {
+  OrganSnapshot snapshot(ModelSizes{.values = 3, .removed_bytes = 2});
+  const std::vector<std::uint8_t> cut{0b101, 0b10};
+  snapshot.take({.topology_version = 4, .values = {}, .removed_bits = cut});
+  EXPECT_EQ(snapshot.removed_bits, cut);
+  snapshot.take({.topology_version = 5, .values = {}});
+  EXPECT_THAT(snapshot.removed_bits, ElementsAre(0, 0)) << "no bits are a whole organ";
+}
+
+TEST(OrganMessages, AStateIsCutIntoBlocksThatCoverIt) {
+  OrganMessages messages(0, kTetrahedra, kMostNodes);
+  const std::vector<float> values{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const auto& blocks = messages.blocks_of(tick_of(values));
+  ASSERT_EQ(blocks.size(), 2u);
+  std::vector<float> together;
+  for (const msg::OrganState& block : blocks) {
+    EXPECT_EQ(block.block_count, 2u);
+    EXPECT_EQ(block.node_count, 3u);
+    EXPECT_EQ(3 * block.first, together.size());
+    together.insert(together.end(), block.values.begin(), block.values.end());
+  }
+  EXPECT_EQ(together, values);
+}
+
+TEST(OrganMessages, AStateThatGrowsIsCutAnew) {
+  OrganMessages messages(0, kTetrahedra, kMostNodes);
+  EXPECT_EQ(messages.blocks_of(tick_of({1, 2, 3})).size(), 1u);
+  EXPECT_EQ(messages.blocks_of(tick_of(std::vector<float>(12, 1))).size(), 2u);
+  EXPECT_EQ(messages.blocks_of(tick_of({})).front().node_count, 0u) << "an empty state is still a state";
+}
+
+TEST(OrganMessages, ATopologyIsUnsettledUntilItLeft) {
+  OrganMessages messages(3, kTetrahedra, kMostNodes);
+  OrganSnapshot snapshot(ModelSizes{.values = 0, .removed_bytes = 2});
+  ASSERT_NE(messages.unsettled_topology(snapshot), nullptr);
+  const msg::Topology* const whole = messages.unsettled_topology(snapshot);
+  ASSERT_NE(whole, nullptr) << "it did not leave yet";
+  EXPECT_EQ(whole->organ, 3u);
+  EXPECT_EQ(whole->version, 0u);
+  EXPECT_EQ(whole->tetrahedron_count, kTetrahedra);
+  EXPECT_THAT(whole->removed_bits, ElementsAre(0, 0));
+  messages.settle_topology();
+  EXPECT_EQ(messages.unsettled_topology(snapshot), nullptr);
+}
+
+TEST(OrganMessages, ATopologyListsWhatWasAddedSinceTheOneThatLeftLast) {
+  OrganMessages messages(0, kTetrahedra, kMostNodes);
+  OrganSnapshot snapshot(ModelSizes{.values = 0, .removed_bytes = 2});
+  const auto cut = [&](std::uint64_t version, std::vector<std::uint8_t> bits) {
+    snapshot.take({.topology_version = version, .values = {}, .removed_bits = bits});
+    return *messages.unsettled_topology(snapshot);
+  };
+  EXPECT_THAT(cut(1, {0b100, 0}).last_removed, ElementsAre(2u));
+  messages.settle_topology();
+  EXPECT_THAT(cut(2, {0b101, 0}).last_removed, ElementsAre(0u));
+  EXPECT_THAT(cut(3, {0b101, 0b11}).last_removed, ElementsAre(0u, 8u, 9u)) << "version 2 never left";
+}
+
+TEST(LocalModelMessage, HasTheWholeMatrixAndTheNormalsOfItsTriangles) {
+  StampedPatch stamped;
+  stamped.tool = 1;
+  stamped.patch = LocalPatch(3);
+  LocalPatch& patch = stamped.patch;
+  patch.node_count = 3;
+  patch.triangle_count = 1;
+  patch.triangles[0] = {0, 1, 2};
+  patch.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+  for (std::size_t i = 0; i < patch.compliance.size(); ++i) patch.compliance[i] = static_cast<float>(i);
+  const std::array<msg::Echo, 2> echoes{msg::Echo{.tool = 0, .seq = 4}, msg::Echo{.tool = 1, .seq = 5}};
+  stamped.echoes.take(echoes);
+
+  msg::LocalModel message;
+  fill_local_model(stamped, message);
+  EXPECT_EQ(message.cause.seq, 5u) << "of the tool that it was made for";
+  ASSERT_EQ(message.normals.size(), 3u);
+  for (const msg::Vec3& normal : message.normals) EXPECT_EQ(normal, (msg::Vec3{0, 0, 1}));
+  ASSERT_EQ(message.compliance.size(), 81u);
+  float expected = 0;
+  for (std::size_t r = 0; r < 9; ++r)
+    for (std::size_t c = r; c < 9; ++c, ++expected) {
+      EXPECT_EQ(message.compliance[9 * r + c], expected);
+      EXPECT_EQ(message.compliance[9 * c + r], expected);
+    }
+}
+
+}  // namespace
+}  // namespace omentum::deform
