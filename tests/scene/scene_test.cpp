@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace omentum::runtime {
+namespace omentum::scene {
 namespace {
 
 using ::testing::AllOf;
@@ -71,7 +71,7 @@ TEST(Scene, WhatIsNotWrittenKeepsItsDefault) {
   EXPECT_EQ(scene.organs[0].kind, OrganKind::kTetrahedralMesh);
   EXPECT_EQ(scene.tools[0].id, 2u);
   ASSERT_EQ(scene.tools[0].points.size(), 2u);
-  EXPECT_EQ(scene.tools[0].points[1], (Triple{0, 0.001, 0}));
+  EXPECT_EQ(scene.tools[0].points[1], (Vec3{0, 0.001, 0}));
   EXPECT_FALSE(scene.tools[0].trocar);
   EXPECT_EQ(scene.hands[0].stiffness_n_m, HandSpec{}.stiffness_n_m);
   EXPECT_EQ(scene.haptics.contact, "point");
@@ -98,7 +98,7 @@ target = [4, 5, 6]
   EXPECT_EQ(scene.haptics.max_force_n, 4);
   EXPECT_EQ(scene.haptics.stale_s, 0.01);
   EXPECT_EQ(scene.camera.mode, "endoscope");
-  EXPECT_EQ(scene.camera.target, (Triple{4, 5, 6}));
+  EXPECT_EQ(scene.camera.target, (Vec3{4, 5, 6}));
 }
 
 TEST(Scene, AnOrgansModelSaysItsKind) {
@@ -131,7 +131,7 @@ TEST(Scene, NoSceneDisarmsForceSafety) {
 
 TEST(Scene, DirectionsAreNormalized) {
   const Scene scene = load_scene(write_scene(with("[0, 0, 1]\n", "[0.267, 0.535, 0.802]\n")));
-  const Triple n = scene.hands[0].press_normal;
+  const Vec3 n = scene.hands[0].press_normal;
   EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 1e-15);
 }
 
@@ -222,4 +222,4 @@ TEST(Scene, NoOrganIsRefused) {
 }
 
 }  // namespace
-}  // namespace omentum::runtime
+}  // namespace omentum::scene

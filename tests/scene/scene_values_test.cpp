@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-namespace omentum::runtime {
+namespace omentum::scene {
 namespace {
 
 using ::testing::Contains;
@@ -47,7 +47,7 @@ TEST(SceneValues, EveryDifferenceThatIsFeltChangesTheHash) {
       [](Scene& s) { s.organs.resize(2); },
       [](Scene& s) { s.tools[1].points[0][2] = std::numeric_limits<double>::denorm_min(); },
       [](Scene& s) { s.tools[1].points.pop_back(); },
-      [](Scene& s) { s.tools[0].trocar = Triple{}; },
+      [](Scene& s) { s.tools[0].trocar = Vec3{}; },
       [](Scene& s) { std::swap(s.tools[0], s.tools[1]); },
       [](Scene& s) { s.hands[0].press_s += 1; },
       [](Scene& s) { s.haptics.max_force_n = 4; },
@@ -81,4 +81,4 @@ TEST(SceneValues, NoTextBreaksALine) {
 }
 
 }  // namespace
-}  // namespace omentum::runtime
+}  // namespace omentum::scene
