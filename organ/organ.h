@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/surface.h"
-#include "physics/material.h"
+#include "physics/material_map.h"
 #include "physics/supports.h"
 #include "physics/surface_compliance.h"
 
@@ -21,8 +21,8 @@ enum class Storage { kFloat, kDouble };
 struct Organ {
   std::string name;  // from the file's stem, unless organ_build --name
   geometry::TetraMesh mesh;
-  geometry::Surface surface;  // pinned nodes last
-  physics::Material material;
+  geometry::Surface surface;                             // pinned nodes last
+  physics::MaterialMap material;                         // without regions of its own the mesh has no labels
   FixedComponents fixed;                                 // [N]
   std::optional<physics::SurfaceCompliance> compliance;  // float; absent when not asked for
   std::string hash;  // SHA-256 (hexadecimal) over everything the tensors depend on: mesh, material,

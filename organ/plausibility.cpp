@@ -29,6 +29,26 @@ std::string text(const char* format, Values... values) {
   return line;
 }
 
+// `where`: the region, or nothing.
+void add_implausible(const std::string& where, const physics::Material& material,
+                     std::vector<std::string>& found) {
+  if (!kYoung.holds(material.young_pa)) {
+    found.push_back(where +
+                    text("Young's modulus is %g Pa; soft tissue has 100 Pa to 100 MPa (1 kPa is 1000)",
+                         material.young_pa));
+  }
+  if (!kDensity.holds(material.density_kg_m3)) {
+    found.push_back(where + text("the density is %g kg/m^3; tissue has 100 to 5000 (1 g/cm^3 is 1000)",
+                                 material.density_kg_m3));
+  }
+  if (!kPoisson.holds(material.poisson)) {
+    found.push_back(where +
+                    text("Poisson's ratio is %g; expected 0 to 0.495 (above, linear tetrahedra lock and "
+                         "the organ is too stiff; 0.45 to 0.49 is usual)",
+                         material.poisson));
+  }
+}
+
 }  // namespace
 
 double longest_side(const geometry::TetraMesh& mesh) {
@@ -41,7 +61,14 @@ std::string length_text(double metres) {
   return metres < 1 ? text("%.3g mm", 1000 * metres) : text("%.3g m", metres);
 }
 
-std::vector<std::string> implausible(const geometry::TetraMesh& mesh, const physics::Material& material) {
+std::string extent_text(const geometry::TetraMesh& mesh) {
+  Vec3 low = mesh.positions.front(), high = low;
+  for (const Vec3& p : mesh.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return text("x %.6g .. %.6g, y %.6g .. %.6g, z %.6g .. %.6g m", low.x(), high.x(), low.y(), high.y(),
+              low.z(), high.z());
+}
+
+std::vector<std::string> implausible(const geometry::TetraMesh& mesh, const physics::MaterialMap& material) {
   std::vector<std::string> found;
   const double length = longest_side(mesh);
   if (!kLength.holds(length)) {
@@ -49,20 +76,9 @@ std::vector<std::string> implausible(const geometry::TetraMesh& mesh, const phys
                     " long; organs are 10 mm to 1 m long (its scale may be " +
                     "another: 1 for a mesh in metres, 0.01 in centimetres, 0.001 in millimetres)");
   }
-  if (!kYoung.holds(material.young_pa)) {
-    found.push_back(text("Young's modulus is %g Pa; soft tissue has 100 Pa to 100 MPa (1 kPa is 1000)",
-                         material.young_pa));
-  }
-  if (!kDensity.holds(material.density_kg_m3)) {
-    found.push_back(
-        text("the density is %g kg/m^3; tissue has 100 to 5000 (1 g/cm^3 is 1000)", material.density_kg_m3));
-  }
-  if (!kPoisson.holds(material.poisson)) {
-    found.push_back(
-        text("Poisson's ratio is %g; expected 0 to 0.495 (above, linear tetrahedra lock and "
-             "the organ is too stiff; 0.45 to 0.49 is usual)",
-             material.poisson));
-  }
+  add_implausible("", material.common, found);
+  for (const physics::RegionMaterial& region : material.regions)
+    add_implausible("region " + std::to_string(region.label) + ": ", region.material, found);
   return found;
 }
 

@@ -5,6 +5,36 @@
 namespace omentum::organ {
 namespace {
 
+TEST_F(OrganProgramsTest, RegionsThatMeanNothingAreRefused) {
+  expect_refused("organ_build", with("--region", "ball=1,1,1,0.01; young=5000"),
+                 "no tetrahedron has its centre there");
+  expect_refused("organ_build", with("--region", "label=4; young=5000"),
+                 "--region label=4; young=5000: names no");
+  expect_refused("organ_build", with("--region", "ball=0,0,0,0.05; poisson=0.6"), "Poisson's ratio is 0.6");
+}
+
+// The labels that a mesh file brings are those of --region; a label alone changes no organ.
+TEST_F(OrganProgramsTest, ALabelOfTheMeshFileGetsAMaterial) {
+  geometry::TetraMesh labelled = test::make_box_mesh(4, 3, 3, {0.08, 0.06, 0.06});
+  labelled.regions.assign(labelled.tetrahedra.size(), 1);
+  geometry::write_mesh(labelled, mesh);
+  build();
+  const Organ plain = load_organ(organ, Load::kMeshOnly);
+  labelled.regions.back() = 6;
+  geometry::write_mesh(labelled, mesh);
+  build();
+  EXPECT_EQ(load_organ(organ, Load::kMeshOnly).hash, plain.hash);
+  Process program("organ_build", with("--region", "label=6; density=5"));
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_THAT(program.messages(), HasSubstr("warning: region 6: the density is 5 kg/m^3"));
+  const Organ made = load_organ(organ, Load::kMeshOnly);
+  EXPECT_EQ(made.mesh.regions, labelled.regions);
+  ASSERT_EQ(made.material.regions.size(), 1u);
+  EXPECT_EQ(made.material.regions[0].label, 6);
+  EXPECT_EQ(made.material.regions[0].material.young_pa, 3000);
+  EXPECT_EQ(made.material.regions[0].material.density_kg_m3, 5);
+}
+
 TEST_F(OrganProgramsTest, BuildMakesAnOrganThatLoadsAndSecondBuildFindsItUpToDate) {
   build();
   const Organ built = load_organ(organ, Load::kWithTensors);
