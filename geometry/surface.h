@@ -34,4 +34,7 @@ Surface extract_surface(const TetraMesh& mesh, const std::vector<bool>& pinned);
 /// Rest positions of the surface's nodes, [S], m.
 std::vector<Vec3> surface_positions(const TetraMesh& mesh, const Surface& surface);
 
+/// Outward unit normals of the surface's nodes, [S]: the mean of their triangles', by area. `positions`: [S].
+std::vector<Vec3> surface_normals(const Surface& surface, std::span<const Vec3> positions);
+
 }  // namespace omentum::geometry

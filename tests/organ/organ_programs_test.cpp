@@ -13,6 +13,22 @@ TEST_F(OrganProgramsTest, RegionsThatMeanNothingAreRefused) {
   expect_refused("organ_build", with("--region", "ball=0,0,0,0.05; poisson=0.6"), "Poisson's ratio is 0.6");
 }
 
+TEST_F(OrganProgramsTest, OrganCheckSaysWhatIsThereAndFindsAByteThatChanged) {
+  Process made("organ_build", with("--region", "box=0.06,0,0,0.08,0.06,0.06; young=9000"));
+  ASSERT_EQ(made.wait(), 0) << made.messages();
+  Process check("organ_check", {organ.string()});
+  ASSERT_EQ(check.wait(), 0) << check.messages();
+  EXPECT_THAT(check.output(), HasSubstr("box: whole: 80 nodes, "));
+  EXPECT_THAT(check.output(),
+              HasSubstr("elsewhere: 162 tetrahedra, 216 cm^3: 3000 Pa, Poisson's ratio 0.45, 1050 kg/m^3"));
+  EXPECT_THAT(check.output(),
+              HasSubstr("region 2: 54 tetrahedra, 72 cm^3: 9000 Pa, Poisson's ratio 0.45, 1050 kg/m^3"));
+  std::string content = test::read_text(organ);
+  content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
+  std::ofstream(organ, std::ios::binary) << content;
+  expect_refused("organ_check", {organ.string()}, "its tensors are damaged (checksum");
+}
+
 // The labels that a mesh file brings are those of --region; a label alone changes no organ.
 TEST_F(OrganProgramsTest, ALabelOfTheMeshFileGetsAMaterial) {
   geometry::TetraMesh labelled = test::make_box_mesh(4, 3, 3, {0.08, 0.06, 0.06});
