@@ -48,17 +48,6 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
-static_assert(sizeof(physics::Material) == 3 * sizeof(double), "no padding");
-
-void add_regions(Sha256& sha, const Organ& organ) {
-  sha.add(std::array{'r', 'e', 'g', 'i', 'o', 'n', 's', ' '});  // no list of merged nodes
-  sha.add_list(organ.mesh.regions);
-  for (const physics::RegionMaterial& region : organ.material.regions) {
-    sha.add(region.label);
-    sha.add(region.material);
-  }
-}
-
 }  // namespace
 
 std::string organ_hash(const Organ& organ) {
@@ -77,11 +66,19 @@ std::string organ_hash(const Organ& organ) {
   sha.add_list(organ.surface.fan_start);
   sha.add_list(organ.surface.fan);
   sha.add(organ.surface.mobile_count);
+  static_assert(sizeof(physics::Material) == 3 * sizeof(double), "no padding");
   sha.add(organ.material.common);
   sha.add_list(organ.fixed);
   // files of organs without any are older than these lists
   if (!organ.mesh.merged.empty()) sha.add_list(organ.mesh.merged);
-  if (!organ.material.regions.empty()) add_regions(sha, organ);
+  if (!organ.material.regions.empty()) {
+    sha.add(std::array{'r', 'e', 'g', 'i', 'o', 'n', 's', ' '});  // no list of merged nodes
+    sha.add_list(organ.mesh.regions);
+    for (const physics::RegionMaterial& region : organ.material.regions) {
+      sha.add(region.label);
+      sha.add(region.material);
+    }
+  }
   return sha.hexadecimal();
 }
 

@@ -1,5 +1,7 @@
 #include "organ/plausibility.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 
 namespace omentum::organ {
@@ -21,6 +23,9 @@ constexpr Range kYoung{100, 1e8};
 constexpr Range kDensity{100, 5000};
 // Constant strains of tetrahedra that keep their volume leave no room to bend: they lock.
 constexpr Range kPoisson{0, 0.495};
+
+// What fills a ball of not quite two elements' width.
+constexpr std::ptrdiff_t kFewTetrahedra = 20;
 
 template <class... Values>
 std::string text(const char* format, Values... values) {
@@ -77,8 +82,16 @@ std::vector<std::string> implausible(const geometry::TetraMesh& mesh, const phys
                     "another: 1 for a mesh in metres, 0.01 in centimetres, 0.001 in millimetres)");
   }
   add_implausible("", material.common, found);
-  for (const physics::RegionMaterial& region : material.regions)
-    add_implausible("region " + std::to_string(region.label) + ": ", region.material, found);
+  for (const physics::RegionMaterial& region : material.regions) {
+    const std::string where = "region " + std::to_string(region.label) + ": ";
+    const auto count = std::ranges::count(mesh.regions, region.label);
+    if (count < kFewTetrahedra) {
+      found.push_back(
+          where + std::to_string(count) + (count == 1 ? " tetrahedron" : " tetrahedra") +
+          "; expected 20 or more: with fewer it has their shape rather than its own (a finer mesh helps)");
+    }
+    add_implausible(where, region.material, found);
+  }
   return found;
 }
 

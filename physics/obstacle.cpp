@@ -17,8 +17,8 @@ constexpr int kBlockTries = 5;
 class Pivoting {
  public:
   Pivoting(const Eigen::MatrixXd& compliance, const Eigen::VectorXd& depth)
-      : A_(compliance), g_(depth), touches_(static_cast<std::size_t>(depth.size())) {
-    for (Eigen::Index i = 0; i < g_.size(); ++i) touches_[static_cast<std::size_t>(i)] = g_[i] > 0;
+      : compliance_(compliance), depth_(depth), touches_(static_cast<std::size_t>(depth.size())) {
+    for (Eigen::Index i = 0; i < depth_.size(); ++i) touches_[static_cast<std::size_t>(i)] = depth_[i] > 0;
   }
 
   std::optional<Eigen::VectorXd> solve() {
@@ -26,7 +26,7 @@ class Pivoting {
     int tries = kBlockTries;
     while (push()) {
       std::vector<std::size_t> wrong = wrong_places();
-      if (wrong.empty()) return p_;
+      if (wrong.empty()) return force_;
       if (wrong.size() < fewest) {
         fewest = wrong.size();
         tries = kBlockTries;
@@ -45,32 +45,32 @@ class Pivoting {
     for (std::size_t i = 0; i < touches_.size(); ++i) {
       if (touches_[i]) active.push_back(static_cast<Eigen::Index>(i));
     }
-    p_ = Eigen::VectorXd::Zero(g_.size());
+    force_ = Eigen::VectorXd::Zero(depth_.size());
     if (active.empty()) return true;
-    const Eigen::LLT<Eigen::MatrixXd> factor(A_(active, active));
+    const Eigen::LLT<Eigen::MatrixXd> factor(compliance_(active, active));
     if (factor.info() != Eigen::Success) return false;
-    const Eigen::VectorXd depth = g_(active), force = factor.solve(depth);
-    p_(active) = force;
-    return p_.allFinite();
+    const Eigen::VectorXd depth = depth_(active), force = factor.solve(depth);
+    force_(active) = force;
+    return force_.allFinite();
   }
 
   // Where the obstacle would have to pull, or the body is inside it.
   std::vector<std::size_t> wrong_places() const {
-    const Eigen::VectorXd gap = A_ * p_ - g_;
-    const double least_force = -kRounding * p_.cwiseAbs().maxCoeff();
-    const double least_gap = -kRounding * g_.cwiseAbs().maxCoeff();
+    const Eigen::VectorXd gap = compliance_ * force_ - depth_;
+    const double least_force = -kRounding * force_.cwiseAbs().maxCoeff();
+    const double least_gap = -kRounding * depth_.cwiseAbs().maxCoeff();
     std::vector<std::size_t> wrong;
     for (std::size_t i = 0; i < touches_.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      if (touches_[i] ? p_[at] < least_force : gap[at] < least_gap) wrong.push_back(i);
+      if (touches_[i] ? force_[at] < least_force : gap[at] < least_gap) wrong.push_back(i);
     }
     return wrong;
   }
 
-  const Eigen::MatrixXd& A_;
-  const Eigen::VectorXd& g_;
+  const Eigen::MatrixXd& compliance_;
+  const Eigen::VectorXd& depth_;
   std::vector<bool> touches_;
-  Eigen::VectorXd p_;
+  Eigen::VectorXd force_;
 };
 
 }  // namespace

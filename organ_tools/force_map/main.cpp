@@ -18,6 +18,7 @@ using namespace omentum;
 using force_map::Vec3;
 
 constexpr double kShownShare = 0.98;  // of places: single ones in notches would take all colours
+constexpr double kFelt = 1.001;       // a ratio below is the rounding of float tensors, or nothing to a hand
 constexpr int kFewNodes = 3;          // below, the mesh is felt rather than the organ
 
 struct MapCommand {
@@ -35,7 +36,7 @@ void add_options(runtime::CommandLine& line, MapCommand& command) {
   line.option(
           "--compare", command.compared,
           "an organ of the same mesh, such as the one without a nodule: the picture is of the forces' ratio, "
-          "since where an organ is thin it is stiff as well")
+          "since where an organ is thin it is stiff as well (a soft place is found the other way round)")
       .type_name("OTHER.h5");
   line.option("--radius", command.indenter.radius_m, "of the round indenter, m")
       .between(1e-4, 1.0)
@@ -124,16 +125,21 @@ Drawn force_drawing(const organ::Organ& organ, const force_map::PressMap& map) {
 
 Drawn ratio_drawing(const organ::Organ& organ, const std::vector<double>& ratio, const std::string& other) {
   const std::vector<double> numbers = numbers_in(ratio);
-  Drawn drawn{ratio, {}};
   const auto peak = force_map::peak_of(organ, ratio, 1);
+  if (!peak) throw geometry::InputError(organ.name + ": no place can be pressed here and in " + other);
+  Drawn drawn{ratio, {}};
   drawn.options.low = std::min(1.0, numbers.front());
   drawn.options.high = std::max(1.0, numbers.back());
   drawn.options.unit = "ratio";
+  drawn.options.lines.push_back(
+      text("ratio to %s: %.3f to %.3f", other.c_str(), numbers.front(), numbers.back()));
+  if (peak->value < kFelt) {
+    drawn.options.lines.back() += ": nowhere harder";
+    return drawn;
+  }
   drawn.options.peak = peak;
   drawn.options.contour = (1 + peak->value) / 2;
-  drawn.options.lines.push_back(
-      text("ratio to %s: %.3f to %.3f; highest at ", other.c_str(), numbers.front(), numbers.back()) +
-      place_text(organ, *peak));
+  drawn.options.lines.back() += "; highest at " + place_text(organ, *peak);
   drawn.options.lines.push_back(
       text("white line: half of the excess there, around %.0f mm^2, as a disk of %.1f mm has",
            1e6 * peak->area_m2, 1e3 * peak->diameter_m()));

@@ -16,8 +16,8 @@ class Vtu {
  public:
   template <class T>
   std::string array(const std::string& attributes, const std::vector<T>& values) {
-    const std::string tag = "<DataArray " + attributes + " format=\"appended\" offset=\"" +
-                            std::to_string(data_.size()) + "\"/>\n";
+    std::string tag = "<DataArray " + attributes + " format=\"appended\" offset=\"" +
+                      std::to_string(data_.size()) + "\"/>\n";
     const std::uint64_t bytes = values.size() * sizeof(T);
     data_.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
     data_.append(reinterpret_cast<const char*>(values.data()), bytes);

@@ -16,8 +16,8 @@ constexpr Colour kPaper{1, 1, 1}, kInk{0.13f, 0.14f, 0.16f}, kNoNumber{0.72f, 0.
 constexpr int kFine = 2;  // pixels drawn for each that is kept, either way
 // Layout, pixels.
 constexpr int kMargin = 36, kLetters = 20, kLineHeight = 28, kScaleWidth = 26, kScaleRoom = 150, kBelow = 60;
-constexpr double kRulerM = 0.02;
-constexpr double kBehindM = 0.001;         // a node so far behind what is drawn at its pixel is hidden
+constexpr double kRuler_m = 0.02;
+constexpr double kBehind_m = 0.001;        // a node so far behind what is drawn at its pixel is hidden
 constexpr int kDash = 10, kLineWidth = 3;  // fine pixels
 constexpr float kShade = 0.35f;            // what is seen askew is darker by so much
 
@@ -36,7 +36,7 @@ class MapPicture {
         x_(geometry::surface_positions(organ.mesh, organ.surface)),
         scale_{options.low, options.high},
         fine_(kFine * options.width, kFine * options.height, kPaper) {
-    const double top = kMargin + kLineHeight * static_cast<double>(options.lines.size()) + kMargin / 2;
+    const double top = kMargin + kLineHeight * static_cast<double>(options.lines.size()) + kMargin * 0.5;
     view_ = fit(x_, options.from, kFine * kMargin, kFine * top,
                 kFine * (options.width - 2 * kMargin - kScaleRoom),
                 kFine * (options.height - top - kBelow - kMargin));
@@ -83,7 +83,7 @@ class MapPicture {
   bool is_in_front(const Vec3& p, const Raster& raster) const {
     const int x = static_cast<int>(view_.x(p)), y = static_cast<int>(view_.y(p));
     const bool inside = x >= 0 && y >= 0 && x < raster.width && y < raster.height;
-    return inside && raster.nearness[raster.at(x, y)] <= view_.nearness(p) + kBehindM;
+    return inside && raster.nearness[raster.at(x, y)] <= view_.nearness(p) + kBehind_m;
   }
 
   // The shadow of what is of a region's material.
@@ -148,10 +148,10 @@ class MapPicture {
   }
 
   void draw_ruler(Canvas& canvas) const {
-    const int length = static_cast<int>(std::lround(kRulerM * view_.pixels_per_m / kFine));
+    const int length = static_cast<int>(std::lround(kRuler_m * view_.pixels_per_m / kFine));
     const int y = options_.height - kMargin;
     canvas.fill(kMargin, y - 3, length, 4, kInk);
-    letters_.write(canvas, kMargin + length + 12, y - kLetters / 2 - 2, number(1e3 * kRulerM) + " mm", kInk);
+    letters_.write(canvas, kMargin + length + 12, y - kLetters / 2 - 2, number(1e3 * kRuler_m) + " mm", kInk);
   }
 
   const organ::Organ& organ_;

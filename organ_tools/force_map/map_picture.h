@@ -14,7 +14,7 @@ struct PictureOptions {
   Vec3 from = Vec3::UnitZ();  // the viewer is far away on this side of the organ, unit
   int width = 1280, height = 960;
   double low = 0, high = 1;        // the colours' ends
-  std::string unit;                // of the numbers at the colours, may be empty
+  const char* unit = "";           // of the numbers at the colours, may be empty
   std::vector<std::string> lines;  // the text above
   std::optional<double> contour;   // a value to draw a line at
   std::optional<Peak> peak;        // marked by a cross

@@ -43,6 +43,7 @@ TEST_F(OrganProgramsTest, ALabelOfTheMeshFileGetsAMaterial) {
   Process program("organ_build", with("--region", "label=6; density=5"));
   EXPECT_EQ(program.wait(), 0);
   EXPECT_THAT(program.messages(), HasSubstr("warning: region 6: the density is 5 kg/m^3"));
+  EXPECT_THAT(program.messages(), HasSubstr("warning: region 6: 1 tetrahedron; expected 20 or more"));
   const Organ made = load_organ(organ, Load::kMeshOnly);
   EXPECT_EQ(made.mesh.regions, labelled.regions);
   ASSERT_EQ(made.material.regions.size(), 1u);

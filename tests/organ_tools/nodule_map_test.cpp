@@ -76,6 +76,15 @@ TEST_F(NoduleMap, TheProgramSaysPlaceAndSizeAndWritesBothFiles) {
   EXPECT_THAT(test::read_text(prefix + ".png"), testing::StartsWith("\x89PNG"));
 }
 
+TEST_F(NoduleMap, AnOrganThatIsNowhereHarderHasNoPeak) {
+  for (const std::string& softer : {plain, nodule}) {
+    test::Process program("force_map", {plain, "--compare", softer, "-o", folder / "map"});
+    ASSERT_EQ(program.wait(), 0) << program.messages();
+    EXPECT_THAT(program.output(), HasSubstr("1.000: nowhere harder"));
+    EXPECT_THAT(program.output(), testing::Not(HasSubstr("white line")));
+  }
+}
+
 TEST_F(NoduleMap, WhatCannotBePressedOrReadIsRefusedInOneLine) {
   const std::string prefix = folder / "map";
   const auto refusal = [&](std::vector<std::string> arguments) {

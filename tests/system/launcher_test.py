@@ -433,6 +433,24 @@ class Parts(unittest.TestCase):
         self.assertNotEqual(self.build("plane:x<0", regions=["label=1; young=3"]),
                             self.build("plane:x<0", regions=["label=1; young=2"]))
 
+    def test_regions_stay_behind_when_another_organ_comes(self):
+        told = []
+        (self.folder / "kidney.msh").touch()
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": ["ball=0,0,0,1; young=3"]}
+        options = mock.Mock(programs=self.folder, organ=self.folder / "kidney.msh", scale=1.0, fixed="plane:x<0")
+
+        def run_tool(_, words, __):
+            if words[0] == "scene_prepare":
+                return '{"min": [0, 0, 0], "max": [0.1, 0.1, 0.1]}'
+            told.extend(words)
+            pathlib.Path(words[3]).write_text("organ")
+            return ""
+
+        with mock.patch.object(organs, "run_tool", run_tool), contextlib.redirect_stdout(io.StringIO()) as said:
+            organs.organ_file(options, cache.Cache(), spec)
+        self.assertNotIn("--region", told)
+        self.assertIn("kidney.msh is of one material", said.getvalue())
+
     def test_support_file_of_a_scene_lies_beside_it(self):
         scene = self.folder / "scenes" / "a.toml"
         self.assertEqual(organs.relative_to(scene, "nodes.csv:xz"), str(self.folder / "scenes" / "nodes.csv:xz"))
