@@ -40,7 +40,7 @@ enum class Load { kMeshOnly, kWithTensors };
 /// Throws geometry::InputError when the file is missing, truncated, unfinished, of another format version,
 /// when its hash does not match its contents, or when they contradict each other: whoever wrote it, every
 /// index that it gives is in range (organ_check.h). Of the tensors, the bounds and the diagonal are looked at
-/// (tensor_check.h); all of them only by is_up_to_date and organ_solve, which have the time to read them.
+/// (tensor_check.h); all of them only by is_up_to_date and by programs that have the time to read them.
 Organ load_organ(const std::filesystem::path& file, Load what);
 
 }  // namespace omentum::organ
