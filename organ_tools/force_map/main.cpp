@@ -1,5 +1,6 @@
 // force_map: how hard an organ feels, everywhere on its surface; and how much harder than another one.
 #include "files/png_file.h"
+#include "files/whole_file.h"
 #include "organ/csv.h"
 #include "organ/stored_tensors.h"
 #include "organ/tensor_check.h"
@@ -168,6 +169,7 @@ void draw(const MapCommand& command) {
   if (command.indenter.depth_m > command.indenter.radius_m)
     throw geometry::InputError(text("--depth %g: expected at most the --radius, %g m",
                                     command.indenter.depth_m, command.indenter.radius_m));
+  for (const char* ending : {".vtu", ".png"}) files::require_writable(command.prefix + ending);
   const organ::Organ organ = load(command.organ);
   const force_map::PressMap map = force_map::press_everywhere(organ, command.indenter);
   if (numbers_in(map.force_n).empty()) {

@@ -101,6 +101,12 @@ TEST_F(NoduleMap, WhatCannotBePressedOrReadIsRefusedInOneLine) {
   EXPECT_THAT(refusal({nodule, "--radius", "0.01", "--depth", "0.02"}),
               HasSubstr("--depth 0.02: expected at most the --radius, 0.01 m"));
   EXPECT_THAT(refusal({folder / "none.h5"}), HasSubstr("none.h5"));
+  std::filesystem::create_directory(prefix + ".png");
+  test::Process blocked("force_map", {nodule, "-o", prefix});
+  EXPECT_EQ(blocked.wait(), 2);
+  EXPECT_THAT(blocked.messages(), HasSubstr("map.png"));
+  EXPECT_FALSE(std::filesystem::exists(prefix + ".vtu")) << "none of both, where one cannot be written";
+  std::filesystem::remove(prefix + ".png");
   std::string content = test::read_text(nodule);
   content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 8);
   std::ofstream(folder / "damaged.h5", std::ios::binary) << content;
