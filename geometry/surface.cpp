@@ -144,4 +144,16 @@ std::vector<Vec3> surface_positions(const TetraMesh& mesh, const Surface& surfac
   return positions;
 }
 
+std::vector<Vec3> surface_normals(const Surface& surface, std::span<const Vec3> positions) {
+  std::vector<Vec3> normals(positions.size(), Vec3::Zero());
+  const auto at = [positions](SurfaceId s) -> const Vec3& { return positions[static_cast<std::size_t>(s)]; };
+  for (const Triangle& t : surface.triangles) {
+    // as long as twice the triangle's area
+    const Vec3 n = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+    for (const SurfaceId s : t) normals[static_cast<std::size_t>(s)] += n;
+  }
+  for (Vec3& n : normals) n.normalize();
+  return normals;
+}
+
 }  // namespace omentum::geometry

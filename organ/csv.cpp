@@ -118,6 +118,16 @@ std::optional<std::int64_t> parse_integer(const std::string& field) {
   return parse_whole<std::int64_t>(field);
 }
 
+std::optional<std::vector<double>> parse_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& field : split_fields(text)) {
+    const std::optional<double> number = parse_number(field);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::vector<std::string> split_fields(const std::string& line) {
   constexpr const char* kBlanks = " \t\r";
   std::vector<std::string> fields;

@@ -2,6 +2,7 @@
 
 #include "files/sha256.h"
 
+#include <array>
 #include <type_traits>
 
 namespace omentum::organ {
@@ -43,12 +44,19 @@ std::string organ_hash(const Organ& organ) {
   sha.add_list(organ.surface.fan_start);
   sha.add_list(organ.surface.fan);
   sha.add(organ.surface.mobile_count);
-  sha.add(organ.material.young_pa);
-  sha.add(organ.material.poisson);
-  sha.add(organ.material.density_kg_m3);
+  static_assert(sizeof(physics::Material) == 3 * sizeof(double), "no padding");
+  sha.add(organ.material.common);
   sha.add_list(organ.fixed);
-  // files of organs without any are older than this list
+  // files of organs without any are older than these lists
   if (!organ.mesh.merged.empty()) sha.add_list(organ.mesh.merged);
+  if (!organ.material.regions.empty()) {
+    sha.add(std::array{'r', 'e', 'g', 'i', 'o', 'n', 's', ' '});  // no list of merged nodes
+    sha.add_list(organ.mesh.regions);
+    for (const physics::RegionMaterial& region : organ.material.regions) {
+      sha.add(region.label);
+      sha.add(region.material);
+    }
+  }
   return sha.hexadecimal();
 }
 

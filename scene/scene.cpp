@@ -43,6 +43,25 @@ void read_model(TomlSection& s, OrganSpec& organ) {
                })->kind;
 }
 
+RegionSpec read_region(TomlSection& s) {
+  RegionSpec region;
+  s.read("label", region.label);
+  s.read("box", region.box, 6);
+  s.read("ball", region.ball, 4);
+  s.read("young_pa", region.young_pa, kPositive);
+  s.read("poisson", region.poisson, kPoisson);
+  s.read("density_kg_m3", region.density_kg_m3, kPositive);
+  s.refuse_unknown_keys();
+  if (region.label.has_value() + !region.box.empty() + !region.ball.empty() != 1)
+    s.refuse("label", "none or several of label, box and ball", "one of them");
+  if (!region.ball.empty() && !(region.ball[3] > 0))
+    s.refuse("ball", "a radius of " + std::to_string(region.ball[3]), "one above 0");
+  if (!region.young_pa && !region.poisson && !region.density_kg_m3)
+    s.refuse("young_pa", "nothing, nor poisson or density_kg_m3",
+             "what of the material differs from the organ's");
+  return region;
+}
+
 OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   OrganSpec organ;
   std::string file;
@@ -55,6 +74,7 @@ OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   s.read("density_kg_m3", organ.density_kg_m3, kRequired, kPositive);
   s.read("fixed", organ.fixed, kRequired);
   s.read("file", file, kOptional);
+  for (TomlSection& region : s.sections("regions")) organ.regions.push_back(read_region(region));
   s.refuse_unknown_keys();
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();

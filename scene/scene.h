@@ -24,6 +24,15 @@ struct OrganModelWord {
 };
 inline constexpr std::array kOrganModels{OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh}};
 
+/// A part of an organ that is of another material: at one of label, box and ball; what is absent of the
+/// material is the organ's (organ_build --region).
+struct RegionSpec {
+  std::optional<std::int32_t> label;  // that the mesh file gives tetrahedra
+  std::vector<double> box;            // x0, y0, z0, x1, y1, z1, m; or empty
+  std::vector<double> ball;           // x, y, z, radius, m; or empty
+  std::optional<double> young_pa, poisson, density_kg_m3;
+};
+
 /// An organ as the scene describes it: enough to build its file, or a built file.
 struct OrganSpec {
   std::string name;
@@ -32,8 +41,9 @@ struct OrganSpec {
   std::string mesh;  // a mesh or organ file (relative to the scene), "phantom:paper" or "phantom:fine"
   double metres_per_unit = 1;
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
-  std::string fixed;           // as organ_build --fixed takes it
-  std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
+  std::vector<RegionSpec> regions;  // of several that overlap the last one holds
+  std::string fixed;                // as organ_build --fixed takes it
+  std::filesystem::path file;       // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
 
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the

@@ -3,6 +3,7 @@
 #include "files/sha256.h"
 
 #include <charconv>
+#include <span>
 
 namespace omentum::scene {
 namespace {
@@ -16,18 +17,27 @@ std::string text_of(std::uint32_t number) {
   return std::to_string(number);
 }
 
-std::string text_of(const Vec3& t) {
+std::string text_of(std::int32_t number) {
+  return std::to_string(number);
+}
+
+std::string text_of(std::span<const double> numbers) {
   std::string text = "[";
-  text.append(text_of(t[0])).append(", ").append(text_of(t[1])).append(", ").append(text_of(t[2]));
+  for (const double number : numbers) text.append(text.size() > 1 ? ", " : "").append(text_of(number));
   return text += ']';
 }
 
-std::string text_of(const std::optional<Vec3>& t) {
-  return t ? text_of(*t) : "none";
+std::string text_of(const Vec3& v) {
+  return text_of(std::span(v.data(), 3));
 }
 
 std::string text_of(const std::string& text) {
   return printable(text);
+}
+
+template <class T>
+std::string text_of(const std::optional<T>& value) {
+  return value ? text_of(*value) : "none";
 }
 
 std::string supports_of(const OrganSpec& organ) {
@@ -59,6 +69,16 @@ void add(const OrganSpec& organ, Table table) {
   table.add("poisson", organ.poisson);
   table.add("density_kg_m3", organ.density_kg_m3);
   table.add("fixed", supports_of(organ));
+  for (std::size_t i = 0; i < organ.regions.size(); ++i) {
+    const RegionSpec& region = organ.regions[i];
+    const std::string of = "regions[" + std::to_string(i) + "].";
+    table.add(of + "label", region.label);
+    table.add(of + "box", region.box);
+    table.add(of + "ball", region.ball);
+    table.add(of + "young_pa", region.young_pa);
+    table.add(of + "poisson", region.poisson);
+    table.add(of + "density_kg_m3", region.density_kg_m3);
+  }
 }
 
 void add(const ToolSpec& tool, Table table) {

@@ -90,6 +90,25 @@ void TomlSection::read(const std::string& key, std::optional<Vec3>& value) {
   if (const toml::node* node = find(key, kOptional, "")) value = triple(key, *node);
 }
 
+void TomlSection::read(const std::string& key, std::optional<double>& value, const Range& range) {
+  double number = 0;
+  read(key, number, kOptional, range);
+  if (has(key)) value = number;
+}
+
+void TomlSection::read(const std::string& key, std::optional<std::int32_t>& value) {
+  const toml::node* node = find(key, kOptional, "");
+  if (node == nullptr) return;
+  const auto number = node->value_exact<std::int64_t>();
+  if (!number || !std::in_range<std::int32_t>(*number)) refuse(key, as_written(*node), "a whole number");
+  value = static_cast<std::int32_t>(*number);
+}
+
+void TomlSection::read(const std::string& key, std::vector<double>& value, std::size_t count) {
+  const toml::node* node = find(key, kOptional, "");
+  if (node != nullptr) value = numbers(key, *node, count, "a list of " + std::to_string(count) + " numbers");
+}
+
 void TomlSection::read(const std::string& key, std::vector<Vec3>& value, Need need) {
   const std::string expected = "a list of [x, y, z]";
   const toml::node* node = find(key, need, expected);
@@ -171,15 +190,21 @@ const toml::node* TomlSection::find(const std::string& key, Need need, const std
 }
 
 Vec3 TomlSection::triple(const std::string& key, const toml::node& node) const {
+  const std::vector<double> values = numbers(key, node, 3, "three numbers [x, y, z]");
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<double> TomlSection::numbers(const std::string& key, const toml::node& node, std::size_t count,
+                                         const std::string& expected) const {
   const toml::array* list = node.as_array();
-  Vec3 values = Vec3::Zero();
-  bool good = list != nullptr && list->size() == 3;
-  for (std::size_t i = 0; good && i < 3; ++i) {
+  std::vector<double> values;
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const toml::node& component = *list->get(i);
-    good = component.is_number() && std::isfinite(*component.value<double>());
-    if (good) values[static_cast<Eigen::Index>(i)] = *component.value<double>();
+    if (component.is_number() && std::isfinite(*component.value<double>()))
+      values.push_back(*component.value<double>());
   }
-  if (!good) refuse(key, as_written(node), "three numbers [x, y, z]");
+  if (list == nullptr || list->size() != count || values.size() != count)
+    refuse(key, as_written(node), expected);
   return values;
 }
 

@@ -47,6 +47,10 @@ class TomlSection {
   void read(const std::string& key, std::string& value, Need need);
   void read(const std::string& key, Vec3& value, Need need);
   void read(const std::string& key, std::optional<Vec3>& value);
+  void read(const std::string& key, std::optional<double>& value, const Range& range);
+  void read(const std::string& key, std::optional<std::int32_t>& value);
+  /// A list of `count` numbers; an absent one stays as `value` is.
+  void read(const std::string& key, std::vector<double>& value, std::size_t count);
   void read(const std::string& key, std::vector<Vec3>& value, Need need);
   /// One of `words`.
   void read_word(const std::string& key, std::string& value, Need need,
@@ -67,6 +71,8 @@ class TomlSection {
  private:
   const toml::node* find(const std::string& key, Need need, const std::string& expected);
   Vec3 triple(const std::string& key, const toml::node& node) const;
+  std::vector<double> numbers(const std::string& key, const toml::node& node, std::size_t count,
+                              const std::string& expected) const;
 
   // shared: every section points into the one document (a copy of a toml::table would lose its line numbers)
   std::shared_ptr<const toml::table> table_;

@@ -2,6 +2,7 @@
 // versions 1, 2 and 4.0).
 #include "geometry/mesh_io/file_cursor.h"
 #include "geometry/mesh_io/mesh_formats.h"
+#include "geometry/region_labels.h"
 
 #include <unordered_map>
 #include <unordered_set>
@@ -21,6 +22,7 @@ class GmshReader {
   void read_format();
   void read_nodes_1_and_2();
   void read_nodes_4();
+  void read_entities();
   void read_elements_1();
   void read_elements_2();
   void read_elements_4();
@@ -43,7 +45,10 @@ class GmshReader {
 
   std::size_t checked_count(std::int64_t value, const char* expected) const;
   void add_node(std::int64_t number, const Vec3& position);
-  void read_element_nodes(std::int64_t element, std::int64_t type);
+  std::vector<std::int32_t> read_physical_groups();
+  std::int32_t label_of_volume(std::int64_t tag);
+  std::int32_t label(const char* expected) { return checked_label(in_, integer(expected), expected); }
+  void read_element_nodes(std::int64_t element, std::int64_t type, std::int32_t region);
   std::int32_t index_of(std::int64_t number, std::int64_t element) const;
 
   FileCursor in_;
@@ -52,6 +57,7 @@ class GmshReader {
   bool binary_ = false;
   std::unordered_map<std::int64_t, std::int32_t> index_of_number_;
   std::unordered_set<std::int64_t> tetrahedron_numbers_;
+  std::unordered_map<std::int64_t, std::vector<std::int32_t>> groups_of_volume_;  // Gmsh 4
 };
 
 RawMesh GmshReader::read() {
@@ -63,6 +69,8 @@ RawMesh GmshReader::read() {
       read_nodes_1_and_2();
     } else if (section == "$Nodes") {
       read_nodes_4();
+    } else if (section == "$Entities") {
+      read_entities();
     } else if (section == "$ELM") {
       read_elements_1();
     } else if (section == "$Elements") {
@@ -157,7 +165,50 @@ std::int32_t GmshReader::index_of(std::int64_t number, std::int64_t element) con
   return found->second;
 }
 
-void GmshReader::read_element_nodes(std::int64_t element, std::int64_t type) {
+std::vector<std::int32_t> GmshReader::read_physical_groups() {
+  const std::size_t count =
+      checked_count(size("the number of physical groups"), "the number of physical groups");
+  std::vector<std::int32_t> groups;
+  for (std::size_t i = 0; i < count; ++i) groups.push_back(label("a physical group"));
+  return groups;
+}
+
+// Points, curves, surfaces, volumes: each a tag, its place or box, its groups, and but for points its
+// boundary.
+void GmshReader::read_entities() {
+  if (binary_) in_.rest_of_line();
+  std::array<std::size_t, 4> counts{};
+  for (std::size_t& count : counts)
+    count = checked_count(size("the number of entities"), "the number of entities");
+  for (std::size_t dimension = 0; dimension < counts.size(); ++dimension) {
+    const int reals = dimension == 0 && version_ > 4.05 ? 3 : 6;
+    for (std::size_t i = 0; i < counts[dimension]; ++i) {
+      const std::int64_t tag = integer("an entity's tag");
+      for (int r = 0; r < reals; ++r) real("a coordinate of an entity's box");
+      std::vector<std::int32_t> groups = read_physical_groups();
+      if (dimension == 3) groups_of_volume_[tag] = std::move(groups);
+      if (dimension == 0) continue;
+      const std::size_t bounding =
+          checked_count(size("the number of bounding entities"), "the number of bounding entities");
+      for (std::size_t b = 0; b < bounding; ++b) integer("a bounding entity's tag");
+    }
+  }
+  in_.word("$EndEntities");
+}
+
+std::int32_t GmshReader::label_of_volume(std::int64_t tag) {
+  const auto found = groups_of_volume_.find(tag);
+  if (found == groups_of_volume_.end() || found->second.empty()) return 0;
+  const std::vector<std::int32_t>& groups = found->second;
+  if (groups.size() > 1) {
+    mesh_.why_no_regions = "volume " + std::to_string(tag) + " is in physical groups " +
+                           std::to_string(groups[0]) + " and " + std::to_string(groups[1]) +
+                           ", expected one for each tetrahedron";
+  }
+  return groups.front();
+}
+
+void GmshReader::read_element_nodes(std::int64_t element, std::int64_t type, std::int32_t region) {
   const auto [kind, count] = gmsh_element(type);
   if (count == 0)
     in_.fail("element type " + std::to_string(type), "one that Gmsh's manual lists (1 to 31, 92, 93)");
@@ -176,6 +227,7 @@ void GmshReader::read_element_nodes(std::int64_t element, std::int64_t type) {
     in_.fail("tetrahedron number " + std::to_string(element) + " twice", "each once");
   mesh_.tetrahedra.push_back(tetrahedron);
   mesh_.tetrahedron_numbers.push_back(element);
+  mesh_.regions.push_back(region);
   if (static_cast<std::size_t>(count) > kCorners) ++mesh_.curved;
 }
 
@@ -184,10 +236,10 @@ void GmshReader::read_elements_1() {
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t element = in_.integer("an element number");
     const std::int64_t type = in_.integer("an element type");
-    in_.integer("a physical region");
+    const std::int32_t region = label("a physical region");
     in_.integer("an elementary region");
     in_.integer("the number of nodes of an element");
-    read_element_nodes(element, type);
+    read_element_nodes(element, type, region);
   }
   in_.word("$ENDELM");
 }
@@ -205,8 +257,10 @@ void GmshReader::read_elements_2() {
     if (in_group < 1) in_.fail(std::to_string(in_group) + " elements in a group", "at least 1");
     for (std::int64_t e = 0; e < in_group; ++e, ++i) {
       if (binary_) element = integer("an element number");
-      for (std::size_t t = 0; t < tags; ++t) integer("a tag of an element");
-      read_element_nodes(element, type);
+      // the first tag is the physical group, 0 without one
+      const std::int32_t region = tags > 0 ? label("a tag of an element") : 0;
+      for (std::size_t t = 1; t < tags; ++t) integer("a tag of an element");
+      read_element_nodes(element, type, region);
     }
   }
   in_.word("$EndElements");
@@ -222,20 +276,22 @@ void GmshReader::read_elements_4() {
     size("the largest element number");
   }
   for (std::size_t b = 0; b < blocks; ++b) {
-    integer("an entity's tag or dimension");
-    integer("an entity's dimension or tag");
+    const std::int64_t first = integer("an entity's tag or dimension");
+    const std::int64_t second = integer("an entity's dimension or tag");
+    const auto [dimension, tag] = version_ > 4.05 ? std::pair(first, second) : std::pair(second, first);
+    const std::int32_t region = dimension == 3 ? label_of_volume(tag) : 0;
     const std::int64_t type = integer("an element type");
     const std::size_t in_block =
         checked_count(size("the number of elements in this block"), "a number of elements");
     for (std::size_t e = 0; e < in_block; ++e) {
       const std::int64_t element = number("an element number");
-      read_element_nodes(element, type);
+      read_element_nodes(element, type, region);
     }
   }
   in_.word("$EndElements");
 }
 
-// Sections that say nothing about tetrahedra (names, entities, data) may hold binary data: look for their end
+// Sections that say nothing about tetrahedra (names, data) may hold binary data: look for their end
 // mark.
 void GmshReader::skip_section(std::string_view name) {
   const std::string end = "$End" + std::string(name.substr(1));

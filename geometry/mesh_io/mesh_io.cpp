@@ -1,5 +1,6 @@
 #include "geometry/mesh_io/file_kind.h"
 #include "geometry/mesh_io/mesh_formats.h"
+#include "geometry/region_labels.h"
 
 #include <algorithm>
 #include <cctype>
@@ -52,6 +53,7 @@ RawMesh read_by_kind(const std::filesystem::path& file) {
 
 RawMesh read_mesh(const std::filesystem::path& file) {
   RawMesh mesh = read_by_kind(file);
+  settle_labels(mesh);
   if (mesh.tetrahedra.empty()) {
     const std::string others = describe_elements(mesh.others);
     throw InputError(mesh.source + ": found no tetrahedra" + (others.empty() ? "" : ", but " + others) +
@@ -74,7 +76,9 @@ void write_mesh(const TetraMesh& mesh, const std::filesystem::path& file) {
   print("$EndNodes\n$Elements\n%zu\n", mesh.tetrahedra.size());
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const Tetrahedron& v = mesh.tetrahedra[t];
-    print("%zu 4 2 1 1 %d %d %d %d\n", t + 1, v[0] + 1, v[1] + 1, v[2] + 1, v[3] + 1);
+    const std::int32_t region = mesh.regions.empty() ? 1 : mesh.regions[t];
+    print("%zu 4 2 %d %d %d %d %d %d\n", t + 1, region, std::max(region, 1), v[0] + 1, v[1] + 1, v[2] + 1,
+          v[3] + 1);
   }
   print("$EndElements\n%s", "");
   out.close();

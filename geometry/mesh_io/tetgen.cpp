@@ -2,9 +2,13 @@
 #include "geometry/mesh_io/file_cursor.h"
 #include "geometry/mesh_io/file_kind.h"
 #include "geometry/mesh_io/mesh_formats.h"
+#include "geometry/region_labels.h"
 
 #include <cctype>
+#include <cstdlib>
+#include <iterator>
 #include <limits>
+#include <sstream>
 #include <unordered_set>
 
 namespace omentum::geometry {
@@ -45,13 +49,38 @@ std::int64_t read_nodes(FileCursor& in, RawMesh& mesh) {
   return first;
 }
 
+// Words of a line up to a comment.
+std::vector<std::string> words_of(std::string_view line) {
+  std::istringstream text{std::string(line.substr(0, line.find('#')))};
+  return {std::istream_iterator<std::string>(text), {}};
+}
+
+std::int64_t attribute_count(std::string_view rest_of_header) {
+  const std::vector<std::string> words = words_of(rest_of_header);
+  return words.empty() ? 0 : std::atoll(words.front().c_str());
+}
+
+// The region is the last attribute (TetGen's switch -A), behind the nodes between corners.
+void read_region(std::string_view rest_of_line, std::int64_t middle_nodes, std::int64_t attributes,
+                 RawMesh& mesh) {
+  if (attributes < 1) return;
+  const std::vector<std::string> words = words_of(rest_of_line);
+  const std::int64_t at = middle_nodes + attributes - 1;
+  const auto label = at < std::ssize(words) ? label_in(words[static_cast<std::size_t>(at)]) : std::nullopt;
+  if (!label) {
+    mesh.why_no_regions = "the last attribute of tetrahedron " +
+                          std::to_string(mesh.tetrahedron_numbers.back()) + " is no whole number";
+  }
+  mesh.regions.push_back(label.value_or(0));
+}
+
 void read_tetrahedra(FileCursor& in, std::int64_t first, RawMesh& mesh) {
   skip_comments(in);
   const std::size_t count = in.count("the number of tetrahedra");
   const std::int64_t nodes = in.integer("the number of nodes of a tetrahedron, 4 or 10");
   if (nodes != 4 && nodes != 10) in.fail(std::to_string(nodes) + " nodes a tetrahedron", "4 or 10");
   if (nodes == 10) mesh.curved = count;
-  in.rest_of_line();
+  const std::int64_t attributes = attribute_count(in.rest_of_line());
   std::unordered_set<std::int64_t> own_numbers;
   for (std::size_t t = 0; t < count; ++t) {
     skip_comments(in);
@@ -69,7 +98,7 @@ void read_tetrahedra(FileCursor& in, std::int64_t first, RawMesh& mesh) {
     }
     mesh.tetrahedra.push_back(tetrahedron);
     mesh.tetrahedron_numbers.push_back(own_number);
-    in.rest_of_line();
+    read_region(in.rest_of_line(), nodes - 4, attributes, mesh);
   }
 }
 

@@ -49,6 +49,7 @@ void append_tetrahedra(const VtkCells& cells, std::size_t first_node, std::size_
     }
     mesh.tetrahedra.push_back(tetrahedron);
     mesh.tetrahedron_numbers.push_back(static_cast<std::int64_t>(first_cell + c));
+    mesh.regions.push_back(cells.labels.empty() ? 0 : cells.labels[c]);
     if (nodes.size() > kCorners) ++mesh.curved;
   }
 }

@@ -9,7 +9,8 @@ namespace omentum::geometry {
 struct VtkCells {
   std::vector<std::int64_t> start;  // [cells + 1], or empty when there is none
   std::vector<std::int64_t> nodes;
-  std::vector<std::int64_t> types;  // [cells]
+  std::vector<std::int64_t> types;   // [cells]
+  std::vector<std::int32_t> labels;  // [cells], or empty
 };
 
 /// Appends the corners of the tetrahedra (type 10; 24 and others of higher order) to `mesh`, whose positions

@@ -2,12 +2,18 @@
 #include "geometry/mesh_io/file_cursor.h"
 #include "geometry/mesh_io/mesh_formats.h"
 #include "geometry/mesh_io/vtk_cells.h"
+#include "geometry/region_labels.h"
 
+#include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <utility>
 
 namespace omentum::geometry {
 namespace {
+
+// Beyond, a double has no whole numbers of its own.
+constexpr double kLargestLabel = 9007199254740992.0;
 
 class VtkReader {
  public:
@@ -21,7 +27,14 @@ class VtkReader {
   void read_cells();
   void read_cells_of_version_5(std::size_t offsets, std::size_t connectivity);
   void read_cell_types();
-  void skip_field();
+  // Of what belongs to cells, to points, or to the grid as a whole.
+  enum class Owner { kGrid, kPoints, kCells };
+  void read_data();
+  void read_scalars(Owner owner, std::size_t tuples);
+  void read_field(Owner owner);
+  void read_array(Owner owner, const std::string& name, const std::string& type, std::size_t components,
+                  std::size_t tuples);
+  std::vector<std::int64_t> labels(const std::string& name, const std::string& type);
   void skip_metadata();
   std::size_t bytes_of(const std::string& type);
   std::int64_t integer_of(const std::string& type, const char* expected);
@@ -33,6 +46,7 @@ class VtkReader {
   bool binary_ = false;
   double version_ = 0;
   VtkCells cells_;
+  CellLabels labels_;
 };
 
 RawMesh VtkReader::read() {
@@ -46,13 +60,20 @@ RawMesh VtkReader::read() {
     } else if (keyword == "CELL_TYPES") {
       read_cell_types();
     } else if (keyword == "FIELD") {
-      skip_field();
+      read_field(Owner::kGrid);
     } else if (keyword == "METADATA") {
       skip_metadata();
     } else {
       in_.fail(keyword, "POINTS, CELLS, CELL_TYPES, FIELD or METADATA");
     }
   }
+  // whatever stands behind a mesh, the mesh is read
+  try {
+    read_data();
+  } catch (const InputError& error) {
+    labels_.miss(error.what());
+  }
+  cells_.labels = labels_.take(mesh_.why_no_regions);
   append_tetrahedra(cells_, 0, 0, mesh_);
   return std::move(mesh_);
 }
@@ -81,8 +102,14 @@ double VtkReader::real_of(const std::string& type, const char* expected) {
 
 std::int64_t VtkReader::integer_of(const std::string& type, const char* expected) {
   if (!binary_) return in_.integer(expected);
-  if (type == "int") return in_.binary<std::int32_t>(expected, std::endian::big);
-  if (type == "vtktypeint64" || type == "long") return in_.binary<std::int64_t>(expected, std::endian::big);
+  constexpr auto kBig = std::endian::big;
+  if (type == "int") return in_.binary<std::int32_t>(expected, kBig);
+  if (type == "vtktypeint64" || type == "long") return in_.binary<std::int64_t>(expected, kBig);
+  if (type == "short") return in_.binary<std::int16_t>(expected, kBig);
+  if (type == "char") return in_.binary<std::int8_t>(expected, kBig);
+  if (type == "unsigned_int") return in_.binary<std::uint32_t>(expected, kBig);
+  if (type == "unsigned_short") return in_.binary<std::uint16_t>(expected, kBig);
+  if (type == "unsigned_char") return in_.binary<std::uint8_t>(expected, kBig);
   in_.fail("integers of type " + type, "int, long or vtktypeint64");
 }
 
@@ -144,23 +171,81 @@ void VtkReader::read_cell_types() {
   cells_.types = integers("int", count, "a cell type");
 }
 
-// Data that belong to the grid as a whole, such as its time: arrays of `components` x `tuples` numbers.
-void VtkReader::skip_field() {
+// Arrays of `components` x `tuples` numbers.
+void VtkReader::read_field(Owner owner) {
   in_.word("the name of a field");
   const std::size_t arrays = in_.count("the number of arrays");
   for (std::size_t a = 0; a < arrays; ++a) {
-    in_.word("the name of an array");
+    const std::string name(in_.word("the name of an array"));
     const std::size_t components = in_.count("the number of components"),
                       tuples = in_.count("the number of tuples");
     const std::string type(in_.word("the type of an array"));
-    if (tuples != 0 && components > in_.remaining() / tuples)
-      in_.fail("an array that is longer than the file", "components and tuples");
-    if (!binary_) {
-      for (std::size_t i = 0; i < components * tuples; ++i) in_.word("a value of an array");
-      continue;
-    }
-    in_.rest_of_line();
+    if (binary_) in_.rest_of_line();
+    read_array(owner, name, type, components, tuples);
+  }
+}
+
+void VtkReader::read_scalars(Owner owner, std::size_t tuples) {
+  const std::string name(in_.word("the name of an array"));
+  std::istringstream rest{std::string(in_.rest_of_line())};
+  std::string type;
+  std::size_t components = 0;
+  rest >> type;
+  if (!(rest >> components)) components = 1;
+  if (in_.word("LOOKUP_TABLE") != "LOOKUP_TABLE") in_.fail("something else", "LOOKUP_TABLE");
+  in_.rest_of_line();
+  read_array(owner, name, type, components, tuples);
+}
+
+void VtkReader::read_array(Owner owner, const std::string& name, const std::string& type,
+                           std::size_t components, std::size_t tuples) {
+  if (tuples != 0 && components > in_.remaining() / tuples)
+    in_.fail("an array that is longer than the file", "components and tuples");
+  if (owner == Owner::kCells && components == 1 && tuples == cells_.types.size() && is_label_name(name)) {
+    labels_.add(name, labels(name, type));
+  } else if (binary_) {
     in_.skip(components * tuples * bytes_of(type), "the values of an array");
+  } else {
+    for (std::size_t i = 0; i < components * tuples; ++i) in_.word("a value of an array");
+  }
+}
+
+// Whole numbers of any type: some programs write all of their arrays as real numbers.
+std::vector<std::int64_t> VtkReader::labels(const std::string& name, const std::string& type) {
+  const std::size_t count = cells_.types.size();
+  if (type != "float" && type != "double") return integers(type, count, "a label of a cell");
+  std::vector<std::int64_t> values;
+  for (std::size_t c = 0; c < count; ++c) {
+    const double value = real_of(type, "a label of a cell");
+    if (value != std::trunc(value) || std::abs(value) > kLargestLabel)
+      in_.fail("the number " + std::to_string(value) + " in array '" + name + "'", "whole numbers");
+    values.push_back(static_cast<std::int64_t>(value));
+  }
+  return values;
+}
+
+// Behind the mesh: of all data the labels of cells alone are looked at.
+void VtkReader::read_data() {
+  Owner owner = Owner::kGrid;
+  std::size_t tuples = 0;
+  while (!in_.at_end()) {
+    const std::string_view keyword = in_.word("a keyword");
+    if (keyword == "CELL_DATA" || keyword == "POINT_DATA") {
+      owner = keyword == "CELL_DATA" ? Owner::kCells : Owner::kPoints;
+      tuples = in_.count("the number of cells or points");
+    } else if (keyword == "SCALARS") {
+      read_scalars(owner, tuples);
+    } else if (keyword == "VECTORS" || keyword == "NORMALS") {
+      const std::string name(in_.word("the name of an array")), type(in_.word("the type of an array"));
+      if (binary_) in_.rest_of_line();
+      read_array(owner, name, type, 3, tuples);
+    } else if (keyword == "FIELD") {
+      read_field(owner);
+    } else if (keyword == "METADATA") {
+      skip_metadata();
+    } else {
+      in_.fail(keyword, "SCALARS, VECTORS, NORMALS, FIELD or METADATA");
+    }
   }
 }
 

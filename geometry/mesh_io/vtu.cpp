@@ -2,6 +2,7 @@
 #include "geometry/mesh_io/mesh_formats.h"
 #include "geometry/mesh_io/vtk_cells.h"
 #include "geometry/mesh_io/vtu_arrays.h"
+#include "geometry/region_labels.h"
 
 namespace omentum::geometry {
 namespace {
@@ -27,7 +28,26 @@ void read_points(const VtuArrays& arrays, pugi::xml_node piece, RawMesh& mesh) {
   for (std::size_t i = 0; i < xyz.size(); i += 3) mesh.positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
 }
 
-VtkCells read_cells(const VtuArrays& arrays, pugi::xml_node piece) {
+std::vector<std::int32_t> read_labels(const VtuArrays& arrays, pugi::xml_node piece,
+                                      std::string& why_no_regions) {
+  CellLabels labels;
+  for (const pugi::xml_node array : piece.child("CellData").children("DataArray")) {
+    const std::string name = array.attribute("Name").value();
+    if (!is_label_name(name) || array.attribute("NumberOfComponents").as_int(1) != 1) continue;
+    // the mesh can be read without them
+    try {
+      const std::vector<std::int64_t> values = arrays.integers(array);
+      if (values.size() != piece.attribute("NumberOfCells").as_ullong())
+        arrays.fail(std::to_string(values.size()) + " values of array '" + name + "'", "one for each cell");
+      labels.add(name, values);
+    } catch (const InputError& error) {
+      labels.miss(error.what());
+    }
+  }
+  return labels.take(why_no_regions);
+}
+
+VtkCells read_cells(const VtuArrays& arrays, pugi::xml_node piece, std::string& why_no_regions) {
   const pugi::xml_node node = child_of(arrays, piece, "Cells");
   VtkCells cells;
   cells.nodes = arrays.integers(named_array(arrays, node, "connectivity"));
@@ -40,6 +60,7 @@ VtkCells read_cells(const VtuArrays& arrays, pugi::xml_node piece) {
     arrays.fail(std::to_string(cells.types.size()) + " types and " + std::to_string(ends.size()) + " offsets",
                 "NumberOfCells of both");
   }
+  cells.labels = read_labels(arrays, piece, why_no_regions);
   return cells;
 }
 
@@ -53,7 +74,7 @@ RawMesh read_vtu(const std::filesystem::path& file) {
   for (const pugi::xml_node piece : child_of(arrays, arrays.root(), "UnstructuredGrid").children("Piece")) {
     const std::size_t first_node = mesh.positions.size();
     read_points(arrays, piece, mesh);
-    const VtkCells cells = read_cells(arrays, piece);
+    const VtkCells cells = read_cells(arrays, piece, mesh.why_no_regions);
     append_tetrahedra(cells, first_node, first_cell, mesh);
     first_cell += cells.types.size();
   }

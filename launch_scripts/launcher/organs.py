@@ -120,7 +120,7 @@ def relative_to(scene, fixed):
 def build_organ(options, cache, mesh, name, spec, scale, fixed):
     program = options.programs / "organ_build"
     terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
-             "--scale", scale, "--fixed", fixed]
+             "--scale", scale, "--fixed", fixed, *(part for region in spec["regions"] for part in ("--region", region))]
     inputs = [mesh, *support_files(fixed)]
     if mesh.suffix.lower() in (".node", ".ele"):
         inputs += [mesh.with_suffix(suffix) for suffix in (".node", ".ele", ".NODE", ".ELE")]
@@ -135,7 +135,9 @@ def organ_file(options, cache, spec):
         if options.organ.suffix.lower() == ".h5":
             return options.organ
         scale, fixed = foreign_terms(options, spec)
-        return build_organ(options, cache, options.organ, options.organ.stem, spec, scale, fixed)
+        if spec["regions"]:
+            print(f"run: {options.organ.name} is of one material: the scene's regions lie in its own organ", flush=True)
+        return build_organ(options, cache, options.organ, options.organ.stem, {**spec, "regions": []}, scale, fixed)
     if spec["file"] or spec["mesh"].lower().endswith(".h5"):
         return pathlib.Path(spec["file"] or spec["mesh"])
     kind, _, size = spec["mesh"].partition(":")

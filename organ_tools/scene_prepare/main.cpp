@@ -49,6 +49,7 @@ void prepare(const Options& options) {
   } else {
     scene.organs.front().mesh = options.organ;
     scene_prepare::name_after(organ.name, scene);
+    scene_prepare::take_material(organ.material, scene.organs.front());
     for (const std::string& note : scene_prepare::place_hands(skin, scene)) std::cout << note << '\n';
   }
   files::write_whole(options.output, scene_prepare::resolved_toml(scene));

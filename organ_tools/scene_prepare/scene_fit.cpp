@@ -104,6 +104,15 @@ std::vector<std::string> place_hands(const OrganSkin& skin, scene::Scene& scene)
   return notes;
 }
 
+void take_material(const physics::MaterialMap& material, scene::OrganSpec& organ) {
+  organ.young_pa = material.common.young_pa;
+  organ.poisson = material.common.poisson;
+  organ.density_kg_m3 = material.common.density_kg_m3;
+  organ.regions.clear();
+  for (const auto& [label, own] : material.regions)
+    organ.regions.push_back({label, {}, {}, own.young_pa, own.poisson, own.density_kg_m3});
+}
+
 void name_after(const std::string& organ, scene::Scene& scene) {
   scene.organs.front().name = organ;
   scene.name = scene.hands.empty() ? organ : organ + " pressed by a simulated hand";

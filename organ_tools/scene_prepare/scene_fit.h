@@ -17,6 +17,9 @@ void project_hands(const OrganSkin& skin, scene::Scene& scene);
 /// slide shrink where the organ is thin or small. Returns a line for everything that shrank.
 std::vector<std::string> place_hands(const OrganSkin& skin, scene::Scene& scene);
 
+/// For another organ: the scene says what that one is made of, its regions by the labels of the organ file.
+void take_material(const physics::MaterialMap& material, scene::OrganSpec& organ);
+
 /// For another organ: the scene and its first organ are called after it.
 void name_after(const std::string& organ, scene::Scene& scene);
 

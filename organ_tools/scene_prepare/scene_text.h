@@ -9,12 +9,12 @@
 
 namespace omentum::scene_prepare {
 
-/// The scene file with what fitting changed: organ files, hands, trocars, camera. All else is carried over.
-/// load_scene reads it from any folder.
+/// The scene file with what fitting changed: organ files and their materials, hands, trocars, camera. All
+/// else is carried over. load_scene reads it from any folder.
 std::string resolved_toml(const scene::Scene& scene);
 
 /// {"name", "organs": [{"name", "mesh", "metres_per_unit", "young_pa", "poisson", "density_kg_m3",
-/// "fixed"}]}.
+/// "regions": [as organ_build --region takes them], "fixed"}]}.
 nlohmann::json describe(const scene::Scene& scene);
 
 }  // namespace omentum::scene_prepare

@@ -14,7 +14,6 @@ using deform_test::DeformLoopTest;
 using deform_test::kRate_hz;
 using deform_test::largest;
 using deform_test::push;
-using deform_test::scene_with;
 using testing::_;
 using testing::HasSubstr;
 using testing::IsEmpty;

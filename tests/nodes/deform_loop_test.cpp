@@ -15,7 +15,6 @@ using deform_test::kSettled_s;
 using deform_test::kWithin;
 using deform_test::largest;
 using deform_test::push;
-using deform_test::scene_with;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::Field;

@@ -77,31 +77,32 @@ TEST(OrganMessages, ATopologyListsWhatWasAddedSinceTheOneThatLeftLast) {
   EXPECT_THAT(cut(3, {0b101, 0b11}).last_removed, ElementsAre(0u, 8u, 9u)) << "version 2 never left";
 }
 
-TEST(LocalModelMessage, HasTheWholeMatrixAndTheNormalsOfItsTriangles) {
+TEST(LocalModelMessage, IsThePatchAsFarAsItIsUsed) {
   StampedPatch stamped;
   stamped.tool = 1;
-  stamped.patch = LocalPatch(3);
+  stamped.patch = LocalPatch(5);
   LocalPatch& patch = stamped.patch;
   patch.node_count = 3;
   patch.triangle_count = 1;
   patch.triangles[0] = {0, 1, 2};
-  patch.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+  patch.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {9, 9, 9}, {9, 9, 9}};
   for (std::size_t i = 0; i < patch.compliance.size(); ++i) patch.compliance[i] = static_cast<float>(i);
   const std::array<msg::Echo, 2> echoes{msg::Echo{.tool = 0, .seq = 4}, msg::Echo{.tool = 1, .seq = 5}};
   stamped.echoes.take(echoes);
 
   msg::LocalModel message;
   fill_local_model(stamped, message);
-  EXPECT_EQ(message.cause.seq, 5u) << "of the tool that it was made for";
-  ASSERT_EQ(message.normals.size(), 3u);
-  for (const msg::Vec3& normal : message.normals) EXPECT_EQ(normal, (msg::Vec3{0, 0, 1}));
-  ASSERT_EQ(message.compliance.size(), 81u);
-  float expected = 0;
-  for (std::size_t r = 0; r < 9; ++r)
-    for (std::size_t c = r; c < 9; ++c, ++expected) {
-      EXPECT_EQ(message.compliance[9 * r + c], expected);
-      EXPECT_EQ(message.compliance[9 * c + r], expected);
-    }
+  EXPECT_EQ(message.patch, 1u) << "numbered like the tool that it was made for";
+  ASSERT_EQ(message.echoes.size(), 2u);
+  EXPECT_EQ(message.echoes[1].seq, 5u);
+  EXPECT_EQ(message.nodes.size(), 3u);
+  EXPECT_EQ(message.forces.size(), 3u);
+  EXPECT_EQ(message.velocities.size(), 3u);
+  EXPECT_EQ(message.positions[1], (msg::Vec3{2, 0, 0}));
+  EXPECT_EQ(message.triangles, (std::vector<std::uint8_t>{0, 1, 2}));
+  ASSERT_EQ(message.compliance.size(), 45u) << "the upper triangle of 9 x 9";
+  for (std::size_t i = 0; i < message.compliance.size(); ++i)
+    EXPECT_EQ(message.compliance[i], static_cast<float>(i));
 }
 
 }  // namespace

@@ -15,7 +15,6 @@ using haptic_test::kRate_hz;
 using haptic_test::kRelative;
 using haptic_test::newton;
 using haptic_test::Node;
-using haptic_test::scene_of;
 using testing::AllOf;
 using testing::Contains;
 using testing::Each;

@@ -131,16 +131,16 @@ TEST(RenderNode, RefusesToShowAnotherOrganThanTheOneServed) {
 }
 
 TEST(RenderNode, RefusesToShowAnotherScene) {
-  const BlockScene scene;
+  const BlockScene block(3);
   const int domain = test::domain_of_test();
   const auto bus =
       transport::Bus::open({.vendor = transport::Vendor::kFast, .domain = domain, .name = "test"});
   const auto scenes = bus->writer<msg::SceneInfo>();
-  scene::Scene other = scene::load_scene(scene.scene());
+  scene::Scene other = scene::load_scene(block.scene());
   other.organs[0].young_pa = 6000;
-  scenes->write(node::to_message(node::loaded_scene(other, {{.name = "block", .hash = scene.organ().hash}}),
+  scenes->write(node::to_message(node::loaded_scene(other, {{.name = "block", .hash = block.organ_hash()}}),
                                  "a block"));
-  test::Process node("render_node", arguments(scene, domain));
+  test::Process node("render_node", arguments(block, domain));
   const int code = node.wait();
   if (skipped_without_egl(node)) GTEST_SKIP() << node.messages();
   EXPECT_EQ(code, 2);

@@ -78,6 +78,49 @@ TEST(Scene, WhatIsNotWrittenKeepsItsDefault) {
   EXPECT_EQ(scene.camera.mode, "orbit");
 }
 
+TEST(Scene, RegionsAreReadWithThePlaceAndWhatDiffers) {
+  const Scene scene = load_scene(write_scene(with("[[tools]]", R"([[organs.regions]]
+label = -3
+young_pa = 30000
+[[organs.regions]]
+box = [0, 0, 0, 1, 2, 3]
+poisson = 0.3
+[[organs.regions]]
+ball = [0.01, 0, 0.02, 0.005]
+density_kg_m3 = 1200
+[[tools]])")));
+  const std::vector<RegionSpec>& regions = scene.organs[0].regions;
+  ASSERT_EQ(regions.size(), 3u);
+  EXPECT_EQ(regions[0].label, -3);
+  EXPECT_EQ(regions[0].young_pa, 30000);
+  EXPECT_FALSE(regions[0].poisson);
+  EXPECT_EQ(regions[1].box, (std::vector<double>{0, 0, 0, 1, 2, 3}));
+  EXPECT_EQ(regions[1].poisson, 0.3);
+  EXPECT_FALSE(regions[1].label);
+  EXPECT_EQ(regions[2].ball, (std::vector<double>{0.01, 0, 0.02, 0.005}));
+  EXPECT_EQ(regions[2].density_kg_m3, 1200);
+}
+
+TEST(Scene, RegionsThatSayTooLittleOrTooMuchAreRefused) {
+  const auto refusal = [](const std::string& keys) {
+    return message_of(write_scene(with("[[tools]]", "[[organs.regions]]\n" + keys + "\n[[tools]]")));
+  };
+  const std::string where = ":9: organs[0].regions[0].";
+  EXPECT_THAT(refusal("young_pa = 1"),
+              HasSubstr(where + "label: found none or several of label, box and ball"));
+  EXPECT_THAT(refusal("label = 1\nball = [0, 0, 0, 1]\nyoung_pa = 1"), HasSubstr("none or several"));
+  EXPECT_THAT(refusal("label = 1"),
+              HasSubstr(where + "young_pa: found nothing, nor poisson or density_kg_m3"));
+  EXPECT_THAT(refusal("label = 1.5\nyoung_pa = 1"), HasSubstr("label: found 1.5, expected a whole number"));
+  EXPECT_THAT(refusal("ball = [0, 0, 0, 0]\nyoung_pa = 1"), HasSubstr("ball: found a radius of 0"));
+  EXPECT_THAT(refusal("ball = [0, 0, 0]\nyoung_pa = 1"), HasSubstr("expected a list of 4 numbers"));
+  EXPECT_THAT(refusal("box = [0, 0, 0, 1, 1, \"x\"]\nyoung_pa = 1"),
+              HasSubstr("expected a list of 6 numbers"));
+  EXPECT_THAT(refusal("label = 1\npoisson = 0.5"),
+              HasSubstr("poisson: found 0.5, expected a number above -1 and below"));
+  EXPECT_THAT(refusal("label = 1\nyuong_pa = 1"), HasSubstr("yuong_pa: found an unknown key"));
+}
+
 TEST(Scene, WhatIsWrittenIsRead) {
   const Scene scene = load_scene(write_scene(kGood + R"(depth_m = 0.02
 start_s = 0

@@ -64,9 +64,9 @@ std::optional<std::filesystem::path> trial_organ_file(const OrganRecipe& recipe)
   std::optional<geometry::TetraMesh> mesh = mesh_of(recipe);
   if (!mesh) return std::nullopt;
   auto fixed = organ::parse_supports(std::array{recipe.fixed}, *mesh);
-  const organ::Organ organ =
-      organ::make_organ(recipe.name, std::move(*mesh), {recipe.young_pa, kPoisson, kDensity_kg_m3},
-                        std::move(fixed), organ::Storage::kFloat);
+  const organ::Organ organ = organ::make_organ(recipe.name, std::move(*mesh),
+                                               physics::Material{recipe.young_pa, kPoisson, kDensity_kg_m3},
+                                               std::move(fixed), organ::Storage::kFloat);
   const std::filesystem::path folder = OMENTUM_BIN_DIR "/../trial_organs";
   std::filesystem::create_directories(folder);
   const auto file = folder / (organ.hash + ".h5");

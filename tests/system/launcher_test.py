@@ -390,12 +390,12 @@ class Parts(unittest.TestCase):
         environment.start()
         self.addCleanup(environment.stop)
 
-    def build(self, fixed, name="liver", mesh=None):
+    def build(self, fixed, name="liver", mesh=None, regions=()):
         """What build_organ would take from the cache, made by a stand-in for organ_build."""
         mesh = mesh or self.folder / "liver.msh"
         mesh.touch()
         options = mock.Mock(programs=self.folder)
-        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1}
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": list(regions)}
         with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
             return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed)
 
@@ -407,6 +407,41 @@ class Parts(unittest.TestCase):
             self.assertEqual(self.build(fixed), first)
             nodes.write_text("1\n3\n")
             self.assertNotEqual(self.build(fixed), first, fixed)
+
+    def test_each_region_is_told_to_organ_build_and_makes_another_organ(self):
+        told = []
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": ["label=1; young=2", "ball=0,0,0,1; young=3"]}
+        (self.folder / "liver.msh").touch()
+
+        def run_tool(_, words, __):
+            told.extend(words)
+            pathlib.Path(words[3]).write_text("organ")
+
+        with mock.patch.object(organs, "run_tool", run_tool):
+            organs.build_organ(mock.Mock(programs=self.folder), cache.Cache(), self.folder / "liver.msh", "liver", spec, 1.0, "x")
+        self.assertEqual(told[-4:], ["--region", "label=1; young=2", "--region", "ball=0,0,0,1; young=3"])
+        plain = self.build("plane:x<0")
+        self.assertNotEqual(self.build("plane:x<0", regions=["label=1; young=2"]), plain)
+        self.assertNotEqual(self.build("plane:x<0", regions=["label=1; young=3"]),
+                            self.build("plane:x<0", regions=["label=1; young=2"]))
+
+    def test_regions_stay_behind_when_another_organ_comes(self):
+        told = []
+        (self.folder / "kidney.msh").touch()
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": ["ball=0,0,0,1; young=3"]}
+        options = mock.Mock(programs=self.folder, organ=self.folder / "kidney.msh", scale=1.0, fixed="plane:x<0")
+
+        def run_tool(_, words, __):
+            if words[0] == "scene_prepare":
+                return '{"min": [0, 0, 0], "max": [0.1, 0.1, 0.1]}'
+            told.extend(words)
+            pathlib.Path(words[3]).write_text("organ")
+            return ""
+
+        with mock.patch.object(organs, "run_tool", run_tool), contextlib.redirect_stdout(io.StringIO()) as said:
+            organs.organ_file(options, cache.Cache(), spec)
+        self.assertNotIn("--region", told)
+        self.assertIn("kidney.msh is of one material", said.getvalue())
 
     def test_support_file_of_a_scene_lies_beside_it(self):
         scene = self.folder / "scenes" / "a.toml"

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 
@@ -149,6 +150,51 @@ TEST(BoxTest, AForeignOrganGivesTheSceneItsName) {
   const scene::Scene scene = scene::load_scene(fitted);
   EXPECT_EQ(scene.name, "kidney pressed by a simulated hand");
   EXPECT_EQ(scene.organs.front().name, "kidney");
+}
+
+// Whoever reads the fitted scene knows what the organ is made of, whichever organ it became.
+TEST(BoxTest, AForeignOrgansMaterialsAreThoseOfTheFittedScene) {
+  const ScratchFolder folder;
+  const std::filesystem::path mesh = folder / "box.msh";
+  const std::string organ = folder / "kidney.h5", fitted = folder / "scene.toml";
+  geometry::write_mesh(make_box_mesh(4, 3, 3, {0.12, 0.09, 0.06}), mesh);
+  Process build("organ_build",
+                {mesh, "-o", organ, "--young", "9000", "--poisson", "0.4", "--density", "1000", "--scale",
+                 "1", "--fixed", "plane:z<0.01", "--region", "ball=0.06,0.04,0.03,0.02;young=45000"});
+  ASSERT_EQ(build.wait(), 0) << build.messages();
+  Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
+  ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
+  const scene::Scene scene = scene::load_scene(fitted);
+  const scene::OrganSpec& spec = scene.organs.front();
+  EXPECT_EQ(spec.young_pa, 9000);
+  EXPECT_EQ(spec.poisson, 0.4);
+  EXPECT_EQ(spec.density_kg_m3, 1000);
+  ASSERT_EQ(spec.regions.size(), 1u);
+  EXPECT_EQ(spec.regions[0].label, 2) << "above the mesh's own";
+  EXPECT_EQ(spec.regions[0].young_pa, 45000);
+}
+
+TEST(OwnOrganTest, RegionsStayInTheFittedSceneAndAreToldAsOrganBuildTakesThem) {
+  const ScratchFolder folder;
+  const std::string scene = folder / "scene.toml", fitted = folder / "fitted.toml";
+  std::string text = test::read_text(kOwnScene);
+  text.insert(text.find("[[tools]]"),
+              "[[organs.regions]]\nball = [-0.05, 0, 0.01, 0.01]\nyoung_pa = 30000\n"
+              "[[organs.regions]]\nlabel = 4\npoisson = 0.3\n");
+  std::ofstream(scene) << text;
+  const scene::Scene held = scene::load_scene(held_scene());
+  Process prepare("scene_prepare",
+                  {scene, "--organ", held.organs.front().file, "-o", fitted, "--keep-points"});
+  ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
+  const auto regions = scene::load_scene(fitted).organs.front().regions;
+  ASSERT_EQ(regions.size(), 2u);
+  EXPECT_EQ(regions[0].ball, (std::vector<double>{-0.05, 0, 0.01, 0.01}));
+  EXPECT_EQ(regions[0].young_pa, 30000);
+  EXPECT_EQ(regions[1].label, 4);
+  Process describe("scene_prepare", {fitted, "--describe"});
+  EXPECT_EQ(describe.wait(), 0) << describe.messages();
+  EXPECT_EQ(nlohmann::json::parse(describe.output())["organs"][0]["regions"],
+            (nlohmann::json{"ball=-0.05,0.0,0.01,0.01; young=30000.0", "label=4; poisson=0.3"}));
 }
 
 TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
