@@ -50,8 +50,9 @@ class SceneOfOneBlock {
     organ::FixedComponents fixed(mesh.positions.size(), 0);
     for (std::size_t n = 0; n < fixed.size(); ++n)
       if (mesh.positions[n].z() < 0.001) fixed[n] = 7;
-    organ::build_organ(organ::make_organ("block", mesh, {1e4, 0.45, 1000}, fixed, organ::Storage::kFloat),
-                       folder_ / "block.h5", {});
+    organ::build_organ(
+        organ::make_organ("block", mesh, physics::Material{1e4, 0.45, 1000}, fixed, organ::Storage::kFloat),
+        folder_ / "block.h5", {});
     scene::OrganSpec& spec = scene.organs.emplace_back();
     spec.name = "block";
     spec.model = model;

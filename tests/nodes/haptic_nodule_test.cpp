@@ -30,20 +30,19 @@ class NoduleTest : public testing::Test {
     return true;
   }
 
-  static Vec3 vector(const scene::Triple& t) { return {t[0], t[1], t[2]}; }
   static double thickness_m(const scene::HandSpec& hand) {
     return (hand.press_point[2] - kBed_m) / hand.press_normal[2];
   }
   // From the nodule's middle to the line along which the hand presses.
   double aside_m(const scene::HandSpec& hand) const {
-    const Vec3 from = vector(hand.press_point) - centre_, n = vector(hand.press_normal);
+    const Vec3 from = hand.press_point - centre_, n = hand.press_normal;
     return (from - from.dot(n) * n).norm();
   }
 
   // The first tool, straight into the tissue under a hand's place, slowly.
   double force_at_depth(const scene::HandSpec& hand, double depth_m) const {
     Bench bench(haptic::make_setup(scene_, 1000).model);
-    const Vec3 surface = vector(hand.press_point), n = vector(hand.press_normal);
+    const Vec3 surface = hand.press_point, n = hand.press_normal;
     bench.input().frame.q_WT = geometry::rotation_onto(Vec3::UnitZ(), n);
     bench.step_to(surface + 0.01 * n);
     return bench.move_to(surface - depth_m * n, 1000).norm();

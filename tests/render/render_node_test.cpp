@@ -1,4 +1,5 @@
 // The real render_node, as its neighbours see it: states in, pictures and status out.
+#include "node_common/loaded_scene.h"
 #include "render_node/png_file.h"
 
 #include "block_session.h"

@@ -1,8 +1,8 @@
 // A node that does nothing but wait for its end: what CommandLine and StopSignal make of it is under test.
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
-#include "scene/scene.h"
 #include "runtime/signals.h"
+#include "scene/scene.h"
 
 #include <iostream>
 

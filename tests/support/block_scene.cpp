@@ -16,8 +16,7 @@ BlockScene::BlockScene(int cells, const std::string& tools) {
     if (mesh.positions[n].z() < 0.001) fixed[n] = physics::kPinned;
   }
   const organ::Organ organ =
-      organ::make_organ("block", mesh, {.young_pa = 1e4, .poisson = 0.45, .density_kg_m3 = 1000}, fixed,
-                        organ::Storage::kFloat);
+      organ::make_organ("block", mesh, physics::Material{1e4, 0.45, 1000}, fixed, organ::Storage::kFloat);
   organ::build_organ(organ, file("block.h5"), {});
   hash_ = organ.hash;
   std::ofstream(scene()) << "name = \"a block\"\n"
