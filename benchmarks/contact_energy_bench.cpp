@@ -94,13 +94,13 @@ void print_depth(const std::string& organ, double depth_mm, std::span<const Meas
   std::fflush(stdout);
 }
 
-void print_place(const test::OrganRecipe& recipe, const haptic::HapticModel& model,
+void print_place(const test::OrganRecipe& recipe, const haptic::ElasticSurface& surface,
                  const test::PressPlace& place) {
   const Vec3 p = 1e3 * place.point, &n = place.normal;
   std::printf(
       "%s: %d mobile surface nodes, %.0f kPa; pressed at (%.1f, %.1f, %.1f) mm, normal (%.2f, %.2f, %.2f), "
       "%.0f mm thick; slides of %.0f mm%s, the surface rises by %.1f and falls by %.1f mm\n",
-      recipe.name.c_str(), model.surface.mobile_count, 1e-3 * recipe.young_pa, p.x(), p.y(), p.z(), n.x(),
+      recipe.name.c_str(), surface.surface.mobile_count, 1e-3 * recipe.young_pa, p.x(), p.y(), p.z(), n.x(),
       n.y(), n.z(), 1e3 * place.thickness_m, 1e3 * place.slide_m,
       place.slide_m < kSlide_m ? " (the organ has no room for 20)" : "", 1e3 * place.rise_m,
       1e3 * place.fall_m);
@@ -116,9 +116,9 @@ void measure_organ(const test::OrganRecipe& recipe, const Options& options, cons
     return;
   }
   const haptic::HapticModel model = test::trial_model(*organ, {test::scene_tools(false).front()});
-  const auto place = test::find_press_place(model, recipe.up, kSlide_m);
+  const auto place = test::find_press_place(model.organs.front(), recipe.up, kSlide_m);
   if (!place) throw std::runtime_error(recipe.name + ": no place to press");
-  print_place(recipe, model, *place);
+  print_place(recipe, model.organs.front(), *place);
   for (const double depth_mm : options.depths_mm()) {
     std::vector<Measured> all;
     for (const double direction : options.directions_deg()) {

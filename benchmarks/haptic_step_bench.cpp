@@ -107,12 +107,11 @@ haptic::ToolModel ring(double edge) {
 }
 
 haptic::HapticModel make_model(organ::Organ& organ) {
-  haptic::HapticModel model{
-      organ.surface, geometry::surface_positions(organ.mesh, organ.surface), *organ.compliance, {}, {}};
-  model.file_node.resize(model.rest.size());
-  const double edge = mean_edge(model.surface, model.rest);
-  model.tools = {ring(edge), ring(edge)};
-  return model;
+  haptic::ElasticSurface surface{
+      organ.surface, geometry::surface_positions(organ.mesh, organ.surface), *organ.compliance, {}};
+  surface.file_node.resize(surface.rest.size());
+  const double edge = mean_edge(surface.surface, surface.rest);
+  return {.organs = {std::move(surface)}, .tools = {ring(edge), ring(edge)}};
 }
 
 // A place to press: a surface node and the outward normal there.
@@ -123,13 +122,13 @@ struct Place {
 class Run {
  public:
   explicit Run(const haptic::HapticModel& model)
-      : model_(model), state_(model), work_(model), inputs_(2), outputs_(2) {}
+      : organ_(model.organs.front()), model_(model), state_(model), work_(model), inputs_(2), outputs_(2) {}
 
   Place place_at(SurfaceId node) {
-    haptic::SurfacePoint at{model_.surface.triangles_of(node)[0], Vec3::Zero()};
-    const geometry::Triangle& t = model_.surface.triangles[at.triangle];
+    haptic::SurfacePoint at{organ_.surface.triangles_of(node)[0], Vec3::Zero()};
+    const geometry::Triangle& t = organ_.surface.triangles[at.triangle];
     for (int v = 0; v < 3; ++v) at.barycentric[v] = t[v] == node ? 1 : 0;
-    return {model_.rest[node], work_.surface.normal(at)};
+    return {organ_.rest[node], work_.bodies[haptic::BodyId(0)].place_of(at).normal};
   }
   void put(std::size_t tool, const Vec3& tip, const Vec3& normal) {
     inputs_[tool] = {true, false, {tip, geometry::rotation_onto(Vec3::UnitZ(), normal)}, 0};
@@ -147,6 +146,7 @@ class Run {
   haptic::StepResult result;
 
  private:
+  const haptic::ElasticSurface& organ_;
   const haptic::HapticModel& model_;
   haptic::HapticState state_;
   haptic::HapticWorkspace work_;
@@ -162,7 +162,7 @@ T at_share(std::vector<T>& values, double share) {
 }
 
 // Two mobile nodes about 5 cm apart, away from the support (which is at the smallest x).
-std::array<SurfaceId, 2> two_nodes(const haptic::HapticModel& model) {
+std::array<SurfaceId, 2> two_nodes(const haptic::ElasticSurface& model) {
   std::array<SurfaceId, 2> best{SurfaceId(0), SurfaceId(0)};
   double lowest = model.rest[0].x(), highest = lowest, off = 1;
   for (const Vec3& p : model.rest) lowest = std::min(lowest, p.x()), highest = std::max(highest, p.x());
@@ -210,7 +210,7 @@ void compare(const std::string& smallest, const std::string& largest, const std:
 
 Figures drift(const haptic::HapticModel& model) {
   Run run(model);
-  const auto nodes = two_nodes(model);
+  const auto nodes = two_nodes(model.organs.front());
   const std::array<Place, 2> places = {run.place_at(nodes[0]), run.place_at(nodes[1])};
   std::vector<std::int64_t> ns;
   std::vector<int> touched, near, contacts;
@@ -258,8 +258,8 @@ double first_touch(const haptic::HapticModel& model) {
   while (static_cast<int>(ns.size()) < kColdTouches) {
     std::array<Place, 2> places;
     for (Place& place : places)
-      place = run.place_at(
-          SurfaceId(static_cast<std::int32_t>(random() % static_cast<unsigned>(model.surface.mobile_count))));
+      place = run.place_at(SurfaceId(static_cast<std::int32_t>(
+          random() % static_cast<unsigned>(model.organs.front().surface.mobile_count))));
     for (std::size_t t = 0; t < 2; ++t)
       run.put(t, places[t].point + 0.002 * places[t].normal, places[t].normal);
     run.relocate();
@@ -292,7 +292,7 @@ int main(int argc, char** argv) {
     organ::Organ organ = prepare(std::move(mesh));
     std::printf(", %d mobile surface nodes\n", organ.surface.mobile_count);
     const haptic::HapticModel model = make_model(organ);
-    haptic::warm_up(model.compliance);  // as the node does: pages are mapped, caches are not warm
+    haptic::warm_up(model);  // as the node does: pages are mapped, caches are not warm
     all.push_back(drift(model));
     names.push_back(organ.name);
     add(organ.name, all.back(), first_touch(model), results);

@@ -15,18 +15,31 @@ void drop_contacts(HapticState& state, Predicate&& gone) {
   state.contact_count = static_cast<int>(end - active.begin());
 }
 
-/// There is room for every point of every tool (require_solvable).
-inline ToolContact& add_contact(HapticState& state, std::int32_t tool, std::int32_t point) {
+/// There is room for every point of every tool (require_solvable), but not on each of several bodies: then
+/// one that only lies near makes room, to be found again. Nothing where all are needed.
+inline ToolContact* add_contact(HapticState& state, std::int32_t tool, std::int32_t point, BodyId body) {
+  if (state.contact_count == physics::kMaxContacts) {
+    const auto idle = std::ranges::find_if(state.active(), [](const ToolContact& contact) {
+      return !contact.touches() && !contact.grasped && contact.sunken_m == 0;
+    });
+    if (idle == state.active().end()) return nullptr;
+    *idle = {.tool = tool, .point = point, .body = body};
+    return &*idle;
+  }
   ToolContact& contact = state.contacts[state.contact_count++];
-  contact = ToolContact{};
-  contact.tool = tool;
-  contact.point = point;
-  return contact;
+  contact = {.tool = tool, .point = point, .body = body};
+  return &contact;
+}
+
+/// The contact holds another material point, or the same one where it is by now.
+inline void hold(const SurfacePoint& point, ToolContact& contact, Body& body) {
+  contact.held = point;
+  contact.place = body.place_of(point);
 }
 
 /// A tool's point as the contact sees it: less the depth that is no press.
 inline Vec3 at_the_surface(const ToolContact& contact, std::span<const Vec3> points) {
-  return points[contact.point] + contact.sunken_m * contact.normal;
+  return points[contact.point] + contact.sunken_m * contact.place.normal;
 }
 
 /// The same where the surface that bears all tools' forces is met.
@@ -35,9 +48,9 @@ inline Vec3 with_the_others(const ToolContact& contact, std::span<const Vec3> po
 }
 
 /// How deep the tool's point is below its material point, along the normal, m.
-inline double depth_of(const HapticState& state, const ToolContact& contact, DeformedSurface& surface) {
+inline double depth_of(const HapticState& state, const ToolContact& contact) {
   const Vec3 p = state.tools[contact.tool].now[contact.point] + contact.other_dents;
-  return (surface.position(contact.held) - p).dot(contact.normal);
+  return (contact.place.position - p).dot(contact.place.normal);
 }
 
 }  // namespace omentum::haptic

@@ -7,11 +7,12 @@
 namespace omentum::haptic {
 
 /// A message with room for every node that one tool can touch: filling it allocates nothing.
-msg::Contact make_contact_message(std::uint32_t tool_id);
+msg::Contact make_contact_message(std::uint32_t tool_id, std::uint32_t organ);
 
-/// This tool's forces, and what all tools together move its nodes by: u_A = C_AA f_A. Pinned nodes, which
-/// nothing moves, are left out. No allocation on a message from make_contact_message.
-void fill_contact_message(const HapticModel& model, std::int32_t tool, const ToolOutput& output,
-                          const HapticState& state, HapticWorkspace& work, msg::Contact& message) noexcept;
+/// This tool's forces on one organ (message.organ), and what all tools together move its nodes by: u_A = C_AA
+/// f_A. Pinned nodes, which nothing moves, are left out. No allocation on a message from
+/// make_contact_message.
+void fill_contact_message(std::int32_t tool, const ToolOutput& output, const HapticState& state,
+                          Bodies& bodies, msg::Contact& message) noexcept;
 
 }  // namespace omentum::haptic

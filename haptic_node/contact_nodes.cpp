@@ -15,10 +15,9 @@ constexpr std::uint64_t kKeepTicks = 50;
 constexpr double kOwnPart = 0.75;
 }  // namespace
 
-ContactNodes::ContactNodes(const geometry::Surface& surface, const physics::SurfaceCompliance& compliance)
-    : surface_(surface),
-      compliance_(compliance),
-      slot_of_node_(static_cast<std::size_t>(compliance.mobile_count()), -1),
+ContactNodes::ContactNodes(const NodeCompliance& compliance, std::int32_t mobile_nodes)
+    : compliance_(compliance),
+      slot_of_node_(static_cast<std::size_t>(mobile_nodes), -1),
       memory_(kSlots * kPitch + kStride, 0.0f) {
   constexpr std::size_t kLine = 64;
   void* begin = memory_.data();
@@ -52,35 +51,22 @@ void ContactNodes::gather(int slot) noexcept {
   for (int s = 0; s < kSlots; ++s) {
     if (!slots_[s].node.valid()) continue;
     // C is symmetric as a whole: the new column serves both blocks
-    const Eigen::Matrix3f C_nk = compliance_.block(slots_[s].node, k).cast<float>();
+    const Eigen::Matrix3f C_nk = compliance_.block(slots_[s].node, k);
     Eigen::Map<Eigen::Matrix3f>(blocks_ + s * kPitch + slot * kStride) = C_nk;
     Eigen::Map<Eigen::Matrix3f>(blocks_ + slot * kPitch + s * kStride) = C_nk.transpose();
   }
 }
 
 double ContactNodes::find_own_compliance(int slot) noexcept {
-  const SurfaceId n = slots_[slot].node;
-  const auto mean = [&](SurfaceId k) { return compliance_.block(n, k).cast<double>().trace() / 3; };
-  double around = 0;
-  int count = 0;
-  for (const TriangleId t : surface_.triangles_of(n)) {
-    for (const SurfaceId k : surface_.triangles[t]) {
-      if (k == n) continue;
-      if (k < surface_.mobile_count) around += mean(k);
-      ++count;
-    }
-  }
-  return slots_[slot].own = kOwnPart * std::max(0.0, mean(n) - around / count);
+  return slots_[slot].own = kOwnPart * compliance_.beyond_neighbours(slots_[slot].node);
 }
 
-Share share_of(const geometry::Surface& surface, const SurfacePoint& point, ContactNodes& nodes) noexcept {
+Share share_of(const PointNodes& at, ContactNodes& nodes) noexcept {
   Share share;
-  const geometry::Triangle& t = surface.triangles[point.triangle];
-  for (int v = 0; v < 3; ++v) {
-    if (t[v] >= surface.mobile_count || point.barycentric[v] <= 0) continue;
-    share.slot[share.count] = nodes.slot_of(t[v]);
-    share.weight[share.count] = point.barycentric[v];
-    ++share.count;
+  for (int v = 0; v < at.count; ++v) {
+    if (at.weight[v] <= 0) continue;
+    share.slot[share.count] = nodes.slot_of(at.node[v]);
+    share.weight[share.count++] = at.weight[v];
   }
   return share;
 }

@@ -1,12 +1,31 @@
 // C_AA of the nodes in contact, kept between ticks: only nodes that enter are gathered.
 #pragma once
 
+#include "geometry/types.h"
 #include "haptic_node/cluster_kernels.h"
-#include "haptic_node/deformed_surface.h"
+#include "physics/contact_problem.h"
 
 #include <vector>
 
 namespace omentum::haptic {
+
+using geometry::SurfaceId;
+using geometry::Vec3;
+
+/// The compliance between nodes of a body.
+class NodeCompliance {
+ public:
+  NodeCompliance() = default;
+  virtual ~NodeCompliance() = default;
+  NodeCompliance(const NodeCompliance&) = delete;
+  NodeCompliance& operator=(const NodeCompliance&) = delete;
+
+  /// C_nk of two mobile nodes, m/N: C_kn^T.
+  virtual Eigen::Matrix3f block(SurfaceId n, SurfaceId k) const noexcept = 0;
+  /// What a force on a mobile node moves it beyond its neighbours, as a scalar, m/N: a third of the trace of
+  /// C_nn less the neighbours' mean C_nk; never negative.
+  virtual double beyond_neighbours(SurfaceId n) const noexcept = 0;
+};
 
 /// Slots for contact nodes with the 3x3 blocks between all of them. A node that left keeps its slot for some
 /// ticks, so that a contact that slides back and forth over an edge gathers nothing.
@@ -14,9 +33,9 @@ namespace omentum::haptic {
 /// No allocation after construction. One thread at a time. The compliance must outlive it.
 class ContactNodes {
  public:
-  static constexpr int kSlots = DeformedSurface::kMaxForces;
+  static constexpr int kSlots = 3 * physics::kMaxContacts;  // a contact shares its force among three nodes
 
-  ContactNodes(const geometry::Surface& surface, const physics::SurfaceCompliance& compliance);
+  ContactNodes(const NodeCompliance& compliance, std::int32_t mobile_nodes);
 
   /// Begins a tick: slots that are asked for from now on stay until the next one.
   void begin_tick() noexcept { ++tick_; }
@@ -28,9 +47,8 @@ class ContactNodes {
     return slot;
   }
 
-  /// What a force on the node moves it beyond its neighbours, three quarters of it, m/N: the dent's part that
-  /// belongs to the tool which makes it (own_compliance below). Scalar: a third of the trace of C_nn less
-  /// the fan's mean C_nk. Of nodes without mobile neighbours too; never negative.
+  /// Three quarters of what a force on the node moves it beyond its neighbours, m/N: the dent's part that
+  /// belongs to the tool which makes it (own_compliance below).
   double own_compliance(int slot) noexcept {
     const double own = slots_[slot].own;
     return own >= 0 ? own : find_own_compliance(slot);
@@ -62,8 +80,7 @@ class ContactNodes {
     double own = -1;         // own_compliance, m/N; negative: not known yet
   };
 
-  const geometry::Surface& surface_;
-  const physics::SurfaceCompliance& compliance_;
+  const NodeCompliance& compliance_;
   std::uint64_t tick_ = 0;
   std::array<Slot, kSlots> slots_;
   std::vector<std::int16_t> slot_of_node_;  // [mobile], -1
@@ -71,15 +88,22 @@ class ContactNodes {
   float* blocks_;  // [kSlots][kSlots][16], on cache lines
 };
 
-/// A contact's share of three nodes: where a force at a material point acts, pinned vertices left out.
+/// The mobile nodes that share a force at a material point, and their weights in it.
+struct PointNodes {
+  std::array<SurfaceId, 3> node;
+  Vec3 weight = Vec3::Zero();
+  int count = 0;
+};
+
+/// The same by slots, without those of no weight.
 struct Share {
   std::array<int, 3> slot;
   Vec3 weight;
   int count = 0;
 };
 
-/// The share of a material point; asks for its vertices' slots.
-Share share_of(const geometry::Surface& surface, const SurfacePoint& point, ContactNodes& nodes) noexcept;
+/// Asks for the nodes' slots.
+Share share_of(const PointNodes& at, ContactNodes& nodes) noexcept;
 
 /// W_ij = sum_a sum_b k_a k_b C_ab over the vertices a of one contact and b of the other, m/N.
 void find_compliance(const ContactNodes& nodes, const Share& i, const Share& j, Eigen::Matrix3d& W) noexcept;

@@ -13,7 +13,7 @@ double put_in(const ToolContact& contact, const Vec3& before, const Vec3& way, d
 
 // What friction takes: the material point will go on by the gap that is left along the surface.
 double rubbed(const ToolContact& contact, const Vec3& gap) {
-  const Vec3 along = contact.force - contact.force.dot(contact.normal) * contact.normal;
+  const Vec3 along = contact.force - contact.force.dot(contact.place.normal) * contact.place.normal;
   return std::max(0.0, along.dot(gap));
 }
 

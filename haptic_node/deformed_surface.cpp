@@ -28,8 +28,9 @@ static_assert(std::endian::native == std::endian::little);
 }  // namespace
 
 DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
-                                 const physics::SurfaceCompliance& compliance)
-    : surface_(surface),
+                                 const physics::SurfaceCompliance& compliance, const BodyOrigin& origin)
+    : Body(origin, compliance.mobile_count()),
+      surface_(surface),
       rest_(rest),
       compliance_(compliance),
       clusters_(compliance.cluster_count()),
@@ -139,6 +140,20 @@ double DeformedSurface::motion_bound(const SurfacePoint& point) const noexcept {
   for (int i = 0; i < change_.count; ++i)
     sum += change_.sizes_n[i] * compliance_.bounds(change_.nodes[i])[*mobile / kClusterSize];
   return sum;
+}
+
+double DeformedSurface::beyond_neighbours(SurfaceId n) const noexcept {
+  const auto mean = [&](SurfaceId k) { return compliance_.block(n, k).trace() / 3; };
+  double around = 0;
+  int count = 0;
+  for (const TriangleId t : surface_.triangles_of(n)) {
+    for (const SurfaceId k : surface_.triangles[t]) {
+      if (k == n) continue;
+      if (k < surface_.mobile_count) around += mean(k);
+      ++count;
+    }
+  }
+  return std::max(0.0, mean(n) - around / count);
 }
 
 void DeformedSurface::accept() noexcept {

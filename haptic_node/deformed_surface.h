@@ -1,34 +1,11 @@
-// The surface the hand touches: this tick's own superposition, exact wherever a tool can be.
+// An organ as the hand touches it: this tick's own superposition, exact wherever a tool can be.
 #pragma once
 
 #include "geometry/bucket_grid.h"
+#include "haptic_node/body.h"
 #include "physics/surface_compliance.h"
 
-#include <optional>
-#include <span>
-#include <vector>
-
 namespace omentum::haptic {
-
-using geometry::SurfaceId;
-using geometry::TriangleId;
-using geometry::Vec3;
-
-/// A material point of the surface: a triangle and barycentric coordinates in it.
-struct SurfacePoint {
-  TriangleId triangle;
-  Vec3 barycentric = Vec3::Zero();
-};
-
-/// Where something enters the organ: the parameter along the segment and the material point.
-struct Entry {
-  double parameter;
-  SurfacePoint point;
-};
-
-struct Region {
-  Vec3 low, high;  // m, in W
-};
 
 /// The organ's surface under the forces of the last solve: x = X + C_:A f_A (Cotin 1999, eq. 9 in force
 /// form).
@@ -40,68 +17,61 @@ struct Region {
 /// Cotin's bucket grid.
 ///
 /// No allocation after construction. One thread at a time. Surface, positions and compliance must outlive it.
-class DeformedSurface {
+class DeformedSurface final : public Body {
  public:
-  /// Nodes that may carry a force at a time.
-  static constexpr int kMaxForces = 96;
-
-  /// How far around a region the surface is made exact, m. Tissue that passes over a resting point goes less
-  /// far in one tick (2 m/s at 1 kHz); a point that is deeper came there otherwise (see immersion()).
-  static constexpr double kReach_m = 2e-3;
-
   DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
-                  const physics::SurfaceCompliance& compliance);
+                  const physics::SurfaceCompliance& compliance, const BodyOrigin& origin = {});
 
-  /// The organ at rest, whatever was there: no forces, nothing remembered. No allocation.
-  void restore_rest() noexcept;
-
-  /// The forces from now on: `nodes` mobile and distinct, at most kMaxForces, `forces` in N. Once per tick.
+  void restore_rest() noexcept override;
+  /// What may follow and that it does in one step.
   void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
     propose(nodes, forces);
     accept();
   }
-
-  /// The same in two steps: what may follow, any number of times, and that it does.
-  void propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept;
-  void accept() noexcept;
-  /// How far at most the triangle of a material point goes by what was proposed, m.
-  double motion_bound(const SurfacePoint& point) const noexcept;
+  void propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept override;
+  void accept() noexcept override;
+  /// Holds for the point's whole triangle.
+  double motion_bound(const SurfacePoint& point) const noexcept override;
+  Eigen::Matrix3f block(SurfaceId n, SurfaceId k) const noexcept override {
+    return compliance_.block(n, k).cast<float>();
+  }
+  /// Neighbours: of its fan, held ones too.
+  double beyond_neighbours(SurfaceId n) const noexcept override;
 
   /// Makes exact every cluster of which a triangle may be within kReach_m of the region.
-  void evaluate(const Region& region) noexcept;
+  void evaluate(const Region& region) noexcept override;
 
-  /// Exact positions, m; the node's cluster is evaluated when it was not.
-  const Vec3& position(SurfaceId node) noexcept {
+  /// The node's cluster is evaluated when it was not.
+  const Vec3& position(SurfaceId node) noexcept override {
     ensure(node / geometry::kClusterSize);
     return positions_[node];
   }
-  Vec3 position(const SurfacePoint& point) noexcept {
+  Vec3 position(const SurfacePoint& point) noexcept override {
     const geometry::Triangle& t = surface_.triangles[point.triangle];
     const Vec3& k = point.barycentric;
     return k[0] * position(t[0]) + k[1] * position(t[1]) + k[2] * position(t[2]);
   }
-  /// Rest position X of a material point, m.
+  Place place_of(const SurfacePoint& point) noexcept override {
+    return {position(point), rest_position(point), normal(point), nodes_at(point)};
+  }
   Vec3 rest_position(const SurfacePoint& point) const noexcept {
     const geometry::Triangle& t = surface_.triangles[point.triangle];
     const Vec3& k = point.barycentric;
     return k[0] * rest_[t[0]] + k[1] * rest_[t[1]] + k[2] * rest_[t[2]];
   }
+  std::optional<SurfacePoint> nearest_at_rest(const Vec3& p, double reach_m) noexcept override;
+  double longest_edge(SurfaceId node) const noexcept override { return longest_edge_[node]; }
 
-  /// Of those that meet in the node, at rest, m.
-  double longest_edge(SurfaceId node) const noexcept { return longest_edge_[node]; }
-
-  /// The direction in which tissue pushes at a material point, unit, outward: rest normals of the triangle's
-  /// vertices (area-weighted over their fans), interpolated, so that it is continuous across edges. Of the
-  /// rest shape on purpose: linear elasticity states equilibrium there, and under a sharp tool it dips into a
-  /// funnel one edge wide whose walls are no surface to lean on (with the normals of the deformed shape
-  /// forces on a fine mesh flickered between two directions from tick to tick).
+  /// Rest normals of the triangle's vertices (area-weighted over their fans), interpolated, so that it is
+  /// continuous across edges. Of the rest shape on purpose: linear elasticity states equilibrium there, and
+  /// under a sharp tool it dips into a funnel one edge wide whose walls are no surface to lean on (with the
+  /// normals of the deformed shape forces on a fine mesh flickered between two directions from tick to tick).
   Vec3 normal(const SurfacePoint& point) const noexcept;
 
-  /// How much tissue something at p that presses a material point in has before it, straight in from the
-  /// point's nearest vertex: the way to the surface on the other side over the thickness at rest; about 1
-  /// while nothing is squeezed, however far the organ is bent. Asked for p beyond where the other side is at
-  /// rest only: elsewhere 1, without a look at it.
-  double tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept;
+  /// Straight in from the point's nearest vertex: the way to the surface on the other side over the thickness
+  /// at rest; about 1 while nothing is squeezed, however far the organ is bent. Asked for p beyond where the
+  /// other side is at rest only: elsewhere 1, without a look at it.
+  double tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept override;
 
   /// The first place where the segment p -> q, inside an evaluated region, passes a triangle from outside to
   /// inside. Looks through every bucket that it crosses.
@@ -111,42 +81,18 @@ class DeformedSurface {
   /// deep.
   std::optional<SurfacePoint> nearest_if_inside(const Vec3& p, double reach_m) noexcept;
 
-  /// Where a point that did not come by moving is inside the organ.
-  struct Immersion {
-    SurfacePoint nearest;  // of all the surface
-    double depth_m;
-  };
-  /// Nothing when p is outside, or deeper than `reach_m`. Evaluates what it needs around p: microseconds to a
-  /// millisecond, for the tick in which a tool appears.
-  std::optional<Immersion> immersion(const Vec3& p, double reach_m) noexcept;
+  std::optional<Immersion> immersion(const Vec3& p, double reach_m) noexcept override;
+  Encounter meet(const Vec3& p, const Vec3& q, double radius_m, bool outside = true) noexcept override;
 
-  /// What a point that went from p to q, inside an evaluated region, met on its way. `outside`: at p, before
-  /// the last set_forces; else what the surface did there says nothing.
-  struct Encounter {
-    /// Where it touches: where the surface passed over it by the last set_forces (then p is inside, no deeper
-    /// than anything near moved), else its first entry.
-    std::optional<SurfacePoint> touched;
-    /// How far q is from the surface, m; the radius asked for where that is farther.
-    double clearance_m;
-    /// The surface point nearest to q; nothing where that is farther than the radius, or q is inside.
-    std::optional<SurfacePoint> nearest;
-  };
-  /// `radius_m`: at most kReach_m, and as much more as p and q are inside of the region.
-  Encounter meet(const Vec3& p, const Vec3& q, double radius_m, bool outside = true) noexcept;
+  double known_motion() const noexcept override { return known_motion_; }
+  double entered_motion() const noexcept override { return entered_motion_; }
 
-  /// How far at most the last set_forces moved anything that was exact before it and is exact now, m.
-  double known_motion() const noexcept { return known_motion_; }
-  /// The same for what is exact now and was not before: it was out of reach then.
-  double entered_motion() const noexcept { return entered_motion_; }
+  /// From triangle to touching triangle: sliding without search.
+  SurfacePoint slide(const SurfacePoint& from, const Vec3& p) noexcept override;
 
-  /// The closest material point to p that is reached from `from` by going from triangle to touching
-  /// triangle, always nearer: sliding without search.
-  SurfacePoint slide(const SurfacePoint& from, const Vec3& p) noexcept;
-
-  /// Nodes that carry a force.
-  int loaded_nodes() const noexcept { return static_cast<int>(nodes_.size()); }
-  /// Nodes superposed since the last set_forces.
-  int evaluated_nodes() const noexcept { return evaluated_clusters_ * geometry::kClusterSize; }
+  int loaded_nodes() const noexcept override { return static_cast<int>(nodes_.size()); }
+  /// Whole clusters.
+  int evaluated_nodes() const noexcept override { return evaluated_clusters_ * geometry::kClusterSize; }
 
   const geometry::Surface& surface() const noexcept { return surface_; }
 
@@ -184,6 +130,7 @@ class DeformedSurface {
   void bin_pending() noexcept;
   template <class Visit>
   void visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept;
+  PointNodes nodes_at(const SurfacePoint& point) const noexcept;
   Corners stored_corners(TriangleId triangle) const noexcept;
   void find_normals();
   void find_longest_edges();

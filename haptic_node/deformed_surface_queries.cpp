@@ -147,6 +147,23 @@ Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
                     : area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]).normalized();
 }
 
+PointNodes DeformedSurface::nodes_at(const SurfacePoint& point) const noexcept {
+  const geometry::Triangle& t = surface_.triangles[point.triangle];
+  PointNodes nodes;
+  for (int v = 0; v < 3; ++v) {
+    if (t[v] >= surface_.mobile_count) continue;
+    nodes.node[nodes.count] = t[v];
+    nodes.weight[nodes.count++] = point.barycentric[v];
+  }
+  return nodes;
+}
+
+std::optional<SurfacePoint> DeformedSurface::nearest_at_rest(const Vec3& p, double reach_m) noexcept {
+  const auto nearest = grid_.nearest(p, reach_m, rest_);
+  if (!nearest) return std::nullopt;
+  return SurfacePoint{nearest->triangle, nearest->barycentric};
+}
+
 std::optional<Entry> DeformedSurface::first_entry(const Vec3& p, const Vec3& q) noexcept {
   EntrySearch entry{p, q};
   visit_near(p, q, 0, [&](TriangleId triangle) { entry.look_at(triangle, stored_corners(triangle)); });
@@ -161,7 +178,7 @@ std::optional<SurfacePoint> DeformedSurface::nearest_if_inside(const Vec3& p, do
   return nearest.found;
 }
 
-std::optional<DeformedSurface::Immersion> DeformedSurface::immersion(const Vec3& p, double reach_m) noexcept {
+std::optional<Immersion> DeformedSurface::immersion(const Vec3& p, double reach_m) noexcept {
   for (double reach = std::min(kReach_m, reach_m);; reach = std::min(2 * reach, reach_m)) {
     evaluate({p.array() - reach, p.array() + reach});
     bin_pending();
@@ -174,8 +191,7 @@ std::optional<DeformedSurface::Immersion> DeformedSurface::immersion(const Vec3&
   }
 }
 
-DeformedSurface::Encounter DeformedSurface::meet(const Vec3& p, const Vec3& q, double radius_m,
-                                                 bool outside) noexcept {
+Encounter DeformedSurface::meet(const Vec3& p, const Vec3& q, double radius_m, bool outside) noexcept {
   // what was out of reach before the last step passed over p only if it moved that far
   const double moved = entered_motion_ < kReach_m ? known_motion_ : kReach_m;
   const double reach = std::min(moved, kReach_m - kRounding_m) + kRounding_m;

@@ -19,6 +19,10 @@ constexpr std::int64_t kListen_ns = 1'000'000'000;
 // Contacts for picture and organ, which are slower; changes are told at once.
 constexpr std::int64_t kContactPeriod_ns = 4'000'000;
 
+// An organ that a tool has left is told so for this long: deform_node lets a contact of which nothing came
+// for 0.1 s fade by itself.
+constexpr std::int64_t kTellOfNone_ns = 200'000'000;
+
 constexpr std::chrono::milliseconds kStatusPeriod{100};
 
 // A tick never counts for longer than this: after a stall forces go on from where they were, s.
@@ -52,13 +56,15 @@ HapticLoop::HapticLoop(const HapticOptions& options, const transport::OpenBus& o
   }
   for (const std::uint32_t id : setup_.tool_ids) {
     lines_.push_back(std::make_unique<ToolLine>(id, setup_.limits, faults_));
-    contacts_.push_back(make_contact_message(id));
   }
   inputs_.resize(lines_.size());
   outputs_.resize(lines_.size());
   fresh_.resize(lines_.size());
-  touched_.resize(lines_.size());
   grasped_.resize(lines_.size());
+  for (const std::uint32_t id : setup_.tool_ids) {
+    for (std::size_t organ = 0; organ < setup_.model.organs.size(); ++organ)
+      contacts_.push_back({make_contact_message(id, static_cast<std::uint32_t>(organ))});
+  }
   answered_ns_.resize(lines_.size());
   connect(open_bus);
 }
@@ -132,11 +138,11 @@ void HapticLoop::tell(const Dispute& dispute) {
 // ---- the loop's thread
 
 void HapticLoop::run() {
-  const std::jthread warm([this](const std::stop_token& stop) { warm_up(setup_.model.compliance, stop); });
+  const std::jthread warm([this](const std::stop_token& stop) { warm_up(setup_.model, stop); });
   statuses_ = loop_.beside(kStatusPeriod, [this, from_ns = loop_.now_ns() + kListen_ns] {
     if (loop_.now_ns() >= from_ns) publish_status();
   });
-  grant_ = runtime::request_realtime(runtime::kHandLoopPriority, tensor_bytes(setup_.model.compliance));
+  grant_ = runtime::request_realtime(runtime::kHandLoopPriority, tensor_bytes(setup_.model));
   if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
   serve_from_ns_ = loop_.now_ns() + kListen_ns;
   while (loop_.wait() != runtime::Pace::Cause::kStopped) {
@@ -173,7 +179,7 @@ void HapticLoop::obey() noexcept {
   if (orders_.take_clear_fault()) {
     for (const auto& line : lines_) line->clear_fault();
     let_go_of_everything(state_);
-    work_.surface.restore_rest();
+    work_.bodies.for_each([](BodyId, Body& body) { body.restore_rest(); });
   }
   if (!orders_.take_reset()) return;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -209,23 +215,38 @@ void HapticLoop::note(std::size_t line, const msg::ToolForce& force) noexcept {
 }
 
 void HapticLoop::publish_contacts(std::int64_t now_ns) noexcept {
+  const std::size_t organs = setup_.model.organs.size();
   bool changed = false;
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    changed |= touched_[i] != (outputs_[i].touching > 0) || grasped_[i] != outputs_[i].grasping;
+  std::ranges::for_each(contacts_, [](TouchedOrgan& touched) { touched.now = false; });
+  for (const NodeForce& entry : state_.forces()) {
+    const std::uint32_t organ = work_.bodies[entry.body].origin().organ;
+    contacts_[static_cast<std::size_t>(entry.tool) * organs + organ].now = true;
   }
+  for (const TouchedOrgan& touched : contacts_) changed |= touched.now != touched.told;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) changed |= grasped_[i] != outputs_[i].grasping;
   if (!changed && now_ns < contacts_due_ns_) return;
   contacts_due_ns_ = now_ns + kContactPeriod_ns;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (!serves(i)) continue;
-    msg::Contact& contact = contacts_[i];
-    ++contact.seq;
-    contact.tick = ticks_;
-    contact.cause = lines_[i]->echo();
-    fill_contact_message(setup_.model, static_cast<std::int32_t>(i), outputs_[i], state_, work_, contact);
-    contact_writer_->write(contact);
-    touched_[i] = outputs_[i].touching > 0;
+    for (std::size_t organ = 0; organ < organs; ++organ)
+      publish_contact(i, contacts_[i * organs + organ], organ == 0, now_ns);
     grasped_[i] = outputs_[i].grasping;
   }
+}
+
+// The first organ hears of every tool, touched or not; the others while they are, and then for so long that
+// they cannot miss that it ended.
+void HapticLoop::publish_contact(std::size_t line, TouchedOrgan& touched, bool always,
+                                 std::int64_t now_ns) noexcept {
+  touched.told = touched.now;
+  if (touched.now) touched.told_until_ns = now_ns + kTellOfNone_ns;
+  if (!always && now_ns >= touched.told_until_ns) return;
+  msg::Contact& contact = touched.message;
+  ++contact.seq;
+  contact.tick = ticks_;
+  contact.cause = lines_[line]->echo();
+  fill_contact_message(static_cast<std::int32_t>(line), outputs_[line], state_, work_.bodies, contact);
+  contact_writer_->write(contact);
 }
 
 void HapticLoop::account() noexcept {

@@ -53,11 +53,19 @@ class HapticLoop {
     std::array<msg::Echo, msg::MAX_TOOLS> echoes;
   };
 
+  // what a tool does to an organ, and whether the organ was told
+  struct TouchedOrgan {
+    msg::Contact message;
+    bool now = false, told = false;
+    std::int64_t told_until_ns = 0;
+  };
+
   void connect(const transport::OpenBus& open_bus);
   void tick(std::int64_t now_ns) noexcept;
   void obey() noexcept;
   void answer(std::int64_t now_ns, double dt_s) noexcept;
   void publish_contacts(std::int64_t now_ns) noexcept;
+  void publish_contact(std::size_t line, TouchedOrgan& touched, bool always, std::int64_t now_ns) noexcept;
   void account() noexcept;
   void note(std::size_t line, const msg::ToolForce& force) noexcept;
 
@@ -86,8 +94,8 @@ class HapticLoop {
   std::vector<ToolOutput> outputs_;
   std::vector<bool> fresh_;
   std::vector<std::int64_t> answered_ns_;
-  std::vector<msg::Contact> contacts_;
-  std::vector<bool> touched_, grasped_;  // at the last publication
+  std::vector<TouchedOrgan> contacts_;  // [tools][organs]
+  std::vector<bool> grasped_;           // at the last publication
   StepResult result_;
   std::uint64_t ticks_ = 0, ticks_in_contact_ = 0, force_samples_ = 0;
   std::int64_t last_tick_ns_ = 0, serve_from_ns_ = 0, contacts_due_ns_ = 0;

@@ -18,15 +18,21 @@ HapticState::HapticState(const HapticModel& model) {
     ToolState state;
     state.before.assign(tool.points.size(), Vec3::Zero());
     state.now = state.before;
-    state.memory.resize(tool.points.size());
+    state.memories.resize(model.place_count() * tool.points.size());
     tools.push_back(std::move(state));
   }
   energies.resize(tools.size());
 }
 
 HapticWorkspace::HapticWorkspace(const HapticModel& model)
-    : surface(model.surface, model.rest, model.compliance),
-      nodes(model.surface, model.compliance),
-      works(model.tools.size()) {}
+    : bodies(model.place_count()), works(model.tools.size()) {
+  for (std::size_t i = 0; i < model.organs.size(); ++i) {
+    const ElasticSurface& organ = model.organs[i];
+    const BodyOrigin origin{.organ = static_cast<std::uint32_t>(i), .file_node = organ.file_node};
+    std::unique_ptr<Body> body =
+        std::make_unique<DeformedSurface>(organ.surface, organ.rest, organ.compliance, origin);
+    bodies.exchange(BodyId(i), body);
+  }
+}
 
 }  // namespace omentum::haptic

@@ -1,8 +1,8 @@
 // What the haptic step works on: a constant model, a state that changes, and scratch.
 #pragma once
 
+#include "haptic_node/bodies.h"
 #include "haptic_node/contact_energy.h"
-#include "haptic_node/contact_nodes.h"
 #include "haptic_node/deformed_surface.h"
 #include "haptic_node/spread_contact.h"
 #include "haptic_node/tool_kinematics.h"
@@ -27,25 +27,34 @@ enum class ContactMode {
   kSpread,  // the paper's alpha_v: three imposed nodes per contact (Cotin 1999, section 5)
 };
 
-/// Constant while the node runs; any thread may read.
-struct HapticModel {
+/// A surface that yields linearly: an organ with its force tensors.
+struct ElasticSurface {
   geometry::Surface surface;
   std::vector<Vec3> rest;  // [S] m
   physics::SurfaceCompliance compliance;
   std::vector<std::uint32_t> file_node;  // [S] place in the mesh file, from 0
-  std::vector<ToolModel> tools;          // their points together: at most physics::kMaxContacts
-  double friction = 0;                   // Coulomb coefficient
+};
+
+/// Constant while the node runs; any thread may read.
+struct HapticModel {
+  std::vector<ElasticSurface> organs;  // the scene's, in its order: the bodies that are there from the start
+  std::vector<ToolModel> tools;        // their points together: at most physics::kMaxContacts
+  double friction = 0;                 // Coulomb coefficient
   ContactMode mode = ContactMode::kPoint;
+  std::size_t spare_places = 0;  // for bodies that come while the node runs
+
+  std::size_t place_count() const { return organs.size() + spare_places; }
 };
 
 /// Throws std::runtime_error when the tools have more points than contacts can be solved for, or none.
 void require_solvable(const std::vector<ToolModel>& tools);
 
-/// One tool's point and the material point that it holds.
+/// One tool's point and the material point that it holds, one of each body at most.
 struct ToolContact {
   std::int32_t tool = 0, point = 0;
-  SurfacePoint held;
-  Vec3 normal = Vec3::UnitZ();      // outward at the material point
+  BodyId body;
+  SurfacePoint held{};
+  Place place{};                    // of what is held, as follow_surface saw it in this tick
   Vec3 force = Vec3::Zero();        // lambda, on the tissue, N
   Vec3 offset = Vec3::Zero();       // gap that a grasp keeps, m
   Vec3 other_dents = Vec3::Zero();  // other tools' own dents here, which it does not meet (other_tools.h), m
@@ -56,18 +65,19 @@ struct ToolContact {
   bool touches() const { return !force.isZero(0); }
 };
 
-/// A force on a surface node, by one tool: opposite to what the hand feels of it.
+/// A force on a body's node, by one tool: opposite to what the hand feels of it.
 struct NodeForce {
+  BodyId body;
   SurfaceId node;
   std::int32_t tool;
   Vec3 force;                // on the tissue, N
   Vec3 dent = Vec3::Zero();  // the tool's own, by the model (see other_tools.h), m
 };
 
-/// What is known of a tool's point that holds no contact.
+/// What is known of a tool's point that holds no contact with a body.
 struct PointMemory {
   double clearance_m = 0;  // how far it is from the surface at least
-  // inside the organ without having come in: it feels nothing until it was outside
+  // inside the body without having come in: it feels nothing until it was outside
   bool adrift = false;
   std::uint8_t ask_in = 0;      // ticks until it is asked where the point is; 0: nobody asks
   Vec3 way_out = Vec3::Zero();  // the normal of the contact that it lost; zero: any way
@@ -77,14 +87,18 @@ struct ToolState {
   bool engaged = false;
   bool let_go = false;  // a contact that carried force was dropped in this tick
   ToolFrame frame;
-  Vec3 tip_way = Vec3::Zero();      // in this tick, m
-  std::vector<Vec3> before, now;    // [P] points at the last tick and at this one, in W
-  std::vector<PointMemory> memory;  // [P]
-  bool near_others = false;         // it may press nodes that another tool presses
-  double others_m = 0;              // how deep the other tools' own dents around it are at most, m
-  bool opened = false;              // the jaws were open since the last grasp
+  Vec3 tip_way = Vec3::Zero();        // in this tick, m
+  std::vector<Vec3> before, now;      // [P] points at the last tick and at this one, in W
+  std::vector<PointMemory> memories;  // [places of bodies][P]
+  bool near_others = false;           // it may press nodes that another tool presses
+  double others_m = 0;                // how deep the other tools' own dents around it are at most, m
+  bool opened = false;                // the jaws were open since the last grasp
   bool grasping = false;
   std::uint64_t grasp_count = 0;
+
+  PointMemory& memory(BodyId body, std::size_t point) noexcept {
+    return memories[static_cast<std::size_t>(body) * now.size() + point];
+  }
 };
 
 /// Everything that one tick hands to the next.
@@ -96,7 +110,7 @@ struct HapticState {
   std::vector<ContactEnergy> energies;  // [tools]
   std::array<ToolContact, physics::kMaxContacts> contacts;
   int contact_count = 0;
-  std::array<NodeForce, DeformedSurface::kMaxForces> node_forces;  // distinct (node, tool)
+  std::array<NodeForce, Body::kMaxForces> node_forces;  // distinct (body, node, tool)
   int node_force_count = 0;
 
   std::span<ToolContact> active() { return {contacts.data(), static_cast<std::size_t>(contact_count)}; }
@@ -112,8 +126,7 @@ struct HapticState {
 struct HapticWorkspace {
   explicit HapticWorkspace(const HapticModel& model);
 
-  DeformedSurface surface;
-  ContactNodes nodes;
+  Bodies bodies;
   std::vector<ContactWork> works;  // [tools]
   std::array<Share, physics::kMaxContacts> shares;
   // of the contacts, m and N: p - X without and with the tissue's displacement, the last tick's forces, and

@@ -37,40 +37,20 @@ std::vector<ToolModel> make_tools(const runtime::Scene& scene) {
   return tools;
 }
 
-HapticModel make_model(const runtime::Scene& scene, organ::Organ&& organ) {
+ElasticSurface make_surface(organ::Organ&& organ) {
   std::vector<Vec3> rest = geometry::surface_positions(organ.mesh, organ.surface);
   std::vector<std::uint32_t> file_node;
   for (const geometry::NodeId n : organ.surface.node) {
     file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
   }
-  const ContactMode mode = scene.haptics.contact == "spread" ? ContactMode::kSpread : ContactMode::kPoint;
-  return {std::move(organ.surface),
-          std::move(rest),
-          *std::move(organ.compliance),
-          std::move(file_node),
-          make_tools(scene),
-          scene.haptics.friction,
-          mode};
+  return {std::move(organ.surface), std::move(rest), *std::move(organ.compliance), std::move(file_node)};
 }
 
-}  // namespace
-
-HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
-  if (scene.organs.empty()) refuse(scene, "no organ, expected one at least");
-  const std::filesystem::path& file = scene.organs.front().file;
-  if (file.empty())
-    refuse(scene, "organ '" + scene.organs.front().name +
+organ::Organ load(const runtime::Scene& scene, const runtime::OrganSpec& spec) {
+  if (spec.file.empty())
+    refuse(scene, "organ '" + spec.name +
                       "' has no organ file: build one with organ_build and give it with --organ");
-  organ::Organ organ = organ::load_organ(file, organ::Load::kWithTensors);
-  const node::LoadedScene loaded{scene.organs.size(), {{organ.name, organ.hash}}};
-  const runtime::HapticsSpec& h = scene.haptics;
-  HapticSetup setup{
-      make_model(scene, std::move(organ)),
-      {},
-      {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s, h.stale_s, h.decay_s, 1 / rate_hz},
-      loaded};
-  for (const runtime::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
-  return setup;
+  return organ::load_organ(spec.file, organ::Load::kWithTensors);
 }
 
 std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
@@ -78,13 +58,43 @@ std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
          static_cast<std::uint64_t>(compliance.cluster_count()) * physics::SurfaceCompliance::kTileFloats;
 }
 
-void warm_up(const physics::SurfaceCompliance& compliance, const std::stop_token& stop) {
-  const std::uint64_t bytes = tensor_bytes(compliance);
-  if (bytes == 0 || !runtime::may_stay_in_memory(bytes, runtime::memory_limit_bytes())) return;
+}  // namespace
+
+HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
+  if (scene.organs.empty()) refuse(scene, "no organ, expected one at least");
+  const runtime::HapticsSpec& h = scene.haptics;
+  HapticSetup setup;
+  for (const runtime::OrganSpec& spec : scene.organs) {
+    organ::Organ organ = load(scene, spec);
+    setup.scene.organs.push_back({organ.name, organ.hash});
+    setup.model.organs.push_back(make_surface(std::move(organ)));
+  }
+  setup.scene.organ_count = scene.organs.size();
+  setup.model.tools = make_tools(scene);
+  setup.model.friction = h.friction;
+  setup.model.mode = h.contact == "spread" ? ContactMode::kSpread : ContactMode::kPoint;
+  setup.limits = {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s,
+                  h.stale_s,     h.decay_s,       1 / rate_hz};
+  for (const runtime::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
+  return setup;
+}
+
+std::uint64_t tensor_bytes(const HapticModel& model) {
+  std::uint64_t bytes = 0;
+  for (const ElasticSurface& organ : model.organs) bytes += tensor_bytes(organ.compliance);
+  return bytes;
+}
+
+void warm_up(const HapticModel& model, const std::stop_token& stop) {
+  if (!runtime::may_stay_in_memory(tensor_bytes(model), runtime::memory_limit_bytes())) return;
   const auto page_floats = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / sizeof(float);
-  const volatile float* begin = compliance.tile(physics::SurfaceId(0), 0);
-  for (std::uint64_t i = 0; i < bytes / sizeof(float) && !stop.stop_requested(); i += page_floats)
-    static_cast<void>(begin[i]);
+  for (const ElasticSurface& organ : model.organs) {
+    const std::uint64_t bytes = tensor_bytes(organ.compliance);
+    if (bytes == 0) continue;
+    const volatile float* begin = organ.compliance.tile(physics::SurfaceId(0), 0);
+    for (std::uint64_t i = 0; i < bytes / sizeof(float) && !stop.stop_requested(); i += page_floats)
+      static_cast<void>(begin[i]);
+  }
 }
 
 }  // namespace omentum::haptic

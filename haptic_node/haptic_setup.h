@@ -18,17 +18,17 @@ struct HapticSetup {
   node::LoadedScene scene;
 };
 
-/// The first organ of the scene, which is the one that tools touch, with all its tools. Throws
-/// std::runtime_error (scene without organ, organ file or tools, more points than can be solved) or
-/// geometry::InputError (organ file). `rate_hz`: the loop's nominal rate.
+/// All organs of the scene and all its tools. Throws std::runtime_error (scene without organ, organ file or
+/// tools, more points than can be solved) or geometry::InputError (organ file). `rate_hz`: the loop's nominal
+/// rate.
 HapticSetup make_setup(const runtime::Scene& scene, double rate_hz);
 
-/// Of the mapped tensors, bytes.
-std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance);
+/// Of all organs' mapped tensors, bytes.
+std::uint64_t tensor_bytes(const HapticModel& model);
 
-/// Reads every page of the tensors once, where they may stay in memory (runtime/memory_limit.h), so that the
+/// Reads every page of all tensors once, where they may stay in memory (runtime/memory_limit.h), so that the
 /// loop meets none for the first time on the disk. An ordinary thread's work: it takes as long as the disk
 /// does, or until `stop`.
-void warm_up(const physics::SurfaceCompliance& compliance, const std::stop_token& stop = {});
+void warm_up(const HapticModel& model, const std::stop_token& stop = {});
 
 }  // namespace omentum::haptic

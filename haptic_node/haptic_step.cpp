@@ -17,41 +17,50 @@ namespace {
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // d: all of the gap where the tissue sticks (friction, grasp), its normal part where it slides freely.
-SpreadContact spread_of(const HapticModel& model, HapticWorkspace& work, const ToolContact& contact,
-                        const Vec3& gap) {
+SpreadContact spread_of(const HapticModel& model, Body& body, const ToolContact& contact, const Vec3& gap) {
   SpreadContact spread;
-  const geometry::Triangle& t = model.surface.triangles[contact.held.triangle];
-  const Vec3 alpha = spread_weights(contact.held.barycentric);
-  for (int v = 0; v < 3; ++v) {
-    if (t[v] >= model.surface.mobile_count) continue;
-    spread.slot[spread.count] = work.nodes.slot_of(t[v]);
-    spread.alpha[spread.count++] = alpha[v];
+  const PointNodes& at = contact.place.nodes;
+  for (int v = 0; v < at.count; ++v) {
+    spread.slot[spread.count] = body.contact_nodes().slot_of(at.node[v]);
+    spread.alpha[spread.count++] = spread_weight(at.weight[v], contact.held.barycentric);
   }
   const bool sticks = contact.grasped || model.friction > 0;
-  spread.displacement = sticks ? gap : Vec3(gap.dot(contact.normal) * contact.normal);
-  spread.normal = contact.normal;
+  spread.displacement = sticks ? gap : Vec3(gap.dot(contact.place.normal) * contact.place.normal);
+  spread.normal = contact.place.normal;
   spread.may_pull = contact.grasped;
   return spread;
 }
 
-void solve_spread_contacts(const HapticModel& model, HapticState& state, HapticWorkspace& work) {
+void solve_spread_contacts_of(BodyId id, Body& body, const HapticModel& model, HapticState& state,
+                              HapticWorkspace& work) {
   std::array<SpreadContact, physics::kMaxContacts> spreads;
+  std::array<int, physics::kMaxContacts> contact_of;
   std::array<SpreadForce, ContactNodes::kSlots> solved;
-  const std::span<ToolContact> contacts = state.active();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    spreads[i] = spread_of(model, work, contacts[i], work.free_gaps[i]);
-    contacts[i].force.setZero();
-    contacts[i].sliding = false;
+  std::size_t spread_count = 0;
+  for (int i = 0; i < state.contact_count; ++i) {
+    ToolContact& contact = state.contacts[i];
+    if (contact.body != id) continue;
+    contact_of[spread_count] = i;
+    spreads[spread_count++] = spread_of(model, body, contact, work.free_gaps[i]);
+    contact.force.setZero();
+    contact.sliding = false;
   }
-  const int count = solve_spread(work.nodes, {spreads.data(), contacts.size()}, work.spread, solved);
+  const int count = solve_spread(body.contact_nodes(), {spreads.data(), spread_count}, work.spread, solved);
   for (int a = 0; a < count; ++a) {
-    ToolContact& contact = contacts[solved[a].contact];
+    ToolContact& contact = state.contacts[contact_of[solved[a].contact]];
     contact.force += solved[a].force;
-    add_node_force(state, work.nodes.node_at(solved[a].slot), contact.tool, solved[a].force);
+    add_node_force(state, id, body.contact_nodes().node_at(solved[a].slot), contact.tool, solved[a].force);
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    work.gaps[i] = contacts[i].touches() ? Vec3::Zero() : spreads[i].displacement;
+  for (std::size_t s = 0; s < spread_count; ++s) {
+    const int i = contact_of[s];
+    work.gaps[i] = state.contacts[i].touches() ? Vec3::Zero() : spreads[s].displacement;
   }
+}
+
+void solve_spread_contacts(const HapticModel& model, HapticState& state, HapticWorkspace& work) {
+  work.bodies.for_each(
+      [&](BodyId id, Body& body) { solve_spread_contacts_of(id, body, model, state, work); });
+  propose_forces(state, work.bodies);
 }
 
 void measure(std::span<const ToolInput> inputs, const HapticState& state, std::span<ToolOutput> outputs) {
@@ -95,7 +104,7 @@ void stop(HapticState& state, std::span<ToolOutput> outputs) {
 // dent, in which the tool's points lie on the surface.
 void answer_the_hands(HapticState& state) {
   std::array<double, physics::kMaxContacts> all{};
-  std::array<double, DeformedSurface::kMaxForces> push;
+  std::array<double, Body::kMaxForces> push;
   for (int q = 0; q < state.node_force_count; ++q) {
     const NodeForce& entry = state.node_forces[q];
     push[q] = entry.force.norm();
@@ -119,29 +128,29 @@ bool anyone_let_go(const HapticState& state) {
 StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
                        HapticWorkspace& work, std::span<ToolOutput> outputs) noexcept {
   StepResult result;
-  work.nodes.begin_tick();
-  place_tools(model, inputs, state, work.surface);
-  evaluate_neighbourhood(state, work.surface);
-  leave_astray(state, work.surface);
-  follow_surface(model, state, work.surface);
-  meet_appeared(state, work.surface);
-  find_contacts(state, work.surface);
-  result.neighbourhood = work.surface.evaluated_nodes();
+  Bodies& bodies = work.bodies;
+  bodies.for_each([](BodyId, Body& body) { body.contact_nodes().begin_tick(); });
+  place_tools(model, inputs, state, bodies);
+  evaluate_neighbourhood(state, bodies);
+  leave_astray(state, bodies);
+  follow_surface(model, state, bodies);
+  meet_appeared(state, bodies);
+  find_contacts(state, bodies);
+  bodies.for_each([&](BodyId, Body& body) { result.neighbourhood += body.evaluated_nodes(); });
 
   state.node_force_count = 0;
-  const int near = set_open_aside(state, work.surface);
+  const int near = set_open_aside(state);
   for (int i = 0; i < state.contact_count; ++i) {
     work.before[i] = state.contacts[i].force;
-    work.free_gaps[i] = free_gap(state, state.contacts[i], work.surface);
+    work.free_gaps[i] = free_gap(state, state.contacts[i]);
   }
   if (model.mode == ContactMode::kPoint) {
     const physics::ContactSolution solution = solve_point_contacts(model, inputs, near, state, work);
     result.status = solution.status;
     result.residual_m = solution.residual_m;
-    measure_other_tools(model, state, work);
+    measure_other_tools(state, bodies);
   } else {
     solve_spread_contacts(model, state, work);
-    propose_forces(state, work.surface);
   }
   if (is_finite(result, state)) {
     measure_work(model, state, work.before, work.free_gaps, work.gaps, work.works);
@@ -151,21 +160,25 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   } else {
     result.status = physics::ContactStatus::kNotFinite;
     stop(state, outputs);
-    propose_forces(state, work.surface);
+    propose_forces(state, bodies);
   }
   for (const ToolOutput& output : outputs) result.contacts += output.touching;
   release_contacts(state, work.gaps);
-  work.surface.accept();
-  result.nodes = work.surface.loaded_nodes();
+  bodies.for_each([&](BodyId, Body& body) {
+    body.accept();
+    result.nodes += body.loaded_nodes();
+  });
   answer_the_hands(state);
   return result;
 }
 
-Vec3 contact_displacement(SurfaceId node, const HapticState& state, HapticWorkspace& work) noexcept {
-  const int n = work.nodes.slot_of(node);
+Vec3 contact_displacement(BodyId body, SurfaceId node, const HapticState& state, Bodies& bodies) noexcept {
+  ContactNodes& nodes = bodies[body].contact_nodes();
+  const int n = nodes.slot_of(node);
   Vec3 u = Vec3::Zero();
   for (const NodeForce& entry : state.forces()) {
-    const float* block = work.nodes.block(n, work.nodes.slot_of(entry.node));
+    if (entry.body != body) continue;
+    const float* block = nodes.block(n, nodes.slot_of(entry.node));
     u += Eigen::Map<const Eigen::Matrix3f>(block).cast<double>() * entry.force;
   }
   return u;

@@ -25,8 +25,8 @@ struct StepResult {
   double residual_m = 0;
 };
 
-/// Poses in, forces out: collides with the surface under the last tick's forces, solves the contacts of all
-/// tools together on C_AA (Cotin 1999, section 4-2), and hands the new forces to the surface. The force on a
+/// Poses in, forces out: collides with all bodies under the last tick's forces, solves the contacts of all
+/// tools together on C_AA (Cotin 1999, section 4-2), and hands the new forces to the bodies. The force on a
 /// hand is minus the sum of its contacts' forces on the tissue, times the share that keeps its energy, and
 /// the side force that goes with it (contact_energy.h). Quasi-static: no time step enters.
 ///
@@ -34,7 +34,7 @@ struct StepResult {
 StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
                        HapticWorkspace& work, std::span<ToolOutput> outputs) noexcept;
 
-/// u_A = C_AA f_A of one node in contact, all tools' forces together, m; in double.
-Vec3 contact_displacement(SurfaceId node, const HapticState& state, HapticWorkspace& work) noexcept;
+/// u_A = C_AA f_A of one of a body's nodes in contact, all tools' forces together, m; in double.
+Vec3 contact_displacement(BodyId body, SurfaceId node, const HapticState& state, Bodies& bodies) noexcept;
 
 }  // namespace omentum::haptic

@@ -31,25 +31,26 @@ constexpr std::uint64_t kAskPeriod = 64;
 
 // The contact's way from its material point to its tool's point of the last tick, whose forces made the
 // surface: along the surface it should be none.
-bool is_astray(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
-  const Vec3 held = surface.position(contact.held);
+bool is_astray(const ToolState& tool, const ToolContact& contact, Body& body) {
+  const Vec3 held = body.position(contact.held);
   const Vec3 gap = with_the_others(contact, tool.before) - held;
-  const double squared_along = (gap - gap.dot(contact.normal) * contact.normal).squaredNorm();
+  const double squared_along = (gap - gap.dot(contact.place.normal) * contact.place.normal).squaredNorm();
   if (squared_along <= kAstrayLeast_m * kAstrayLeast_m) return false;
-  const double moved = (held - surface.rest_position(contact.held)).norm();
+  const double moved = (held - contact.place.rest).norm();
   return std::sqrt(squared_along) > std::clamp(kAstrayPart * moved, kAstrayLeast_m, kAstrayMost_m);
 }
 
 // Whether the tool's point has gone through the organ: beyond where its far side is at rest, while most of
 // the tissue before it is squeezed away. A lobe that bends away goes beyond as well, but keeps its thickness.
-bool is_through(const ToolState& tool, const ToolContact& contact, DeformedSurface& surface) {
-  return surface.tissue_ahead(contact.held, at_the_surface(contact, tool.before)) < kThrough;
+bool is_through(const ToolState& tool, const ToolContact& contact, Body& body) {
+  return body.tissue_ahead(contact.held, at_the_surface(contact, tool.before)) < kThrough;
 }
 
-// Whether another point of the tool is pushed the other way.
+// Whether the same body pushes another point of the tool the other way.
 bool is_opposed(const HapticState& state, const ToolContact& contact) {
   return std::ranges::any_of(state.active(), [&](const ToolContact& other) {
-    return other.tool == contact.tool && other.touches() && other.normal.dot(contact.normal) < kOpposed;
+    return other.tool == contact.tool && other.body == contact.body && other.touches() &&
+           other.place.normal.dot(contact.place.normal) < kOpposed;
   });
 }
 
@@ -60,26 +61,26 @@ bool is_behind(const ToolState& tool, const ToolContact& contact) {
   const Vec3 middle = std::accumulate(tool.before.begin(), tool.before.end(), Vec3(0, 0, 0)) / points;
   double radius_m = 0;
   for (const Vec3& p : tool.before) radius_m = std::max(radius_m, (p - middle).norm());
-  return (tool.before[contact.point] - middle).dot(contact.normal) > kBehind * radius_m;
+  return (tool.before[contact.point] - middle).dot(contact.place.normal) > kBehind * radius_m;
 }
 
 // What of a tool's depth is no press: as if the tool had moved out, along the mean normal of its points
 // inside, until its deepest one is at the surface. So it then feels deeper tissue as it would feel it from
 // outside. A point never holds less than its own depth, nor more than it held before.
 template <class Predicate>
-void sink(HapticState& state, DeformedSurface& surface, Predicate&& belongs) {
+void sink(HapticState& state, Predicate&& belongs) {
   double deepest_m = 0;
   Vec3 out = Vec3::Zero();
   for (const ToolContact& contact : state.active()) {
     if (!belongs(contact)) continue;
-    deepest_m = std::max(deepest_m, depth_of(state, contact, surface));
-    out += contact.normal;
+    deepest_m = std::max(deepest_m, depth_of(state, contact));
+    out += contact.place.normal;
   }
   out.normalize();
   for (ToolContact& contact : state.active()) {
     if (!belongs(contact)) continue;
-    const double own_m = std::max(0.0, depth_of(state, contact, surface));
-    contact.sunken_m = std::min(contact.sunken_m, std::max(own_m, deepest_m * contact.normal.dot(out)));
+    const double own_m = std::max(0.0, depth_of(state, contact));
+    contact.sunken_m = std::min(contact.sunken_m, std::max(own_m, deepest_m * contact.place.normal.dot(out)));
   }
 }
 
@@ -90,9 +91,41 @@ std::uint32_t pressing_tools(const HapticState& state) {
   return tools;
 }
 
+// The contacts from `first` on are what a tool has just been found inside a body with: those that would leave
+// through another side than most are none.
+void keep_one_way_out(const Vec3& way_out, int first, HapticState& state) {
+  int index = 0;
+  drop_contacts(state, [&](const ToolContact& contact) {
+    return index++ >= first && (contact.place.normal.dot(way_out) <= 0 || depth_of(state, contact) <= 0);
+  });
+  sink(state, [](const ToolContact& contact) { return contact.sunken_m == kUnknownDepth_m; });
+}
+
+void meet_appeared_in(BodyId id, std::size_t tool_index, HapticState& state, Bodies& bodies) {
+  ToolState& tool = state.tools[tool_index];
+  Body& body = bodies[id];
+  const int first = state.contact_count;
+  Vec3 way_out = Vec3::Zero();
+  for (std::size_t p = 0; p < tool.now.size(); ++p) {
+    PointMemory& memory = tool.memory(id, p);
+    if (memory.ask_in == 0 || --memory.ask_in > 0) continue;
+    const auto inside = body.immersion(tool.now[p], kDeepestAppearance_m);
+    memory.adrift = inside.has_value();
+    if (!inside || body.place_of(inside->nearest).normal.dot(memory.way_out) < 0) continue;
+    // what finds no room in the list stays adrift
+    if (state.contact_count == physics::kMaxContacts) continue;
+    ToolContact& contact =
+        *add_contact(state, static_cast<std::int32_t>(tool_index), static_cast<std::int32_t>(p), id);
+    hold(inside->nearest, contact, body);
+    contact.sunken_m = kUnknownDepth_m;
+    way_out += contact.place.normal;
+  }
+  if (state.contact_count > first) keep_one_way_out(way_out, first, state);
+}
+
 }  // namespace
 
-void leave_astray(HapticState& state, DeformedSurface& surface) noexcept {
+void leave_astray(HapticState& state, Bodies& bodies) noexcept {
   const std::uint32_t pressing = pressing_tools(state);
   std::uint64_t turn = state.ticks;
   std::array<bool, physics::kMaxContacts> left{};
@@ -100,59 +133,42 @@ void leave_astray(HapticState& state, DeformedSurface& surface) noexcept {
     const ToolContact& contact = state.contacts[i];
     if (contact.grasped) continue;
     ToolState& tool = state.tools[contact.tool];
+    Body& body = bodies[contact.body];
     const bool idle = contact.sunken_m > 0 && (pressing >> contact.tool & 1) == 0;
-    const bool through = contact.touches() && (is_through(tool, contact, surface) ||
+    const bool through = contact.touches() && (is_through(tool, contact, body) ||
                                                (is_opposed(state, contact) && is_behind(tool, contact)));
-    const bool to_ask = is_astray(tool, contact, surface) || (idle && ++turn % kAskPeriod == 0);
+    const bool to_ask = is_astray(tool, contact, body) || (idle && ++turn % kAskPeriod == 0);
     if (!through && !to_ask) continue;
     left[i] = true;
-    PointMemory& memory = tool.memory[contact.point];
+    PointMemory& memory = tool.memory(contact.body, static_cast<std::size_t>(contact.point));
     memory.adrift = through;
     memory.ask_in = !through && (contact.touches() || contact.sunken_m > 0) ? 2 : 0;
-    memory.way_out = contact.normal;
+    memory.way_out = contact.place.normal;
     tool.let_go |= contact.touches();
   }
   std::size_t i = 0;
   drop_contacts(state, [&](const ToolContact&) { return left[i++]; });
 }
 
-void surface_with_tools(HapticState& state, DeformedSurface& surface) noexcept {
+void surface_with_tools(HapticState& state, Bodies& bodies) noexcept {
   const std::uint32_t pressing = pressing_tools(state);
   std::uint32_t sunk = 0;
   for (const ToolContact& contact : state.active())
     sunk |= std::uint32_t{contact.sunken_m > 0} << contact.tool;
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     if (((sunk & ~pressing) >> i & 1) == 0) continue;
-    sink(state, surface, [i](const ToolContact& contact) {
-      return contact.tool == static_cast<std::int32_t>(i) && contact.sunken_m > 0;
+    bodies.for_each([&](BodyId id, Body&) {
+      sink(state, [&](const ToolContact& contact) {
+        return contact.tool == static_cast<std::int32_t>(i) && contact.body == id && contact.sunken_m > 0;
+      });
     });
   }
 }
 
-void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept {
+void meet_appeared(HapticState& state, Bodies& bodies) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
-    ToolState& tool = state.tools[i];
-    if (!tool.engaged) continue;
-    const int first = state.contact_count;
-    Vec3 way_out = Vec3::Zero();
-    for (std::size_t p = 0; p < tool.now.size(); ++p) {
-      PointMemory& memory = tool.memory[p];
-      if (memory.ask_in == 0 || --memory.ask_in > 0) continue;
-      const auto inside = surface.immersion(tool.now[p], kDeepestAppearance_m);
-      memory.adrift = inside.has_value();
-      if (!inside || surface.normal(inside->nearest).dot(memory.way_out) < 0) continue;
-      ToolContact& contact = add_contact(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
-      contact.held = inside->nearest;
-      contact.normal = surface.normal(contact.held);
-      contact.sunken_m = kUnknownDepth_m;
-      way_out += contact.normal;
-    }
-    if (state.contact_count == first) continue;
-    int index = 0;
-    drop_contacts(state, [&](const ToolContact& contact) {
-      return index++ >= first && (contact.normal.dot(way_out) <= 0 || depth_of(state, contact, surface) <= 0);
-    });
-    sink(state, surface, [](const ToolContact& contact) { return contact.sunken_m == kUnknownDepth_m; });
+    if (!state.tools[i].engaged) continue;
+    bodies.for_each([&](BodyId id, Body&) { meet_appeared_in(id, i, state, bodies); });
   }
 }
 

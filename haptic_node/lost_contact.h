@@ -12,18 +12,18 @@ namespace omentum::haptic {
 /// force are asked by turns whether the surface point nearest to them is still theirs. A point that has gone
 /// through the organ (tissue_ahead), or whose side of the organ was drawn through the other one, holds
 /// nothing until it comes in again.
-void leave_astray(HapticState& state, DeformedSurface& surface) noexcept;
+void leave_astray(HapticState& state, Bodies& bodies) noexcept;
 
 /// Points that are inside the organ without having come there by moving (a device or node that was started
 /// again, or a contact that went astray): each holds the nearest surface point from where it is. It is not
 /// pushed out, is held back from going deeper at once, may leave freely, and outside is a point like any
 /// other. What of a tool's points would leave through another side of the organ than most holds nothing until
 /// it left.
-void meet_appeared(HapticState& state, DeformedSurface& surface) noexcept;
+void meet_appeared(HapticState& state, Bodies& bodies) noexcept;
 
 /// A tool that appeared inside and goes out takes the depth with it that is no press. Only once nothing
 /// pushes it any more: what one point gave up while another still pressed would push later, with energy from
 /// nowhere.
-void surface_with_tools(HapticState& state, DeformedSurface& surface) noexcept;
+void surface_with_tools(HapticState& state, Bodies& bodies) noexcept;
 
 }  // namespace omentum::haptic

@@ -15,13 +15,13 @@ std::span<NodeForce> node_forces(HapticState& state) {
   return {state.node_forces.data(), static_cast<std::size_t>(state.node_force_count)};
 }
 
-Vec3 dents_of_others(const geometry::Surface& surface, const HapticState& state, const ToolContact& contact) {
-  const geometry::Triangle& t = surface.triangles[contact.held.triangle];
+Vec3 dents_of_others(const HapticState& state, const ToolContact& contact) {
+  const PointNodes& at = contact.place.nodes;
   Vec3 u = Vec3::Zero();
   for (const NodeForce& entry : state.forces()) {
-    if (entry.tool == contact.tool) continue;
-    for (int v = 0; v < 3; ++v) {
-      if (t[v] == entry.node) u += contact.held.barycentric[v] * entry.dent;
+    if (entry.tool == contact.tool || entry.body != contact.body) continue;
+    for (int v = 0; v < at.count; ++v) {
+      if (at.node[v] == entry.node) u += at.weight[v] * entry.dent;
     }
   }
   return u;
@@ -30,15 +30,16 @@ Vec3 dents_of_others(const geometry::Surface& surface, const HapticState& state,
 }  // namespace
 
 void look_for_other_tools(const Region& path, std::int32_t tool, HapticState& state,
-                          DeformedSurface& surface) noexcept {
+                          Bodies& bodies) noexcept {
   ToolState& here = state.tools[tool];
   here.near_others = false;
   here.others_m = 0;
   for (const NodeForce& entry : state.forces()) {
     if (entry.tool == tool) continue;
-    const Vec3& p = surface.position(entry.node);
+    Body& body = bodies[entry.body];
+    const Vec3& p = body.position(entry.node);
     const double way_m = (p.cwiseMax(path.low).cwiseMin(path.high) - p).norm();
-    const double reach_m = surface.longest_edge(entry.node);
+    const double reach_m = body.longest_edge(entry.node);
     here.near_others |= way_m < reach_m + kSoon_m;
     if (way_m < reach_m) here.others_m += (1 - way_m / reach_m) * entry.dent.norm();
   }
@@ -50,14 +51,16 @@ bool any_near_others(const HapticState& state) noexcept {
                              [](const ToolState& tool) { return tool.engaged && tool.near_others; });
 }
 
-void measure_other_tools(const HapticModel& model, HapticState& state, HapticWorkspace& work) noexcept {
+void measure_other_tools(HapticState& state, Bodies& bodies) noexcept {
   const bool near = any_near_others(state);
   if (near) {
-    for (NodeForce& entry : node_forces(state))
-      entry.dent = work.nodes.own_compliance(work.nodes.slot_of(entry.node)) * entry.force;
+    for (NodeForce& entry : node_forces(state)) {
+      ContactNodes& nodes = bodies[entry.body].contact_nodes();
+      entry.dent = nodes.own_compliance(nodes.slot_of(entry.node)) * entry.force;
+    }
   }
   for (ToolContact& contact : state.active())
-    contact.other_dents = near ? dents_of_others(model.surface, state, contact) : Vec3::Zero();
+    contact.other_dents = near ? dents_of_others(state, contact) : Vec3::Zero();
 }
 
 }  // namespace omentum::haptic

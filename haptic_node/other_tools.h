@@ -8,8 +8,7 @@ namespace omentum::haptic {
 
 /// Finds out what other tools' own dents there are around tool `tool` on its way in `path`:
 /// ToolState::others_m and near_others. An own dent reaches as far as its node's facets. No allocation.
-void look_for_other_tools(const Region& path, std::int32_t tool, HapticState& state,
-                          DeformedSurface& surface) noexcept;
+void look_for_other_tools(const Region& path, std::int32_t tool, HapticState& state, Bodies& bodies) noexcept;
 
 /// Whether any two tools may press the same nodes.
 bool any_near_others(const HapticState& state) noexcept;
@@ -17,6 +16,6 @@ bool any_near_others(const HapticState& state) noexcept;
 /// After a solve whose forces the contacts and nodes carry: each tool's own dents (NodeForce::dent), and what
 /// the others' are at a contact's material point, which its tool does not meet (ToolContact::other_dents). No
 /// allocation.
-void measure_other_tools(const HapticModel& model, HapticState& state, HapticWorkspace& work) noexcept;
+void measure_other_tools(HapticState& state, Bodies& bodies) noexcept;
 
 }  // namespace omentum::haptic

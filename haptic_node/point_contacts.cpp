@@ -10,22 +10,11 @@ namespace {
 // Of positions in float, m.
 constexpr double kRounding_m = 2e-6;
 
-// f_v = k_v lambda: the force at a material point is shared by its vertices.
-void share_force(const HapticModel& model, HapticState& state, const ToolContact& contact) {
-  const geometry::Triangle& t = model.surface.triangles[contact.held.triangle];
-  for (int v = 0; v < 3; ++v) {
-    const double k = contact.held.barycentric[v];
-    if (t[v] < model.surface.mobile_count && k > 0)
-      add_node_force(state, t[v], contact.tool, k * contact.force);
-  }
-}
-
 class PointContacts {
  public:
   PointContacts(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
                 HapticWorkspace& work)
-      : model_(model),
-        inputs_(inputs),
+      : inputs_(inputs),
         state_(state),
         work_(work),
         problem_(work.problem),
@@ -43,17 +32,30 @@ class PointContacts {
   // Contact i against the first `columns` and itself.
   void pose(int i, int columns) {
     const ToolContact& contact = state_.contacts[i];
-    work_.shares[i] = share_of(model_.surface, contact.held, work_.nodes);
-    problem_.contacts[i] = {contact.normal, work_.free_gaps[i], contact.grasped, contact.tool,
+    Body& body = work_.bodies[contact.body];
+    work_.shares[i] = share_of(contact.place.nodes, body.contact_nodes());
+    problem_.contacts[i] = {contact.place.normal, work_.free_gaps[i], contact.grasped, contact.tool,
                             inputs_[contact.tool].max_stiffness_n_m};
     for (int j = 0; j < columns; ++j) {
-      find_compliance(work_.nodes, work_.shares[i], work_.shares[j], problem_.W(i, j));
-      if (near_others_ && state_.contacts[j].tool != contact.tool)
-        problem_.W(i, j).diagonal().array() -= own_compliance(work_.nodes, work_.shares[i], work_.shares[j]);
+      find_compliance(body, i, j);
       problem_.W(j, i) = problem_.W(i, j).transpose();
     }
-    find_compliance(work_.nodes, work_.shares[i], work_.shares[i], problem_.W(i, i));
+    find_compliance(body, i, i);
     physics::limit_stiffness(problem_, i, columns);
+  }
+
+  // Between contacts i, with `body`, and j. Bodies do not move each other.
+  void find_compliance(Body& body, int i, int j) {
+    const ToolContact &one = state_.contacts[i], &other = state_.contacts[j];
+    Eigen::Matrix3d& W = problem_.W(i, j);
+    if (one.body != other.body) {
+      W.setZero();
+      return;
+    }
+    ContactNodes& nodes = body.contact_nodes();
+    haptic::find_compliance(nodes, work_.shares[i], work_.shares[j], W);
+    if (near_others_ && one.tool != other.tool)
+      W.diagonal().array() -= own_compliance(nodes, work_.shares[i], work_.shares[j]);
   }
 
   physics::ContactSolution solve_first(int count) {
@@ -67,11 +69,11 @@ class PointContacts {
       ToolContact& contact = state_.contacts[i];
       contact.force = forces_[i];
       work_.gaps[i] = physics::gap_of(problem_, forces_, i);
-      const Vec3 slip = work_.gaps[i] - work_.gaps[i].dot(contact.normal) * contact.normal;
+      const Vec3 slip = work_.gaps[i] - work_.gaps[i].dot(contact.place.normal) * contact.place.normal;
       contact.sliding = slip.squaredNorm() > physics::kGapTolerance_m * physics::kGapTolerance_m;
-      if (contact.touches()) share_force(model_, state_, contact);
+      if (contact.touches()) share_force(state_, contact);
     }
-    propose_forces(state_, work_.surface);
+    propose_forces(state_, work_.bodies);
     return solution;
   }
 
@@ -82,18 +84,17 @@ class PointContacts {
     for (int i = solved; i < state_.contact_count; ++i) {
       ToolContact& contact = state_.contacts[i];
       contact.sliding = false;
-      const double open_m = -depth_of(state_, contact, work_.surface);
-      work_.gaps[i] = open_m * contact.normal;
+      const double open_m = -depth_of(state_, contact);
+      work_.gaps[i] = open_m * contact.place.normal;
       const bool alone = contact.other_dents.isZero(0);
-      if (alone && open_m > work_.surface.motion_bound(contact.held) + kRounding_m) continue;
+      if (alone && open_m > work_.bodies[contact.body].motion_bound(contact.held) + kRounding_m) continue;
       pose(i, solved);
       work_.gaps[i] = physics::gap_of(problem_, forces_, i);
-      if (work_.gaps[i].dot(contact.normal) < 0) return false;
+      if (work_.gaps[i].dot(contact.place.normal) < 0) return false;
     }
     return true;
   }
 
-  const HapticModel& model_;
   std::span<const ToolInput> inputs_;
   HapticState& state_;
   HapticWorkspace& work_;

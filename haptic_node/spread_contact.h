@@ -8,10 +8,10 @@
 
 namespace omentum::haptic {
 
-/// alpha_v = k_v + 1 - (k_1^2 + k_2^2 + k_3^2) (Cotin 1999, section 5, sign corrected): imposing alpha_v d at
-/// the vertices moves the point itself by exactly d, sum_v k_v alpha_v = 1.
-inline Vec3 spread_weights(const Vec3& barycentric) noexcept {
-  return barycentric.array() + (1 - barycentric.squaredNorm());
+/// alpha_v = k_v + 1 - (k_1^2 + k_2^2 + k_3^2) (Cotin 1999, section 5, sign corrected) of the vertex with
+/// k_v: imposing alpha_v d at the vertices moves the point itself by exactly d, sum_v k_v alpha_v = 1.
+inline double spread_weight(double k_v, const Vec3& barycentric) noexcept {
+  return k_v + (1 - barycentric.squaredNorm());
 }
 
 /// One contact: the displacement d of its point, spread over its vertices.

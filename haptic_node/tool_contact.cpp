@@ -46,13 +46,14 @@ void end_grasp(HapticState& state, std::int32_t tool) {
   }
 }
 
-void begin_grasp(HapticState& state, std::int32_t tool, DeformedSurface& surface) {
+void begin_grasp(HapticState& state, std::int32_t tool, Bodies& bodies) {
   bool holds = false;
   for (ToolContact& contact : state.active()) {
     if (contact.tool != tool) continue;
     // what is between jaw and tissue when they close stays there: no force comes from closing alone
-    contact.offset = with_the_others(contact, state.tools[tool].before) - surface.position(contact.held);
-    if (contact.offset.dot(contact.normal) > kGraspGap_m) continue;
+    contact.offset =
+        with_the_others(contact, state.tools[tool].before) - bodies[contact.body].position(contact.held);
+    if (contact.offset.dot(contact.place.normal) > kGraspGap_m) continue;
     holds = true;
     contact.grasped = true;
   }
@@ -62,13 +63,13 @@ void begin_grasp(HapticState& state, std::int32_t tool, DeformedSurface& surface
   ++state.tools[tool].grasp_count;
 }
 
-void follow_grip(HapticState& state, std::int32_t tool, double grip, DeformedSurface& surface) {
+void follow_grip(HapticState& state, std::int32_t tool, double grip, Bodies& bodies) {
   ToolState& jaws = state.tools[tool];
   if (grip > kReleaseAbove_rad) {
     jaws.opened = true;
     if (jaws.grasping) end_grasp(state, tool);
   } else if (grip < kGraspBelow_rad && jaws.opened && !jaws.grasping) {
-    begin_grasp(state, tool, surface);
+    begin_grasp(state, tool, bodies);
     // jaws that closed on nothing are a blunt probe until they were open again
     if (!jaws.grasping) jaws.opened = false;
   }
@@ -85,28 +86,28 @@ Region path_of(const ToolState& tool) {
   return region;
 }
 
-// Of each of a tool's points, if it has one.
-std::array<ToolContact*, physics::kMaxContacts> contacts_of(HapticState& state, std::size_t tool) {
+// Of each of a tool's points with one body, if it has one.
+std::array<ToolContact*, physics::kMaxContacts> contacts_of(HapticState& state, std::size_t tool,
+                                                            BodyId body) {
   std::array<ToolContact*, physics::kMaxContacts> contacts;
   std::fill_n(contacts.begin(), state.tools[tool].now.size(), nullptr);
   for (ToolContact& contact : state.active()) {
-    if (contact.tool == static_cast<std::int32_t>(tool)) contacts[contact.point] = &contact;
+    if (contact.tool == static_cast<std::int32_t>(tool) && contact.body == body)
+      contacts[contact.point] = &contact;
   }
   return contacts;
 }
 
 // The surface point that tool point p met on its way, if any. Whoever has more room than tool and surface
 // moved together met nothing.
-std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, DeformedSurface& surface) {
-  PointMemory& memory = tool.memory[p];
+std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, PointMemory& memory, Body& body) {
   double& room = memory.clearance_m;
   const double before = room, way = (tool.now[p] - tool.before[p]).norm() + kHair_m;
-  room = std::min(room - way - surface.known_motion(),
-                  DeformedSurface::kReach_m - way - surface.entered_motion());
+  room = std::min(room - way - body.known_motion(), Body::kReach_m - way - body.entered_motion());
   if (room > tool.others_m) return std::nullopt;
   const double near = kNear_m + tool.others_m;
-  const double arm = std::clamp(kArmGrowth * before, near, DeformedSurface::kReach_m + tool.others_m);
-  const DeformedSurface::Encounter met = surface.meet(tool.before[p], tool.now[p], arm, !memory.adrift);
+  const double arm = std::clamp(kArmGrowth * before, near, Body::kReach_m + tool.others_m);
+  const Encounter met = body.meet(tool.before[p], tool.now[p], arm, !memory.adrift);
   if (met.touched || met.nearest) memory.adrift = false;
   room = met.touched ? 0 : met.clearance_m;
   return met.touched || met.clearance_m > near ? met.touched : met.nearest;
@@ -125,7 +126,50 @@ void appear(ToolState& tool) {
   PointMemory unknown;
   unknown.adrift = true;
   unknown.ask_in = tool.let_go ? 2 : 1;
-  std::ranges::fill(tool.memory, unknown);
+  std::ranges::fill(tool.memories, unknown);
+}
+
+// The contact of a tool's point with what it met; deeper than it came in this tick is nobody's press.
+void begin_contact(const SurfacePoint& met, const HapticState& state, ToolContact& contact, Body& body) {
+  const ToolState& tool = state.tools[contact.tool];
+  hold(met, contact, body);
+  const double way = (tool.now[contact.point] - tool.before[contact.point]).norm() + kHair_m;
+  contact.sunken_m = std::max(0.0, depth_of(state, contact) - way);
+}
+
+void find_contacts_with(BodyId id, Body& body, std::size_t tool_index, HapticState& state) {
+  ToolState& tool = state.tools[tool_index];
+  const auto contacts = contacts_of(state, tool_index, id);
+  for (std::size_t p = 0; p < tool.now.size(); ++p) {
+    PointMemory& memory = tool.memory(id, p);
+    if (memory.ask_in > 0) continue;  // meet_appeared looks for it
+    const auto point = static_cast<std::int32_t>(p), of_tool = static_cast<std::int32_t>(tool_index);
+    ToolContact* known = contacts[p];
+    // another point's may have taken its place in a full list
+    if (known && (known->point != point || known->tool != of_tool || known->body != id)) known = nullptr;
+    if (known && (known->touches() || known->grasped || known->sunken_m > 0)) {
+      memory.clearance_m = 0;
+      continue;
+    }
+    const auto found = look_around(tool, p, memory, body);
+    if (!found) continue;
+    if (known) {
+      const bool alone = known->other_dents.isZero(0);
+      hold(alone ? *found : body.slide(*found, with_the_others(*known, tool.now)), *known, body);
+    } else if (ToolContact* contact = add_contact(state, of_tool, point, id)) {
+      begin_contact(*found, state, *contact, body);
+    }
+  }
+}
+
+// The material point that a contact goes on to hold.
+SurfacePoint moved_on(const HapticModel& model, const ToolState& tool, const ToolContact& contact,
+                      Body& body) {
+  if (contact.grasped) return contact.held;
+  if (model.friction == 0 || !contact.touches())
+    return body.slide(contact.held, with_the_others(contact, tool.now));
+  // friction is back inside its cone where the tool was; from there it moves on
+  return contact.sliding ? body.slide(contact.held, with_the_others(contact, tool.before)) : contact.held;
 }
 
 }  // namespace
@@ -143,7 +187,7 @@ void let_go_of_everything(HapticState& state) noexcept {
 }
 
 void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
-                 DeformedSurface& surface) noexcept {
+                 Bodies& bodies) noexcept {
   ++state.ticks;
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     const auto index = static_cast<std::int32_t>(i);
@@ -162,66 +206,38 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
     go_to(model.tools[i], input.frame, tool);
     tool.tip_way = moved_here ? Vec3(tool.frame.p_WT - tip) : Vec3::Zero();
     if (!moved_here) appear(tool);
-    if (model.tools[i].grasps) follow_grip(state, index, input.grip, surface);
+    if (model.tools[i].grasps) follow_grip(state, index, input.grip, bodies);
   }
 }
 
-void evaluate_neighbourhood(HapticState& state, DeformedSurface& surface) noexcept {
+void evaluate_neighbourhood(HapticState& state, Bodies& bodies) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     const ToolState& tool = state.tools[i];
     if (!tool.engaged) continue;
     Region region = path_of(tool);
-    look_for_other_tools(region, static_cast<std::int32_t>(i), state, surface);
+    look_for_other_tools(region, static_cast<std::int32_t>(i), state, bodies);
     region.low.array() -= tool.others_m;
     region.high.array() += tool.others_m;
-    surface.evaluate(region);
+    bodies.for_each([&](BodyId, Body& body) { body.evaluate(region); });
   }
 }
 
-void follow_surface(const HapticModel& model, HapticState& state, DeformedSurface& surface) noexcept {
+void follow_surface(const HapticModel& model, HapticState& state, Bodies& bodies) noexcept {
   for (ToolContact& contact : state.active()) {
-    if (contact.grasped) continue;
-    const ToolState& tool = state.tools[contact.tool];
-    if (model.friction == 0 || !contact.touches()) {
-      contact.held = surface.slide(contact.held, with_the_others(contact, tool.now));
-    } else if (contact.sliding) {
-      // friction is back inside its cone where the tool was; from there it moves on
-      contact.held = surface.slide(contact.held, with_the_others(contact, tool.before));
-    }
-    contact.normal = surface.normal(contact.held);
+    Body& body = bodies[contact.body];
+    hold(moved_on(model, state.tools[contact.tool], contact, body), contact, body);
   }
-  surface_with_tools(state, surface);
+  surface_with_tools(state, bodies);
 }
 
-void find_contacts(HapticState& state, DeformedSurface& surface) noexcept {
+void find_contacts(HapticState& state, Bodies& bodies) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
-    ToolState& tool = state.tools[i];
-    if (!tool.engaged) continue;
-    const auto contacts = contacts_of(state, i);
-    for (std::size_t p = 0; p < tool.now.size(); ++p) {
-      if (tool.memory[p].ask_in > 0) continue;  // meet_appeared looks for it
-      ToolContact* known = contacts[p];
-      if (known && (known->touches() || known->grasped || known->sunken_m > 0)) {
-        tool.memory[p].clearance_m = 0;
-        continue;
-      }
-      const auto found = look_around(tool, p, surface);
-      if (!found) continue;
-      const bool is_new = known == nullptr;
-      if (is_new) known = &add_contact(state, static_cast<std::int32_t>(i), static_cast<std::int32_t>(p));
-      known->held =
-          known->other_dents.isZero(0) ? *found : surface.slide(*found, with_the_others(*known, tool.now));
-      known->normal = surface.normal(known->held);
-      // deeper than it came in this tick: that depth is nobody's press
-      if (is_new) {
-        const double way = (tool.now[p] - tool.before[p]).norm() + kHair_m;
-        known->sunken_m = std::max(0.0, depth_of(state, *known, surface) - way);
-      }
-    }
+    if (!state.tools[i].engaged) continue;
+    bodies.for_each([&](BodyId id, Body& body) { find_contacts_with(id, body, i, state); });
   }
 }
 
-int set_open_aside(HapticState& state, DeformedSurface& surface) noexcept {
+int set_open_aside(HapticState& state) noexcept {
   double squared_way = 0;
   for (const ToolState& tool : state.tools) {
     if (!tool.engaged) continue;
@@ -234,7 +250,7 @@ int set_open_aside(HapticState& state, DeformedSurface& surface) noexcept {
   for (int i = 0; i < state.contact_count; ++i) {
     const ToolContact& contact = state.contacts[i];
     const bool holds = contact.touches() || contact.grasped || contact.sunken_m > 0;
-    if (!holds && depth_of(state, contact, surface) < -open_m) continue;
+    if (!holds && depth_of(state, contact) < -open_m) continue;
     if (i > count) std::rotate(begin + count, begin + i, begin + i + 1);
     ++count;
   }
@@ -244,16 +260,16 @@ int set_open_aside(HapticState& state, DeformedSurface& surface) noexcept {
 void release_contacts(HapticState& state, std::span<const Vec3> gaps) noexcept {
   std::size_t i = 0;
   drop_contacts(state, [&](const ToolContact& contact) {
-    const double open = gaps[i++].dot(contact.normal);
+    const double open = gaps[i++].dot(contact.place.normal);
     return !contact.grasped && !contact.touches() && contact.sunken_m == 0 &&
            open > kReleaseGap_m + state.tools[contact.tool].others_m;
   });
 }
 
-Vec3 free_gap(const HapticState& state, const ToolContact& contact, const DeformedSurface& surface) noexcept {
+Vec3 free_gap(const HapticState& state, const ToolContact& contact) noexcept {
   const Vec3 offset = contact.grasped ? contact.offset : Vec3::Zero();
-  return state.tools[contact.tool].now[contact.point] - surface.rest_position(contact.held) - offset +
-         contact.sunken_m * contact.normal;
+  return state.tools[contact.tool].now[contact.point] - contact.place.rest - offset +
+         contact.sunken_m * contact.place.normal;
 }
 
 }  // namespace omentum::haptic

@@ -8,11 +8,11 @@ using geometry::SurfaceId;
 using geometry::Vec3;
 
 void PlainSurface::deform(std::span<const haptic::NodeForce> forces, std::int32_t without) {
-  x_ = model_.rest;
+  x_ = organ_.rest;
   for (const haptic::NodeForce& entry : forces) {
     if (entry.tool == without || entry.force.isZero(0)) continue;
-    for (SurfaceId n(0); n < model_.surface.mobile_count; n = SurfaceId(n + 1))
-      x_[n] += model_.compliance.block(n, entry.node) * entry.force;
+    for (SurfaceId n(0); n < organ_.surface.mobile_count; n = SurfaceId(n + 1))
+      x_[n] += organ_.compliance.block(n, entry.node) * entry.force;
   }
 }
 
@@ -20,7 +20,7 @@ bool PlainSurface::outside(const Vec3& p) const {
   // in a direction that no mesh is aligned with, beyond every organ
   const Vec3 far = p + Vec3(0.5773, 0.3217, 0.7512);
   int crossings = 0;
-  for (const geometry::Triangle& t : model_.surface.triangles)
+  for (const geometry::Triangle& t : organ_.surface.triangles)
     crossings += geometry::intersect_segment_triangle(p, far, x_[t[0]], x_[t[1]], x_[t[2]]).has_value();
   return crossings % 2 == 0;
 }
@@ -29,7 +29,7 @@ bool PlainSurface::clear_of(std::span<const Vec3> points, double margin_m) const
   Eigen::AlignedBox3d room;
   for (const Vec3& p : points) room.extend(p);
   room.min() -= Vec3::Constant(margin_m), room.max() += Vec3::Constant(margin_m);
-  for (const geometry::Triangle& t : model_.surface.triangles) {
+  for (const geometry::Triangle& t : organ_.surface.triangles) {
     const Vec3 &a = x_[t[0]], &b = x_[t[1]], &c = x_[t[2]];
     const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     if (!room.intersects(Eigen::AlignedBox3d(low, high))) continue;
@@ -43,7 +43,7 @@ bool PlainSurface::clear_of(std::span<const Vec3> points, double margin_m) const
 }
 
 bool PlainSurface::clear_way(const Vec3& a, const Vec3& b) const {
-  for (const geometry::Triangle& t : model_.surface.triangles)
+  for (const geometry::Triangle& t : organ_.surface.triangles)
     if (geometry::intersect_segment_triangle(a, b, x_[t[0]], x_[t[1]], x_[t[2]])) return false;
   return true;
 }

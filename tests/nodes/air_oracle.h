@@ -8,7 +8,7 @@ namespace omentum::haptic_test {
 /// The surface under given forces, x = X + sum_k C_:k f_k, and what can be asked of it.
 class PlainSurface {
  public:
-  explicit PlainSurface(const haptic::HapticModel& model) : model_(model), x_(model.rest) {}
+  explicit PlainSurface(const haptic::ElasticSurface& organ) : organ_(organ), x_(organ.rest) {}
 
   /// Under the forces of all tools but `without` (-1: of all).
   void deform(std::span<const haptic::NodeForce> forces, std::int32_t without = -1);
@@ -22,11 +22,11 @@ class PlainSurface {
  private:
   bool outside(const geometry::Vec3& p) const;
 
-  const haptic::HapticModel& model_;
+  const haptic::ElasticSurface& organ_;
   std::vector<geometry::Vec3> x_;
 };
 
-/// Follows one tool of a model and says whether tissue can have anything to do with it.
+/// Follows one tool at one organ and says whether tissue can have anything to do with it.
 ///
 /// A contact drags the surface to its tool: under a force that should not be there the deformed surface is
 /// where the tool is, and a tool that it holds would never be in the air. So a tool is in the air when it is
@@ -38,8 +38,8 @@ class AirOracle {
  public:
   static constexpr double kMargin_m = 5e-3;
 
-  AirOracle(const haptic::HapticModel& model, std::int32_t tool)
-      : tool_(tool), with_(model), without_(model) {}
+  AirOracle(const haptic::ElasticSurface& organ, std::int32_t tool)
+      : tool_(tool), with_(organ), without_(organ) {}
 
   enum class Place { kTissue, kDragged, kAir };
   Place look(const haptic::HapticState& state, bool feels);

@@ -17,7 +17,7 @@ class AirOracleOnAPlate : public testing::Test {
     ASSERT_TRUE(in_air());
   }
   Bench bench_{make_model(plate(), {round_tool()})};
-  AirOracle oracle_{bench_.model(), 0};
+  AirOracle oracle_{bench_.model().organs.front(), 0};
 };
 
 // 12 mm below its bottom, where a plate that does not give would be far above.
@@ -47,11 +47,11 @@ TEST_F(AirOracleOnAPlate, AForceThatDragsTheSurfaceAlongHidesNoAir) {
     const Vec3 below(0.06, 0.06, 0);
     if ((plate().rest[s] - below).norm() < (plate().rest[node] - below).norm()) node = s;
   }
-  const double compliance = bench_.model().compliance.block(node, node)(2, 2);
+  const double compliance = bench_.model().organs.front().compliance.block(node, node)(2, 2);
   haptic::HapticState& state = bench_.state();
-  state.node_forces[0] = {node, 0, Vec3(0, 0, kOverPlate.z() / compliance)};
+  state.node_forces[0] = {haptic::BodyId(0), node, 0, Vec3(0, 0, kOverPlate.z() / compliance)};
   state.node_force_count = 1;
-  PlainSurface dragged(bench_.model());
+  PlainSurface dragged(bench_.model().organs.front());
   dragged.deform(state.forces());
   ASSERT_FALSE(dragged.clear_of(state.tools[0].now, AirOracle::kMargin_m));
   EXPECT_TRUE(oracle_.in_air(state, true));

@@ -21,13 +21,13 @@ constexpr double kPeak = 1.875;
 
 }  // namespace
 
-HandPath::HandPath(const haptic::HapticModel& model, std::uint32_t seed, double seconds, bool turns)
+HandPath::HandPath(const haptic::ElasticSurface& organ, std::uint32_t seed, double seconds, bool turns)
     : random_(seed), turns_(turns) {
-  for (const Vec3& p : model.rest) room_.extend(p);
+  for (const Vec3& p : organ.rest) room_.extend(p);
   room_.min() -= Vec3::Constant(kSpace_m), room_.max() += Vec3::Constant(kSpace_m);
   tip_ = anywhere();
   tip_.z() = room_.max().z();
-  while (end_s_ < seconds) add_episode(model);
+  while (end_s_ < seconds) add_episode(organ);
 }
 
 double HandPath::uniform(double low, double high) {
@@ -56,9 +56,9 @@ void HandPath::rest() {
 }
 
 // Through the organ, in and out again, along its skin, or anywhere; sometimes with a rest on the way.
-void HandPath::add_episode(const haptic::HapticModel& model) {
+void HandPath::add_episode(const haptic::ElasticSurface& organ) {
   const auto pick = [&] {
-    return model.rest[random_() % static_cast<std::uint32_t>(model.surface.mobile_count)];
+    return organ.rest[random_() % static_cast<std::uint32_t>(organ.surface.mobile_count)];
   };
   const Vec3 middle = room_.center(), skin = pick();
   const Vec3 out = (skin - middle).normalized();

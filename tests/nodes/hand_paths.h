@@ -14,7 +14,7 @@ class HandPath {
 
   /// Starts outside, lasts `seconds` at least. `turns`: the shaft leans this way and that, else it stays
   /// upright.
-  HandPath(const haptic::HapticModel& model, std::uint32_t seed, double seconds, bool turns);
+  HandPath(const haptic::ElasticSurface& organ, std::uint32_t seed, double seconds, bool turns);
 
   double duration_s() const { return end_s_; }
   /// The pose at t; before 0 and after the end it rests.
@@ -29,7 +29,7 @@ class HandPath {
 
   void go(const geometry::Vec3& to);
   void rest();
-  void add_episode(const haptic::HapticModel& model);
+  void add_episode(const haptic::ElasticSurface& organ);
   geometry::Vec3 anywhere();
   double uniform(double low, double high);
 

@@ -79,7 +79,7 @@ void expect_no_allocation(double friction, haptic::ContactMode mode) {
   Bench bench(std::move(model));
   runtime::FaultList faults;
   haptic::ToolLine line(0, {}, faults);
-  msg::Contact message = haptic::make_contact_message(0);
+  msg::Contact message = haptic::make_contact_message(0, 0);
   haptic::ToolInput unused;
   int changes = 0, contacts = -1;
   const std::size_t asked = allocations_of([&] {
@@ -100,7 +100,7 @@ void expect_no_allocation(double friction, haptic::ContactMode mode) {
       line.hear(pose, i * 1'000'000LL);
       line.listen(i * 1'000'000LL, unused);
       static_cast<void>(line.answer(bench.output(), i * 1'000'000LL, 1e-3, false));
-      haptic::fill_contact_message(bench.model(), 0, bench.output(), bench.state(), bench.work(), message);
+      haptic::fill_contact_message(0, bench.output(), bench.state(), bench.work().bodies, message);
       changes += bench.result().contacts != contacts;
       contacts = bench.result().contacts;
     }

@@ -24,7 +24,7 @@ class ClosedPaths : public testing::TestWithParam<const char*> {
     if (!organ) GTEST_SKIP() << GetParam() << ": ../shared/data or organ_phantom is absent";
     model_ =
         std::make_unique<haptic::HapticModel>(test::trial_model(*organ, {test::scene_tools(false).front()}));
-    const auto place = test::find_press_place(*model_, recipe.up, kSlide_m);
+    const auto place = test::find_press_place(model_->organs.front(), recipe.up, kSlide_m);
     ASSERT_TRUE(place);
     place_ = *place;
   }

@@ -95,12 +95,16 @@ inline haptic::ToolModel needle() {
   return tool;
 }
 
+inline haptic::ElasticSurface elastic_surface(const TestOrgan& organ) {
+  haptic::ElasticSurface surface{organ.surface, organ.rest, organ.compliance, {}};
+  for (const geometry::NodeId n : organ.surface.node)
+    surface.file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
+  return surface;
+}
+
 inline haptic::HapticModel make_model(const TestOrgan& organ, std::vector<haptic::ToolModel> tools,
                                       double friction = 0) {
-  haptic::HapticModel model{organ.surface, organ.rest, organ.compliance, {}, std::move(tools), friction};
-  for (const geometry::NodeId n : organ.surface.node) {
-    model.file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
-  }
+  haptic::HapticModel model{{elastic_surface(organ)}, std::move(tools), friction};
   return model;
 }
 
@@ -143,6 +147,10 @@ class Bench {
   const haptic::HapticModel& model() const { return model_; }
   haptic::HapticState& state() { return state_; }
   haptic::HapticWorkspace& work() { return *work_; }
+  /// Of the model's first organ.
+  haptic::DeformedSurface& surface() {
+    return static_cast<haptic::DeformedSurface&>(work_->bodies[haptic::BodyId(0)]);
+  }
   const haptic::ToolOutput& output(std::size_t tool = 0) const { return outputs_[tool]; }
   const haptic::StepResult& result() const { return result_; }
 

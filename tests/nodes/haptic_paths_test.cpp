@@ -77,7 +77,7 @@ class ContinuousPaths : public testing::TestWithParam<const char*> {
       std::vector<Way> ways;
       for (std::uint32_t tool = 0; tool < 2; ++tool) {
         const auto seed = 2 * static_cast<std::uint32_t>(path) + tool;
-        const auto hand = std::make_shared<HandPath>(*model_, seed, kPath_s, path % 2 == 0);
+        const auto hand = std::make_shared<HandPath>(model_->organs.front(), seed, kPath_s, path % 2 == 0);
         ways.emplace_back([hand](double t) { return hand->at(t); });
       }
       entry->second = PathTrial(*model_, std::move(ways), coupling).run(kPath_s, stalls_s);

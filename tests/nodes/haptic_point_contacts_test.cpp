@@ -40,13 +40,13 @@ class PressingTools {
   // This tick's contacts, not solved for.
   HapticState find() {
     HapticState state = state_;
-    work_.nodes.begin_tick();
-    haptic::place_tools(model_, inputs_, state, work_.surface);
-    haptic::evaluate_neighbourhood(state, work_.surface);
-    haptic::leave_astray(state, work_.surface);
-    haptic::follow_surface(model_, state, work_.surface);
-    haptic::meet_appeared(state, work_.surface);
-    haptic::find_contacts(state, work_.surface);
+    work_.bodies[haptic::BodyId(0)].contact_nodes().begin_tick();
+    haptic::place_tools(model_, inputs_, state, work_.bodies);
+    haptic::evaluate_neighbourhood(state, work_.bodies);
+    haptic::leave_astray(state, work_.bodies);
+    haptic::follow_surface(model_, state, work_.bodies);
+    haptic::meet_appeared(state, work_.bodies);
+    haptic::find_contacts(state, work_.bodies);
     return state;
   }
 
@@ -57,7 +57,7 @@ class PressingTools {
     const int near = state.contact_count - static_cast<int>(open.size());
     for (int i = 0; i < state.contact_count; ++i) {
       work_.before[i] = state.contacts[i].force;
-      work_.free_gaps[i] = haptic::free_gap(state, state.contacts[i], work_.surface);
+      work_.free_gaps[i] = haptic::free_gap(state, state.contacts[i]);
     }
     HapticState all = state;
     static_cast<void>(haptic::solve_point_contacts(model_, inputs_, near, state, work_));

@@ -50,7 +50,8 @@ TEST(HapticStep, ForceEqualsADirectConstrainedSolve) {
         expected[same - imposed.begin()] += entry.force;
         continue;
       }
-      imposed.push_back({node, haptic::contact_displacement(entry.node, bench.state(), bench.work())});
+      imposed.push_back(
+          {node, haptic::contact_displacement(entry.body, entry.node, bench.state(), bench.work().bodies)});
       expected.push_back(entry.force);
     }
     ASSERT_GE(imposed.size(), 5u);
@@ -72,11 +73,11 @@ TEST(HapticStep, ToolPointsStayOutsideOfTheDeformedSurface) {
     bench.step_to(kAbove + Vec3(0.00005 * i, 0.00003 * i, -0.00005 * std::min(i, 200)));
   for (int i = 0; i < 5; ++i) bench.step();  // at rest the contact settles
   for (const Vec3& p : bench.state().tools[0].now) {
-    bench.work().surface.evaluate({p - Vec3::Constant(0.005), p + Vec3::Constant(0.005)});
+    bench.surface().evaluate({p - Vec3::Constant(0.005), p + Vec3::Constant(0.005)});
     // settled contacts lie on the surface to within the solver's tolerance and one tick's turn of the normals
     EXPECT_FALSE([&] {
-      const auto inside = bench.work().surface.nearest_if_inside(p, 0.005);
-      return inside && (bench.work().surface.position(*inside) - p).norm() > 2e-5;
+      const auto inside = bench.surface().nearest_if_inside(p, 0.005);
+      return inside && (bench.surface().position(*inside) - p).norm() > 2e-5;
     }());
   }
 }
@@ -109,8 +110,8 @@ TEST(HapticStep, SurfaceThatMovesOverAPointOnItsWayInIsNoticed) {
   const Vec3 beside = kAbove + Vec3(0.012, 0, 0);
   bench.place(1, beside).step_to(kAbove);
   bench.move_to(kAbove - Vec3(0, 0, 0.01), 100);
-  const haptic::SurfacePoint under = bench.work().surface.slide({TriangleId(0), Vec3(1, 0, 0)}, beside);
-  const Vec3 dented = bench.work().surface.position(under);
+  const haptic::SurfacePoint under = bench.surface().slide({TriangleId(0), Vec3(1, 0, 0)}, beside);
+  const Vec3 dented = bench.surface().position(under);
   bench.move_to(dented + Vec3(0, 0, 5e-5), 100, 1);  // rests just above the dent's flank
   ASSERT_EQ(bench.output(1).force, Vec3::Zero());
   bench.step_to(kAbove - Vec3(0, 0, 0.009));    // the flank will rise by more than that in the next tick ...
@@ -169,7 +170,7 @@ TEST(HapticStep, ContactIsOneSided) {
     bench.step_to(kAbove +
                   Vec3(0.01 * std::sin(t), 0.01 * std::cos(0.7 * t), -0.006 + 0.006 * std::cos(1.3 * t)));
     for (const haptic::ToolContact& contact : bench.state().active()) {
-      EXPECT_LE(contact.force.dot(contact.normal), 0);
+      EXPECT_LE(contact.force.dot(contact.place.normal), 0);
     }
   }
 }
@@ -183,8 +184,8 @@ TEST(HapticStep, FrictionStaysInItsConeAndOpposesMotion) {
   const Vec3 dragged = bench.move_to({0.06, 0.05, 0.036}, 600);
   EXPECT_LT(dragged.x(), -0.1 * dragged.z()) << "the tissue holds the tool back";
   for (const haptic::ToolContact& contact : bench.state().active()) {
-    const double push = -contact.force.dot(contact.normal);
-    EXPECT_LE((contact.force + push * contact.normal).norm(), kFriction * push * (1 + 1e-9));
+    const double push = -contact.force.dot(contact.place.normal);
+    EXPECT_LE((contact.force + push * contact.place.normal).norm(), kFriction * push * (1 + 1e-9));
   }
 }
 
@@ -339,8 +340,8 @@ TEST(HapticStep, SpreadModeImposesThePointsDisplacement) {
   EXPECT_GT(force.z(), 0);
   ASSERT_EQ(bench.state().contact_count, 1);
   const haptic::ToolContact& contact = bench.state().contacts[0];
-  const Vec3 gap = bench.state().tools[0].now[0] - bench.work().surface.position(contact.held);
-  EXPECT_LE(std::abs(gap.dot(contact.normal)), 1e-5);
+  const Vec3 gap = bench.state().tools[0].now[0] - bench.surface().position(contact.held);
+  EXPECT_LE(std::abs(gap.dot(contact.place.normal)), 1e-5);
   EXPECT_EQ(bench.move_to({0.0533, 0.0471, 0.042}, 60), Vec3::Zero()) << "a pulling contact is dropped";
 }
 

@@ -42,7 +42,7 @@ PathTrial::PathTrial(const haptic::HapticModel& model, std::vector<Way> ways, Co
       off_tissue_since_s_(ways_.size(), kNever_s),
       tool_work_j_(ways_.size()) {
   for (std::size_t i = 0; i < ways_.size(); ++i) {
-    air_.emplace_back(model, static_cast<std::int32_t>(i));
+    air_.emplace_back(model.organs.front(), static_cast<std::int32_t>(i));
     if (coupling == Coupling::kSafe)
       hands_.push_back(std::make_unique<HandLine>(static_cast<std::uint32_t>(i), 1 / kTick_s));
   }
@@ -147,7 +147,7 @@ std::string PathTrial::describe(std::size_t tool, double t_s) const {
     const haptic::ToolContact& contact = state_.contacts[c];
     if (contact.tool != static_cast<std::int32_t>(tool) || !contact.touches()) continue;
     text << "; point " << contact.point << " holds triangle " << contact.held.triangle << " with "
-         << contact.force.norm() << " N along " << contact.normal.transpose().format(row());
+         << contact.force.norm() << " N along " << contact.place.normal.transpose().format(row());
   }
   return text.str();
 }

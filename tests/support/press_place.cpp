@@ -25,11 +25,11 @@ constexpr double kThin_m = 24e-3;
 // Beyond this above or below the plane a node belongs to another side of the organ, m.
 constexpr double kLayer_m = 20e-3;
 
-std::vector<Vec3> normals_of(const haptic::HapticModel& model) {
-  std::vector<Vec3> normals(model.rest.size(), Vec3::Zero());
-  for (const geometry::Triangle& t : model.surface.triangles) {
-    const Vec3& a = model.rest[t[0]];
-    const Vec3 area = (model.rest[t[1]] - a).cross(model.rest[t[2]] - a);
+std::vector<Vec3> normals_of(const haptic::ElasticSurface& organ) {
+  std::vector<Vec3> normals(organ.rest.size(), Vec3::Zero());
+  for (const geometry::Triangle& t : organ.surface.triangles) {
+    const Vec3& a = organ.rest[t[0]];
+    const Vec3 area = (organ.rest[t[1]] - a).cross(organ.rest[t[2]] - a);
     for (const SurfaceId s : t) normals[s] += area;
   }
   for (Vec3& n : normals) n.normalize();
@@ -37,12 +37,12 @@ std::vector<Vec3> normals_of(const haptic::HapticModel& model) {
 }
 
 // Heights over `p` along `up` at which the line through p meets the surface.
-std::vector<double> crossings(const haptic::HapticModel& model, const Vec3& p, const Vec3& up) {
+std::vector<double> crossings(const haptic::ElasticSurface& organ, const Vec3& p, const Vec3& up) {
   constexpr double kFar_m = 0.5;
   std::vector<double> heights;
-  for (const geometry::Triangle& t : model.surface.triangles) {
-    const auto hit = geometry::intersect_segment_triangle(p - kFar_m * up, p + kFar_m * up, model.rest[t[0]],
-                                                          model.rest[t[1]], model.rest[t[2]]);
+  for (const geometry::Triangle& t : organ.surface.triangles) {
+    const auto hit = geometry::intersect_segment_triangle(p - kFar_m * up, p + kFar_m * up, organ.rest[t[0]],
+                                                          organ.rest[t[1]], organ.rest[t[2]]);
     if (hit) heights.push_back((2 * hit->parameter - 1) * kFar_m);
   }
   std::sort(heights.begin(), heights.end());
@@ -55,18 +55,18 @@ struct Candidate {
 };
 
 // Mobile nodes with nothing but gentle mobile surface in a cylinder around them, the flattest first.
-std::vector<Candidate> candidates(const haptic::HapticModel& model, const std::vector<Vec3>& normals,
+std::vector<Candidate> candidates(const haptic::ElasticSurface& organ, const std::vector<Vec3>& normals,
                                   const Vec3& up, double radius_m) {
   std::vector<Candidate> found;
-  for (SurfaceId s(0); s < model.surface.mobile_count; s = SurfaceId(s + 1)) {
+  for (SurfaceId s(0); s < organ.surface.mobile_count; s = SurfaceId(s + 1)) {
     if (normals[s].dot(up) < kUpperSide) continue;
     double uneven_m = 0;
-    for (SurfaceId other(0); other < model.surface.node_count() && uneven_m <= kUneven_m;
+    for (SurfaceId other(0); other < organ.surface.node_count() && uneven_m <= kUneven_m;
          other = SurfaceId(other + 1)) {
-      const Vec3 way = model.rest[other] - model.rest[s];
+      const Vec3 way = organ.rest[other] - organ.rest[s];
       const double height = way.dot(normals[s]);
       if ((way - height * normals[s]).norm() > radius_m || std::abs(height) > kLayer_m) continue;
-      const bool gentle = normals[other].dot(normals[s]) > kLeaning && other < model.surface.mobile_count;
+      const bool gentle = normals[other].dot(normals[s]) > kLeaning && other < organ.surface.mobile_count;
       uneven_m = gentle ? std::max(uneven_m, std::abs(height)) : std::numeric_limits<double>::infinity();
     }
     if (uneven_m <= kUneven_m) found.push_back({s, uneven_m});
@@ -77,15 +77,15 @@ std::vector<Candidate> candidates(const haptic::HapticModel& model, const std::v
 }
 
 // Looks at every slide from above; false when one leaves the organ.
-bool measure(const haptic::HapticModel& model, PressPlace& place) {
-  std::vector<double> below = crossings(model, place.point - 1e-6 * place.normal, -place.normal);
+bool measure(const haptic::ElasticSurface& organ, PressPlace& place) {
+  std::vector<double> below = crossings(organ, place.point - 1e-6 * place.normal, -place.normal);
   below.erase(below.begin(), std::find_if(below.begin(), below.end(), [](double h) { return h > 0; }));
   place.thickness_m = below.empty() ? 0 : below.front();
   if (place.thickness_m < kThin_m) return false;
   for (int d = 0; d < kDirections; ++d) {
     for (double s = kSampleEvery_m; s <= place.slide_m; s += kSampleEvery_m) {
       const auto heights =
-          crossings(model, place.point + s * place.direction(360.0 * d / kDirections), place.normal);
+          crossings(organ, place.point + s * place.direction(360.0 * d / kDirections), place.normal);
       if (heights.empty()) return false;
       place.rise_m = std::max(place.rise_m, heights.back());
       place.fall_m = std::max(place.fall_m, -heights.back());
@@ -104,12 +104,13 @@ Vec3 PressPlace::direction(double degrees) const {
   return std::cos(turn) * along + std::sin(turn) * normal.cross(along);
 }
 
-std::optional<PressPlace> find_press_place(const haptic::HapticModel& model, const Vec3& up, double slide_m) {
-  const std::vector<Vec3> normals = normals_of(model);
+std::optional<PressPlace> find_press_place(const haptic::ElasticSurface& organ, const Vec3& up,
+                                           double slide_m) {
+  const std::vector<Vec3> normals = normals_of(organ);
   for (; slide_m >= kShortest_m; slide_m -= kShorter_m) {
-    for (const Candidate& candidate : candidates(model, normals, up, slide_m + kToolRadius_m)) {
-      PressPlace place{model.rest[candidate.node], normals[candidate.node], slide_m};
-      if (measure(model, place)) return place;
+    for (const Candidate& candidate : candidates(organ, normals, up, slide_m + kToolRadius_m)) {
+      PressPlace place{organ.rest[candidate.node], normals[candidate.node], slide_m};
+      if (measure(organ, place)) return place;
     }
   }
   return std::nullopt;

@@ -21,7 +21,7 @@ struct PressPlace {
 /// The flattest place on the side that `up` (unit) points to, whose surroundings stay free of supports, with
 /// slides of `slide_m`, or shorter ones (2 mm at a time) where the organ has none so large. Deterministic.
 /// Nothing when the organ is too small for a slide of 4 mm.
-std::optional<PressPlace> find_press_place(const haptic::HapticModel& model, const geometry::Vec3& up,
+std::optional<PressPlace> find_press_place(const haptic::ElasticSurface& organ, const geometry::Vec3& up,
                                            double slide_m);
 
 }  // namespace omentum::test

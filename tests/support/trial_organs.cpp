@@ -100,14 +100,11 @@ std::vector<haptic::ToolModel> scene_tools(bool with_trocars) {
 }
 
 haptic::HapticModel trial_model(const organ::Organ& organ, std::vector<haptic::ToolModel> tools) {
-  haptic::HapticModel model{organ.surface,
-                            geometry::surface_positions(organ.mesh, organ.surface),
-                            *organ.compliance,
-                            {},
-                            std::move(tools)};
+  haptic::ElasticSurface surface{
+      organ.surface, geometry::surface_positions(organ.mesh, organ.surface), *organ.compliance, {}};
   for (const geometry::NodeId n : organ.surface.node)
-    model.file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
-  return model;
+    surface.file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
+  return {.organs = {std::move(surface)}, .tools = std::move(tools)};
 }
 
 const haptic::HapticModel* scene_model(const std::string& name) {
