@@ -21,9 +21,9 @@ constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
-OrganShape shape_of(const organ::Organ& organ) {
-  return {organ.surface, geometry::surface_positions(organ.mesh, organ.surface),
-          organ.surface_of_file_node()};
+OrganShape shape_of(const organ::Organ& organ, const std::string& look) {
+  return {organ.surface, geometry::surface_positions(organ.mesh, organ.surface), organ.surface_of_file_node(),
+          tissue_material(look)};
 }
 
 double picture_period_s(const RenderOptions& options, bool has_window) {
@@ -41,7 +41,7 @@ RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
                                " has no file; expected a resolved scene or --organ FILE");
     }
     const organ::Organ organ = organ::load_organ(spec.file, organ::Load::kMeshOnly);
-    loaded.shapes.push_back(shape_of(organ));
+    loaded.shapes.push_back(shape_of(organ, spec.look));
     const std::vector<Vec3>& rest = loaded.shapes.back().rest;
     loaded.organs.push_back({organ.name, organ.hash, rest.size(), reach_of(rest)});
   }

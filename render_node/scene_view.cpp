@@ -9,8 +9,6 @@
 namespace omentum::render {
 namespace {
 
-// Liver: the hue of its reflectance in clinical photographs, linear.
-const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
 const Material kDrape{{0.016f, 0.046f, 0.056f}, 0.0f, 0.9f};
 
 constexpr double kArrowRadiusM = 0.0013, kHeadRadiusM = 0.0034, kHeadLengthM = 0.009;
@@ -70,8 +68,8 @@ SceneView::SceneView(const runtime::Scene& scene, const std::vector<OrganShape>&
   std::vector<Vec3f> normals;
   double area = 0;
   for (const OrganShape& shape : organs) {
-    DrawnOrgan& drawn =
-        organs_.emplace_back(DrawnOrgan{{shape.surface, shape.rest}, shape.surface_of_file_node});
+    DrawnOrgan& drawn = organs_.emplace_back(
+        DrawnOrgan{{shape.surface, shape.rest}, shape.surface_of_file_node, shape.material});
     drawn.mesh = renderer.add_mesh(drawn.skin.mesh());
     all.insert(all.end(), shape.rest.begin(), shape.rest.end());
     for (std::int32_t s = 0; s < shape.surface.node_count(); ++s) {
@@ -162,7 +160,7 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const DrawnOrgan& organ : organs_)
-    frame.items.push_back({organ.mesh, Look::kTissue, Mat4f::Identity(), kLiver});
+    frame.items.push_back({organ.mesh, Look::kTissue, Mat4f::Identity(), organ.material});
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;
     add_instrument(t, tools[t], frame.items);

@@ -3,6 +3,7 @@
 
 #include "render_node/close_up.h"
 #include "render_node/instrument_shape.h"
+#include "render_node/organ_look.h"
 
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@ struct OrganShape {
   geometry::Surface surface;
   std::vector<Vec3> rest;                                 // [S], m
   std::vector<geometry::SurfaceId> surface_of_file_node;  // invalid where none
+  Material material = tissue_material("liver");
 };
 
 /// One instrument now. `force_n`: on the hand, in W.
@@ -68,6 +70,7 @@ class SceneView {
   struct DrawnOrgan {
     OrganSkin skin;
     std::vector<geometry::SurfaceId> surface_of_file_node;
+    Material material;
     MeshId mesh{};
     /// Invalid where the file's node is not on the surface.
     geometry::SurfaceId surface_node(std::uint32_t file_node) const {

@@ -159,7 +159,8 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
     const OrganSkin& skin = view.skin(i);
     panel.organs.push_back({1e3 * skin.largest_displacement_m(), 1e3 * kLinearShare * skin.extent_m(),
-                            state_arrived_ns_[i] > 0, now_ns - std::max(state_arrived_ns_[i], begin_ns_)});
+                            state_arrived_ns_[i] > 0, now_ns - std::max(state_arrived_ns_[i], begin_ns_),
+                            view.organ_count() > 1 ? loaded_.organs[i].name : std::string()});
   }
   panel.incomplete_states = incomplete_states_;
   panel.faults = all_faults(statuses_);

@@ -15,10 +15,12 @@ using Triple = std::array<double, 3>;
 /// An organ as the scene describes it: enough to build its file, or a built file.
 struct OrganSpec {
   std::string name;
-  std::string mesh;  // a mesh or organ file (relative to the scene), "phantom:paper" or "phantom:fine"
+  std::string
+      mesh;  // a mesh or organ file (relative to the scene), or "phantom:..." (scene.cpp has the words)
   double metres_per_unit = 1;
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
   std::string fixed;           // as organ_build --fixed takes it
+  std::string look = "liver";  // "liver" or "gallbladder": how it is drawn
   std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
 
@@ -36,6 +38,7 @@ struct ToolSpec {
 /// A simulated hand: a mass on a spring and damper to a target that moves along a script.
 struct HandSpec {
   std::uint32_t tool = 0;
+  std::string organ;  // the name of that which it presses
   double mass_kg = 0.2, stiffness_n_m = 400, damping_n_s_m = 12;
   Triple press_point{};             // on the rest surface, in W, m
   Triple press_normal{0, 0, 1};     // outward, unit
