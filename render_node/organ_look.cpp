@@ -6,7 +6,7 @@ namespace {
 // The hue of its reflectance in clinical photographs, linear.
 const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
 // Bile through a thin wall: dull green-blue, under a smooth and wetter serosa.
-const Material kGallbladder{{0.031f, 0.083f, 0.069f}, 0.0f, 0.17f};
+const Material kGallbladder{{0.040f, 0.086f, 0.064f}, 0.0f, 0.17f};
 
 }  // namespace
 

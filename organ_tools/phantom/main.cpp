@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
                             "inferior edge towards -y, and its gallbladder; in metres.");
   std::string part = "liver", size;
   std::filesystem::path mesh_file, labels_file;
-  line.option("--part", part, "liver or gallbladder (900 nodes)")
+  line.option("--part", part, "liver or gallbladder (700-1,000 nodes)")
       .one_of({"liver", "gallbladder"})
       .show_default();
   line.option("--size", size, "of the liver: paper (the default: 1,500-1,800 nodes) or fine (above 16,000)")

@@ -17,7 +17,7 @@ struct MeshSize {
 MeshSize paper_size();
 /// The liver's. Above 16,000 nodes.
 MeshSize fine_size();
-/// The gallbladder's: elements of half the length of those of a liver of the papers' size.
+/// The gallbladder's: elements of about half the length of those of a liver of the papers' size.
 MeshSize gallbladder_size();
 
 /// Fills the shape with a valid mesh within the bounds: Delaunay refinement with a manifold
