@@ -5,9 +5,6 @@
 namespace omentum::render {
 namespace {
 
-// Liver: the hue of its reflectance in clinical photographs, linear.
-const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
-
 double area_of(std::span<const geometry::Triangle> triangles, std::span<const geometry::Vec3> p) {
   double area = 0;
   for (const auto& [a, b, c] : triangles) area += 0.5 * (p[b] - p[a]).cross(p[c] - p[a]).norm();
@@ -19,7 +16,8 @@ class SurfaceDrawing final : public OrganDrawing {
  public:
   explicit SurfaceDrawing(const OrganShape& shape)
       : surface_{{shape.surface, shape.rest}, shape.surface_of_file_node},
-        outline_{shape.rest, {}, area_of(shape.surface.triangles, shape.rest)} {
+        outline_{shape.rest, {}, area_of(shape.surface.triangles, shape.rest)},
+        material_(shape.material) {
     for (std::int32_t s = 0; s < surface_.skin.node_count(); ++s)
       outline_.normals.push_back(surface_.skin.rest_normal(geometry::SurfaceId(s)));
   }
@@ -27,12 +25,13 @@ class SurfaceDrawing final : public OrganDrawing {
   RestOutline rest_outline() const override { return outline_; }
   void deform(std::span<const float> values) override { surface_.skin.deform(values); }
   const MeshData& mesh() const override { return surface_.skin.mesh(); }
-  Material material() const override { return kLiver; }
+  Material material() const override { return material_; }
   const PressedSurface* surface() const override { return &surface_; }
 
  private:
   PressedSurface surface_;
   RestOutline outline_;
+  Material material_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What is drawn of an organ: chosen by its kind, in one place.
 #pragma once
 
+#include "render_node/organ_look.h"
 #include "render_node/organ_skin.h"
 #include "scene/scene.h"
 
@@ -14,6 +15,7 @@ struct OrganShape {
   geometry::Surface surface;
   std::vector<geometry::Vec3> rest;                       // [S], m
   std::vector<geometry::SurfaceId> surface_of_file_node;  // invalid where none
+  Material material = tissue_material("liver");
 };
 
 /// A surface that tools press: its skin, and which of its nodes a file's node is.

@@ -39,6 +39,7 @@ struct OrganRow {
   double limit_mm = 0;  // up to where linear elasticity is trusted: kLinearShare of its size
   bool known = false;   // a state came
   std::int64_t age_ns = 0;  // of the newest state; where none came, since the start
+  std::string name = {};    // empty where the scene has no other
 
   bool beyond_linear() const { return moved_mm > limit_mm; }
   bool stale() const { return age_ns > kStaleStateNs; }

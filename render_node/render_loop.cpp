@@ -21,8 +21,9 @@ constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
-OrganShape shape_of(const node::OrganSource& source) {
-  return {source.kind, source.organ.surface, source.rest, source.organ.surface_of_file_node()};
+OrganShape shape_of(const node::OrganSource& source, const std::string& look) {
+  return {source.kind, source.organ.surface, source.rest, source.organ.surface_of_file_node(),
+          tissue_material(look)};
 }
 
 double picture_period_s(const RenderOptions& options, bool has_window) {
@@ -38,7 +39,7 @@ RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
     const node::OrganSource source = node::load_organ_source(loaded.scene, spec, organ::Load::kMeshOnly);
     loaded.organs.push_back({source.organ.name, source.organ.hash, source.rest.size(), reach_of(source.rest),
                              node::state_kind(source.kind)});
-    loaded.shapes.push_back(shape_of(source));
+    loaded.shapes.push_back(shape_of(source, spec.look));
   }
   return loaded;
 }

@@ -181,6 +181,7 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   panel.dent_mm = dent_ ? 1e3 * dent_->depth_m : 0;
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
     OrganRow& row = panel.organs.emplace_back();
+    if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
     row.known = state_arrived_ns_[i] > 0;
     row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);
     if (const PressedSurface* surface = view.surface(i)) {

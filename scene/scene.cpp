@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace omentum::scene {
 namespace {
 
 using enum TomlSection::Need;
 
+// What organ_phantom makes: the liver in two sizes, and its gallbladder.
+constexpr std::array<std::string_view, 3> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
@@ -75,11 +78,13 @@ OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   s.read("fixed", organ.fixed, kRequired);
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions")) organ.regions.push_back(read_region(region));
+  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder"});
   s.refuse_unknown_keys();
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();
-  } else if (organ.mesh != "phantom:paper" && organ.mesh != "phantom:fine") {
-    s.refuse("mesh", "\"" + organ.mesh + "\"", "\"phantom:paper\", \"phantom:fine\" or a file");
+  } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
+    s.refuse("mesh", "\"" + organ.mesh + "\"",
+             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\" or a file");
   }
   if (!file.empty()) organ.file = beside(scene, file);
   return organ;
@@ -101,6 +106,7 @@ ToolSpec read_tool(TomlSection& s) {
 HandSpec read_hand(TomlSection& s) {
   HandSpec hand;
   s.read("tool", hand.tool, kRequired, msg::MAX_TOOLS - 1);
+  s.read("organ", hand.organ, kOptional);
   s.read("mass_kg", hand.mass_kg, kOptional, kPositive);
   s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
   s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
@@ -149,6 +155,15 @@ CameraSpec read_camera(TomlSection s, bool given) {
   return camera;
 }
 
+void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {
+  for (std::size_t i = 0; i < scene.organs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene.organs[i].name != scene.organs[j].name) continue;
+      sections[i].refuse("name", "\"" + scene.organs[i].name + "\" again", "another name for each organ");
+    }
+  }
+}
+
 void refuse_repeated_tools(const Scene& scene, std::vector<TomlSection>& sections) {
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -169,6 +184,17 @@ void refuse_wrong_hands(const Scene& scene, std::vector<TomlSection>& sections) 
     if (std::any_of(scene.hands.begin(), scene.hands.begin() + static_cast<std::ptrdiff_t>(i), is_hand)) {
       sections[i].refuse("tool", std::to_string(id) + " again", "another tool for each hand");
     }
+  }
+}
+
+// A hand that names no organ presses the first one.
+void find_pressed_organs(Scene& scene, std::vector<TomlSection>& sections) {
+  for (std::size_t i = 0; i < scene.hands.size(); ++i) {
+    std::string& pressed = scene.hands[i].organ;
+    if (pressed.empty()) pressed = scene.organs.front().name;
+    const auto is_pressed = [&](const OrganSpec& organ) { return organ.name == pressed; };
+    if (std::ranges::none_of(scene.organs, is_pressed))
+      sections[i].refuse("organ", "\"" + pressed + "\"", "the name of one of the [[organs]]");
   }
 }
 
@@ -198,8 +224,10 @@ Scene load_scene(const std::filesystem::path& file) {
   for (TomlSection& s : hands) scene.hands.push_back(read_hand(s));
   refuse_wrong_count(root, "organs", organs.size(), msg::MAX_ORGANS);
   refuse_wrong_count(root, "tools", tools.size(), msg::MAX_TOOLS);
+  refuse_repeated_organs(scene, organs);
   refuse_repeated_tools(scene, tools);
   refuse_wrong_hands(scene, hands);
+  find_pressed_organs(scene, hands);
   return scene;
 }
 

@@ -38,11 +38,13 @@ struct OrganSpec {
   std::string name;
   std::string model{kOrganModels.front().word};
   OrganKind kind = kOrganModels.front().kind;  // the model's
-  std::string mesh;  // a mesh or organ file (relative to the scene), "phantom:paper" or "phantom:fine"
+  std::string
+      mesh;  // a mesh or organ file (relative to the scene), or "phantom:..." (scene.cpp has the words)
   double metres_per_unit = 1;
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
   std::vector<RegionSpec> regions;  // of several that overlap the last one holds
   std::string fixed;                // as organ_build --fixed takes it
+  std::string look = "liver";       // "liver" or "gallbladder": how it is drawn
   std::filesystem::path file;       // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
 
@@ -60,6 +62,7 @@ struct ToolSpec {
 /// A simulated hand: a mass on a spring and damper to a target that moves along a script.
 struct HandSpec {
   std::uint32_t tool = 0;
+  std::string organ;  // the name of that which it presses
   double mass_kg = 0.2, stiffness_n_m = 400, damping_n_s_m = 12;
   Vec3 press_point = Vec3::Zero();       // on the rest surface, in W, m
   Vec3 press_normal = Vec3::UnitZ();     // outward, unit

@@ -94,6 +94,7 @@ void add(const ToolSpec& tool, Table table) {
 
 void add(const HandSpec& hand, Table table) {
   table.add("tool", hand.tool);
+  table.add("organ", hand.organ);
   table.add("mass_kg", hand.mass_kg);
   table.add("stiffness_n_m", hand.stiffness_n_m);
   table.add("damping_n_s_m", hand.damping_n_s_m);

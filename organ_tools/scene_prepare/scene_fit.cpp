@@ -66,31 +66,33 @@ std::string shrunk(const scene::HandSpec& hand, const char* what, double from_m,
   return line;
 }
 
-}  // namespace
+std::vector<scene::HandSpec*> hands_on(std::size_t organ, scene::Scene& scene) {
+  std::vector<scene::HandSpec*> hands;
+  for (scene::HandSpec& hand : scene.hands)
+    if (hand.organ == scene.organs[organ].name) hands.push_back(&hand);
+  return hands;
+}
 
-void project_hands(const OrganSkin& skin, scene::Scene& scene) {
-  for (scene::HandSpec& hand : scene.hands) {
-    const SkinPoint at = skin.closest(to_vector(hand.press_point));
-    Vec3 slide = to_vector(hand.slide_direction);
-    slide -= slide.dot(at.normal) * at.normal;
-    if (slide.norm() < 1e-6) slide = at.normal.unitOrthogonal();
-    set_site(hand, {at.position, at.normal, slide.normalized()});
+std::vector<double> shorten_slides(const std::vector<scene::HandSpec*>& hands, double longest_m,
+                                   std::vector<std::string>& notes) {
+  std::vector<double> slides;
+  for (scene::HandSpec* hand : hands) {
+    const double slide = std::min(hand->slide_m, longest_m);
+    if (slide < hand->slide_m) notes.push_back(shrunk(*hand, "slides", hand->slide_m, slide));
+    hand->slide_m = slide;
+    slides.push_back(slide);
   }
+  return slides;
 }
 
 std::vector<std::string> place_hands(const OrganSkin& skin, scene::Scene& scene) {
   std::vector<std::string> notes;
-  std::vector<double> slides;
-  for (scene::HandSpec& hand : scene.hands) {
-    const double slide = std::min(hand.slide_m, kSlideShare * skin.diagonal());
-    if (slide < hand.slide_m) notes.push_back(shrunk(hand, "slides", hand.slide_m, slide));
-    hand.slide_m = slide;
-    slides.push_back(slide);
-  }
+  const std::vector<scene::HandSpec*> hands = hands_on(0, scene);
+  const std::vector<double> slides = shorten_slides(hands, kSlideShare * skin.diagonal(), notes);
   const std::vector<PressSite> sites = choose_press_sites(skin, slides);
   Eigen::Isometry3d first = Eigen::Isometry3d::Identity();
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    scene::HandSpec& hand = scene.hands[i];
+    scene::HandSpec& hand = *hands[i];
     const Eigen::Isometry3d motion = carry(hand, sites[i]);
     if (i == 0) first = motion;
     move_trocar(scene, hand.tool, motion);
@@ -114,8 +116,34 @@ void take_material(const physics::MaterialMap& material, scene::OrganSpec& organ
 }
 
 void name_after(const std::string& organ, scene::Scene& scene) {
+  for (std::size_t i = 1; i < scene.organs.size(); ++i) {
+    if (scene.organs[i].name != organ) continue;
+    throw geometry::InputError(scene.organs.front().file.string() + ": found an organ called \"" + organ +
+                               "\" as another one of the scene, expected another name (organ_build --name)");
+  }
+  for (scene::HandSpec* hand : hands_on(0, scene)) hand->organ = organ;
   scene.organs.front().name = organ;
   scene.name = scene.hands.empty() ? organ : organ + " pressed by a simulated hand";
+}
+
+}  // namespace
+
+void project_hands(const OrganSkin& skin, std::size_t organ, scene::Scene& scene) {
+  for (scene::HandSpec* hand : hands_on(organ, scene)) {
+    const SkinPoint at = skin.closest(to_vector(hand->press_point));
+    Vec3 slide = to_vector(hand->slide_direction);
+    slide -= slide.dot(at.normal) * at.normal;
+    if (slide.norm() < 1e-6) slide = at.normal.unitOrthogonal();
+    set_site(*hand, {at.position, at.normal, slide.normalized()});
+  }
+}
+
+std::vector<std::string> replace_first(const std::string& name, const OrganSkin& skin, scene::Scene& scene) {
+  scene::OrganSpec& first = scene.organs.front();
+  first.mesh = first.file.string();
+  std::vector<std::string> notes = place_hands(skin, scene);
+  name_after(name, scene);
+  return notes;
 }
 
 }  // namespace omentum::scene_prepare

@@ -70,6 +70,7 @@ void write_organ(const scene::OrganSpec& organ, toml::table& table) {
 }
 
 void write_hand(const scene::HandSpec& hand, toml::table& table) {
+  table.insert_or_assign("organ", hand.organ);
   table.insert_or_assign("press_point", to_array(hand.press_point));
   table.insert_or_assign("press_normal", to_array(hand.press_normal));
   table.insert_or_assign("slide_direction", to_array(hand.slide_direction));
@@ -94,7 +95,7 @@ std::string resolved_toml(const scene::Scene& scene) {
     camera->insert_or_assign("target", to_array(scene.camera.target));
   }
   std::ostringstream text;
-  text << "# Fitted to its organ by scene_prepare; the nodes of one run read this.\n" << root << '\n';
+  text << "# Fitted to its organs by scene_prepare; the nodes of one run read this.\n" << root << '\n';
   return text.str();
 }
 

@@ -89,6 +89,38 @@ TEST(SceneView, OrganFollowsItsState) {
   EXPECT_EQ(stage.renderer.updates, 1);
 }
 
+// A second ball beside the first one, with the look of a gallbladder.
+TEST(SceneView, TwoOrgansLookMoveAndAreDentedEachByItself) {
+  const scene::Scene scene = scene_with({"probe"});
+  OrganShape liver = ball_organ(kRadius, 3), sac = liver;
+  for (Vec3& p : sac.rest) p.x() += 3 * kRadius;
+  sac.material = tissue_material("gallbladder");
+  RecordingRenderer renderer;
+  SceneView view(scene, {liver, sac}, renderer);
+  ViewChoices choices;
+  choices.orbit = view.first_camera();
+  const auto drawn = with_look(view.frame(choices, std::vector<ToolNow>(1), 0), Look::kTissue);
+  ASSERT_EQ(drawn.size(), 2u);
+  EXPECT_GT(drawn[0].material.colour.x(), drawn[0].material.colour.y()) << "red";
+  EXPECT_LT(drawn[1].material.colour.x(), drawn[1].material.colour.y()) << "green";
+
+  const float before = renderer.mesh_of(drawn[0]).vertices[4].position.z();
+  view.deform(1, test::dent(liver, liver.rest[4], 0.008, 0.01));
+  EXPECT_EQ(renderer.mesh_of(drawn[0]).vertices[4].position.z(), before);
+  EXPECT_NEAR(renderer.mesh_of(drawn[1]).vertices[4].position.z(), before - 0.008f, kFloat);
+
+  ToolNow tool = tool_at(kTop, Vec3(0, 0, 1));
+  tool.contact_nodes = {4 + test::kFirstFileNode};
+  tool.contact_forces_n = {1};
+  for (const std::size_t organ : {0, 1}) {
+    tool.contact_organ = organ;
+    const auto dent = view.dent_of(tool);
+    ASSERT_TRUE(dent);
+    EXPECT_NEAR(dent->depth_m, organ == 0 ? 0 : 0.008, 1e-3);
+    EXPECT_NEAR(dent->bottom.x(), organ == 0 ? 0 : 3 * kRadius, kFloat);
+  }
+}
+
 TEST(SceneView, ArrowStartsAtTheTipAndPointsWithTheForce) {
   Stage stage;
   for (const Vec3& force : {Vec3(0, 0, 1.5), Vec3(-2, 1, 0.3), Vec3(0, 0, -0.8)}) {

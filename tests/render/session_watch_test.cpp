@@ -66,6 +66,15 @@ TEST_F(SessionWatchTest, AForeignSceneEndsANodeThatStartsAndIsAFaultOfASettledOn
   EXPECT_THAT(why, HasSubstr("protocol"));
 }
 
+TEST_F(SessionWatchTest, OfSeveralOrgansThePanelSaysWhichOneItMeans) {
+  PanelView panel;
+  watch_.describe(view_, 60 * kSecond, panel);
+  ASSERT_EQ(panel.organs.size(), 2u);
+  EXPECT_TRUE(panel.organs[0].stale());
+  EXPECT_EQ(panel.organs[0].name, "left");
+  EXPECT_EQ(panel.organs[1].name, "right");
+}
+
 TEST_F(SessionWatchTest, EachOrganHasItsOwnTopology) {
   msg::Topology cut{}, whole{}, nowhere{};
   cut.version = 1;

@@ -74,6 +74,7 @@ TEST(Scene, WhatIsNotWrittenKeepsItsDefault) {
   EXPECT_EQ(scene.tools[0].points[1], (Vec3{0, 0.001, 0}));
   EXPECT_FALSE(scene.tools[0].trocar);
   EXPECT_EQ(scene.hands[0].stiffness_n_m, HandSpec{}.stiffness_n_m);
+  EXPECT_EQ(scene.hands[0].organ, "liver") << "the first organ";
   EXPECT_EQ(scene.haptics.contact, "point");
   EXPECT_EQ(scene.camera.mode, "orbit");
 }
@@ -239,6 +240,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"NotAUnitVector", "[0, 0, 1]\n", "[0, 0, 2]\n", 17, "of length 2, expected a unit vector"},
         BadScene{"HandWithoutTool", "tool = 2", "tool = 1", 15,
                  "hands[0].tool: found 1, expected the id of one"},
+        BadScene{"HandOnNoOrgan", "tool = 2", "tool = 2\norgan = \"spleen\"", 16,
+                 "hands[0].organ: found \"spleen\", expected the name of one of the [[organs]]"},
+        BadScene{"UnknownLook", "young_pa = 12000", "young_pa = 12000\nlook = \"spleen\"", 6,
+                 "expected one of \"liver\", \"gallbladder\""},
         BadScene{"SameIdTwice", "[[hands]]",
                  "[[tools]]\nid = 2\nname = \"x\"\nshape = \"probe\"\npoints = [[0, 0, 0]]\n[[hands]]", 15,
                  "tools[1].id: found 2 again"},
@@ -252,6 +257,31 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"CameraWithoutEye", "[[hands]]", "[camera]\ntarget = [0, 0, 0]\n[[hands]]", 14,
                  "camera.eye: found nothing"}),
     [](const auto& info) { return info.param.name; });
+
+// A second organ after the first one's last line, 8.
+std::string with_second_organ(const std::string& name, const std::string& mesh) {
+  return with("[[tools]]", "[[organs]]\nname = \"" + name + "\"\nmesh = \"" + mesh +
+                               "\"\nyoung_pa = 4500\npoisson = 0.45\ndensity_kg_m3 = 1020\n" +
+                               "fixed = \"plane:z>0\"\nlook = \"gallbladder\"\n[[tools]]");
+}
+
+TEST(Scene, AHandMayNameTheOrganThatItPresses) {
+  const Scene scene =
+      load_scene(write_scene(with_second_organ("sac", "phantom:gallbladder") + "organ = \"sac\"\n"));
+  ASSERT_EQ(scene.organs.size(), 2u);
+  EXPECT_EQ(scene.organs[0].look, "liver");
+  EXPECT_EQ(scene.organs[1].look, "gallbladder");
+  EXPECT_EQ(scene.hands[0].organ, "sac");
+}
+
+TEST(Scene, OrgansOfOneNameAndUnknownPartsOfThePhantomAreRefusedWithTheirLine) {
+  auto file = write_scene(with_second_organ("liver", "phantom:gallbladder"));
+  EXPECT_THAT(message_of(file), HasSubstr(file.string() + ":10: organs[1].name: found \"liver\" again"));
+  file = write_scene(with_second_organ("sac", "phantom:spleen"));
+  EXPECT_THAT(message_of(file),
+              AllOf(HasSubstr(file.string() + ":11: organs[1].mesh: found \"phantom:spleen\""),
+                    HasSubstr("\"phantom:gallbladder\"")));
+}
 
 TEST(Scene, MoreThanEightToolsAreRefused) {
   std::string text = kGood;

@@ -490,6 +490,22 @@ class Parts(unittest.TestCase):
         (self.folder / "organ_build").write_text("format 3")
         self.assertNotEqual(self.build("plane:y>0"), first)
 
+    def test_a_users_organ_takes_the_place_of_the_first_alone(self):
+        specs = [{"file": "", "mesh": f"phantom:{kind}", "name": name, "metres_per_unit": 1, "fixed": "plane:y>0"}
+                 for kind, name in (("paper", "liver"), ("gallbladder", "sac"))]
+        made = []
+
+        def tool(_, words, __):
+            made.append(words[1:-2])
+            pathlib.Path(words[-1]).write_text(words[2])
+
+        for given, wanted in ((None, ["liver", "sac"]), (self.folder / "own.h5", [self.folder / "own.h5", "sac"])):
+            opened = mock.Mock(programs=self.folder, organ=given, scene=HOLD)
+            with mock.patch.object(organs, "run_tool", tool), \
+                    mock.patch.object(organs, "build_organ", lambda _, __, mesh, name, *more: name):
+                self.assertEqual(organs.organ_files(opened, cache.Cache(), specs), wanted)
+        self.assertEqual(made, [["--size", "paper"], ["--part", "gallbladder"]])
+
     def test_organ_of_another_name_is_another_file_and_takes_none_away(self):
         first = self.build("plane:y>0", "liver")
         second = self.build("plane:y>0", "spleen")
@@ -721,6 +737,10 @@ class Refusals(LauncherTest):
         self.check_refused("missing.toml", about="missing.toml")
         self.check_refused(self.file("syntax.toml", "name = \n"), about="syntax.toml:1")
         self.check_refused(self.file("key.toml", HOLD.read_text() + "\nflavour = 3\n"), about="flavour")
+        two = (options.REPOSITORY / "scenes" / "two_organs.toml").read_text()
+        line = two[:two.index('name = "gallbladder"')].count("\n") + 1
+        self.check_refused(self.file("twice.toml", two.replace('name = "gallbladder"', 'name = "liver"')),
+                           about=f'twice.toml:{line}: organs[1].name: found "liver" again')
         self.check_refused(self.file("mesh.toml", HOLD.read_text().replace("phantom:paper", "gone.msh")), about="gone.msh")
 
     def test_wrong_organs(self):

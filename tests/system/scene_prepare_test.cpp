@@ -197,6 +197,73 @@ TEST(OwnOrganTest, RegionsStayInTheFittedSceneAndAreToldAsOrganBuildTakesThem) {
             (nlohmann::json{"ball=-0.05,0.0,0.01,0.01; young=30000.0", "label=4; poisson=0.3"}));
 }
 
+/// Two boxes, one beside the other, and scenes/two_organs.toml, whose hands press one of its organs each.
+class TwoOrgansTest : public ::testing::Test {
+ protected:
+  std::string box(const std::string& name, double at_x) {
+    geometry::TetraMesh mesh = make_box_mesh(4, 3, 3, {0.12, 0.09, 0.06});
+    for (Vec3& p : mesh.positions) p.x() += at_x;
+    const std::string file = folder_ / (name + ".msh"), organ = folder_ / (name + ".h5");
+    geometry::write_mesh(mesh, file);
+    Process build("organ_build", {file, "-o", organ, "--young", "12000", "--poisson", "0.45", "--density",
+                                  "1060", "--scale", "1", "--fixed", "plane:z<0.01"});
+    EXPECT_EQ(build.wait(), 0) << build.messages();
+    return organ;
+  }
+  scene::Scene prepared(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", fitted_});
+    Process prepare("scene_prepare", arguments);
+    EXPECT_EQ(prepare.wait(), 0) << prepare.messages();
+    return scene::load_scene(fitted_);
+  }
+
+  const std::string scene_ = OMENTUM_SOURCE_DIR "/scenes/two_organs.toml";
+  const ScratchFolder folder_;
+  const std::string fitted_ = folder_ / "scene.toml";
+};
+
+TEST_F(TwoOrgansTest, EachHandIsProjectedOntoTheOrganThatItPresses) {
+  const std::vector<std::string> files = {box("a", -0.2), box("b", 0.2)};
+  const scene::Scene scene = prepared({scene_, "--keep-points", "--organ", files[0], "--organ", files[1]});
+  ASSERT_EQ(scene.organs.size(), 2U);
+  ASSERT_EQ(scene.hands.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(scene.organs[i].file, files[i]);
+    EXPECT_EQ(scene.hands[i].organ, scene.organs[i].name);
+    EXPECT_LE(Skin(files[i]).distance(to_vector(scene.hands[i].press_point)), kOnSurfaceM);
+  }
+  EXPECT_EQ(scene.organs[1].look, "gallbladder");
+}
+
+TEST_F(TwoOrgansTest, AForeignOrganTakesThePlaceOfTheFirstAndItsHandAndTheOtherHandStays) {
+  const std::string foreign = box("kidney", -0.2), own = box("b", 0.2);
+  const scene::Scene scene = prepared({scene_, "--organ", foreign, "--organ", own});
+  EXPECT_EQ(scene.organs[0].name, "kidney");
+  EXPECT_EQ(scene.organs[1].name, "gallbladder");
+  EXPECT_EQ(scene.hands[0].organ, "kidney");
+  EXPECT_EQ(scene.hands[1].organ, "gallbladder");
+  expect_hand_fits(Skin(foreign), scene.hands[0]);
+  EXPECT_LE(Skin(own).distance(to_vector(scene.hands[1].press_point)), kOnSurfaceM);
+  EXPECT_EQ(scene.hands[1].depth_m, scene::load_scene(scene_).hands[1].depth_m);
+}
+
+TEST_F(TwoOrgansTest, WrongFilesAreRefusedWithOneLineAndNothingIsWritten) {
+  const std::string organ = box("kidney", 0), named = box("gallbladder", 0);
+  for (const auto& [files, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{organ}, "two_organs.toml: organ \"gallbladder\" has no file, expected another --organ"},
+           {{organ, organ, organ}, "--organ: found 3 files, expected at most 2"},
+           {{named, organ}, "gallbladder.h5: found an organ called \"gallbladder\" as another one"}}) {
+    std::vector<std::string> arguments = {scene_, "-o", fitted_};
+    for (const std::string& file : files) arguments.insert(arguments.end(), {"--organ", file});
+    Process prepare("scene_prepare", arguments);
+    EXPECT_EQ(prepare.wait(), 2);
+    const std::string messages = prepare.messages();
+    EXPECT_NE(messages.find(says), std::string::npos) << messages;
+    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1) << messages;
+    EXPECT_FALSE(std::filesystem::exists(fitted_));
+  }
+}
+
 TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
   const scene::Scene held = scene::load_scene(held_scene());
   const ScratchFolder folder;
