@@ -21,42 +21,35 @@ constexpr double kSlideShare = 0.2;
 /// How much of the picture's height the organ's bounding sphere fills.
 constexpr double kFill = 0.9;
 
-Vec3 to_vector(const scene::Vec3& t) {
-  return {t[0], t[1], t[2]};
-}
-scene::Vec3 to_triple(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 /// Rotation and translation that take the scene's press point and normal to the organ's.
 Eigen::Isometry3d carry(const scene::HandSpec& from, const PressSite& to) {
-  const auto R = geometry::rotation_onto(to_vector(from.press_normal), to.normal);
-  return Eigen::Translation3d(to.point) * R * Eigen::Translation3d(-to_vector(from.press_point));
+  const auto R = geometry::rotation_onto(from.press_normal, to.normal);
+  return Eigen::Translation3d(to.point) * R * Eigen::Translation3d(-from.press_point);
 }
 
 void set_site(scene::HandSpec& hand, const PressSite& site) {
-  hand.press_point = to_triple(site.point);
-  hand.press_normal = to_triple(site.normal);
-  hand.slide_direction = to_triple(site.slide);
+  hand.press_point = site.point;
+  hand.press_normal = site.normal;
+  hand.slide_direction = site.slide;
 }
 
 void move_trocar(scene::Scene& scene, std::uint32_t tool, const Eigen::Isometry3d& motion) {
   for (scene::ToolSpec& spec : scene.tools)
-    if (spec.id == tool && spec.trocar) spec.trocar = to_triple(motion * to_vector(*spec.trocar));
+    if (spec.id == tool && spec.trocar) spec.trocar = motion * *spec.trocar;
 }
 
 /// Looks at the organ from the side that the scene chose, far enough to see it whole.
 void move_camera(const OrganSkin& skin, scene::CameraSpec& camera, const Eigen::Isometry3d& motion) {
-  const Vec3 view = to_vector(camera.eye) - to_vector(camera.target);
+  const Vec3 view = camera.eye - camera.target;
   if (camera.mode == "endoscope" || view.norm() == 0) {
-    camera.eye = to_triple(motion * to_vector(camera.eye));
-    camera.target = to_triple(motion * to_vector(camera.target));
+    camera.eye = motion * camera.eye;
+    camera.target = motion * camera.target;
     return;
   }
   const double half_angle = camera.field_of_view_deg * std::numbers::pi / 360;
   const double distance = skin.diagonal() / 2 / (kFill * std::tan(half_angle));
-  camera.target = to_triple(skin.centre());
-  camera.eye = to_triple(skin.centre() + distance * view.normalized());
+  camera.target = skin.centre();
+  camera.eye = skin.centre() + distance * view.normalized();
 }
 
 std::string shrunk(const scene::HandSpec& hand, const char* what, double from_m, double to_m) {
@@ -106,15 +99,6 @@ std::vector<std::string> place_hands(const OrganSkin& skin, scene::Scene& scene)
   return notes;
 }
 
-void take_material(const physics::MaterialMap& material, scene::OrganSpec& organ) {
-  organ.young_pa = material.common.young_pa;
-  organ.poisson = material.common.poisson;
-  organ.density_kg_m3 = material.common.density_kg_m3;
-  organ.regions.clear();
-  for (const auto& [label, own] : material.regions)
-    organ.regions.push_back({label, {}, {}, own.young_pa, own.poisson, own.density_kg_m3});
-}
-
 void name_after(const std::string& organ, scene::Scene& scene) {
   for (std::size_t i = 1; i < scene.organs.size(); ++i) {
     if (scene.organs[i].name != organ) continue;
@@ -130,8 +114,8 @@ void name_after(const std::string& organ, scene::Scene& scene) {
 
 void project_hands(const OrganSkin& skin, std::size_t organ, scene::Scene& scene) {
   for (scene::HandSpec* hand : hands_on(organ, scene)) {
-    const SkinPoint at = skin.closest(to_vector(hand->press_point));
-    Vec3 slide = to_vector(hand->slide_direction);
+    const SkinPoint at = skin.closest(hand->press_point);
+    Vec3 slide = hand->slide_direction;
     slide -= slide.dot(at.normal) * at.normal;
     if (slide.norm() < 1e-6) slide = at.normal.unitOrthogonal();
     set_site(*hand, {at.position, at.normal, slide.normalized()});
@@ -144,6 +128,15 @@ std::vector<std::string> replace_first(const std::string& name, const OrganSkin&
   std::vector<std::string> notes = place_hands(skin, scene);
   name_after(name, scene);
   return notes;
+}
+
+void take_material(const physics::MaterialMap& material, scene::OrganSpec& organ) {
+  organ.young_pa = material.common.young_pa;
+  organ.poisson = material.common.poisson;
+  organ.density_kg_m3 = material.common.density_kg_m3;
+  organ.regions.clear();
+  for (const auto& [label, own] : material.regions)
+    organ.regions.push_back({label, {}, {}, own.young_pa, own.poisson, own.density_kg_m3});
 }
 
 }  // namespace omentum::scene_prepare

@@ -25,10 +25,6 @@ constexpr double kOnSurfaceM = 1e-9;
 /// A slide may leave a curved surface by this part of its length: the hand's target is 10 mm below it.
 constexpr double kLiftShare = 0.3;
 
-Vec3 to_vector(const scene::Vec3& t) {
-  return {t[0], t[1], t[2]};
-}
-
 class Skin {
  public:
   explicit Skin(const std::string& organ_file)
@@ -69,8 +65,8 @@ class Skin {
 };
 
 void expect_hand_fits(const Skin& skin, const scene::HandSpec& hand) {
-  const Vec3 p = to_vector(hand.press_point), n = to_vector(hand.press_normal),
-             d = to_vector(hand.slide_direction);
+  const Vec3 p = hand.press_point, n = hand.press_normal,
+             d = hand.slide_direction;
   EXPECT_LE(skin.distance(p), kOnSurfaceM);
   EXPECT_NEAR(n.norm(), 1, 1e-9);
   EXPECT_NEAR(d.norm(), 1, 1e-9);
@@ -101,12 +97,12 @@ TEST_P(ForeignOrganTest, HandsPressOnTheSurfaceApartAndAwayFromTheSupportsAndSli
   for (const scene::HandSpec& hand : scene.hands) {
     SCOPED_TRACE(hand.tool);
     expect_hand_fits(skin, hand);
-    const Vec3 p = to_vector(hand.press_point), d = to_vector(hand.slide_direction);
+    const Vec3 p = hand.press_point, d = hand.slide_direction;
     EXPECT_GT(skin.to_support(p), 0.1 * skin.diagonal());
     for (const double part : {0.5, 1.0})
       EXPECT_LE(skin.distance(p + part * hand.slide_m * d), kLiftShare * hand.slide_m + kOnSurfaceM);
   }
-  const Vec3 between = to_vector(scene.hands[0].press_point) - to_vector(scene.hands[1].press_point);
+  const Vec3 between = scene.hands[0].press_point - scene.hands[1].press_point;
   EXPECT_GT(between.norm(), 0.1 * skin.diagonal());
 }
 
@@ -230,7 +226,7 @@ TEST_F(TwoOrgansTest, EachHandIsProjectedOntoTheOrganThatItPresses) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(scene.organs[i].file, files[i]);
     EXPECT_EQ(scene.hands[i].organ, scene.organs[i].name);
-    EXPECT_LE(Skin(files[i]).distance(to_vector(scene.hands[i].press_point)), kOnSurfaceM);
+    EXPECT_LE(Skin(files[i]).distance(scene.hands[i].press_point), kOnSurfaceM);
   }
   EXPECT_EQ(scene.organs[1].look, "gallbladder");
 }
@@ -243,7 +239,7 @@ TEST_F(TwoOrgansTest, AForeignOrganTakesThePlaceOfTheFirstAndItsHandAndTheOtherH
   EXPECT_EQ(scene.hands[0].organ, "kidney");
   EXPECT_EQ(scene.hands[1].organ, "gallbladder");
   expect_hand_fits(Skin(foreign), scene.hands[0]);
-  EXPECT_LE(Skin(own).distance(to_vector(scene.hands[1].press_point)), kOnSurfaceM);
+  EXPECT_LE(Skin(own).distance(scene.hands[1].press_point), kOnSurfaceM);
   EXPECT_EQ(scene.hands[1].depth_m, scene::load_scene(scene_).hands[1].depth_m);
 }
 
@@ -277,8 +273,8 @@ TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
   ASSERT_EQ(after.hands.size(), before.hands.size());
   for (std::size_t i = 0; i < after.hands.size(); ++i) {
     expect_hand_fits(skin, after.hands[i]);
-    const Vec3 wanted = to_vector(before.hands[i].press_point);
-    EXPECT_NEAR((to_vector(after.hands[i].press_point) - wanted).norm(), skin.distance(wanted), kOnSurfaceM)
+    const Vec3 wanted = before.hands[i].press_point;
+    EXPECT_NEAR((after.hands[i].press_point - wanted).norm(), skin.distance(wanted), kOnSurfaceM)
         << "the nearest surface point";
     EXPECT_EQ(after.hands[i].slide_m, before.hands[i].slide_m);
     EXPECT_EQ(after.hands[i].depth_m, before.hands[i].depth_m);
