@@ -11,7 +11,7 @@ namespace omentum::deform {
 using node::to_vector;
 
 double staleness_gain(double age_s) noexcept {
-  return std::clamp(1.0 - (age_s - kContactStaleS) / kContactFadeS, 0.0, 1.0);
+  return std::clamp(1.0 - (age_s - kContactStale_s) / kContactFade_s, 0.0, 1.0);
 }
 
 const char* describe(Rejection rejection) noexcept {

@@ -21,9 +21,9 @@ inline constexpr int kMaxLoadedNodes = kMaxTools * kMaxNodesPerTool;
 
 /// Contacts come at 250 Hz, and at once when one begins or ends; when none came for this long haptic_node is
 /// gone, not late, s.
-inline constexpr double kContactStaleS = 0.1;
+inline constexpr double kContactStale_s = 0.1;
 /// The organ then comes back to rest within this: slow enough to be seen as a release, not as a jump, s.
-inline constexpr double kContactFadeS = 0.3;
+inline constexpr double kContactFade_s = 0.3;
 
 /// The share of a contact's force that still counts: 1 while fresh, then linear to 0.
 double staleness_gain(double age_s) noexcept;
@@ -40,7 +40,7 @@ struct OrganNumbers {
 /// What a scene lets its contacts claim.
 struct ContactBounds {
   std::uint32_t tools = 0;  // bit t: the scene has tool t
-  double max_force_n = 0;   // on a hand; for the tissue see node/contact_bounds.h
+  double max_force_n = 0;   // on a hand; for the tissue see node_common/contact_bounds.h
 };
 ContactBounds bounds_of(const scene::Scene& scene);
 

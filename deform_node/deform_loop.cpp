@@ -14,7 +14,7 @@ namespace omentum::deform {
 
 namespace {
 
-constexpr double kStatusRateHz = 10;  // docs/topics.md: 1-10 Hz
+constexpr double kStatusRate_hz = 10;  // docs/topics.md: 1-10 Hz
 
 // How long to listen for a scene that is served already, ns: haptic_node listens as long, so that this delays
 // no force, and the first picture by a second.
@@ -127,7 +127,7 @@ void DeformLoop::tick() noexcept {
   book_.advance(now_ns);
   if (!orders_.paused()) organs_.step(book_, 1 / options_.rate_hz);
   if (local_publisher_) local_publisher_->offer(tool_places_->find(now_ns), book_.echoes(), now_ns);
-  const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRateHz));
+  const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRate_hz));
   if (ticks_++ % ticks_per_status == 0) take_figures();
   publish(now_ns);
 }

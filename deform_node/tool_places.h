@@ -11,9 +11,9 @@ namespace omentum::deform {
 
 /// Around a tool's tip, this far, m: what a hand crosses at 0.5 m/s within the 20 ms that a local model may
 /// be late, and the tip's own size.
-inline constexpr double kPatchRadiusM = 0.015;
+inline constexpr double kPatchRadius_m = 0.015;
 /// A tool whose pose is older is gone, or nobody holds it, s.
-inline constexpr double kToolGoneS = 0.1;
+inline constexpr double kToolGone_s = 0.1;
 
 struct ToolPlace {
   std::uint32_t tool = 0;

@@ -4,8 +4,8 @@
 #include "device_bridge/trace_player.h"
 #include "device_bridge/virtual_hand.h"
 #include "runtime/report.h"
-#include "scene/scene.h"
 #include "runtime/signals.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,9 +1,9 @@
 #include "geometry/surface.h"
 
+#include "geometry/precondition.h"
 #include "geometry/tetra_faces.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -116,7 +116,7 @@ void collect_fans(Surface& surface) {
 }  // namespace
 
 Surface extract_surface(const TetraMesh& mesh, const std::vector<bool>& pinned) {
-  assert(pinned.empty() || pinned.size() == mesh.positions.size());
+  require(pinned.empty() || pinned.size() == mesh.positions.size(), "a flag for each node, or none");
   Surface surface;
   const std::vector<BoundaryFace> faces = boundary_faces(mesh);
   number_nodes(surface, mesh, faces, pinned);

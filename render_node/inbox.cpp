@@ -5,18 +5,18 @@
 namespace omentum::render {
 namespace {
 
-constexpr std::int64_t kForgottenNs = 10'000'000'000;  // a node silent for so long leaves the panel
+constexpr std::int64_t kForgotten_ns = 10'000'000'000;  // a node silent for so long leaves the panel
 
 bool forgotten(const HeardStatus& heard, std::int64_t now_ns) {
   const bool needed = heard.status.kind == msg::NODE_HAPTIC || heard.status.kind == msg::NODE_DEFORM;
-  return !needed && now_ns - heard.arrived_ns > kForgottenNs;
+  return !needed && now_ns - heard.arrived_ns > kForgotten_ns;
 }
 
 // Whether `status` speaks for a later run of the same node. One deform_node and one picture are the rule;
 // hands and their haptic_nodes may be many, so there only a silent one is succeeded.
 bool succeeds(const msg::NodeStatus& status, const HeardStatus& heard, std::int64_t now_ns) {
   if (heard.status.kind != status.kind || status.kind == msg::NODE_DEVICE) return false;
-  return status.kind != msg::NODE_HAPTIC || now_ns - heard.arrived_ns > kSilentNs;
+  return status.kind != msg::NODE_HAPTIC || now_ns - heard.arrived_ns > kSilent_ns;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
     *place = {status, now_ns};
   } else if (place == heard.end()) {
     heard.push_back({status, now_ns});
-  } else if (status.instance >= place->status.instance || now_ns - place->arrived_ns > kSilentNs) {
+  } else if (status.instance >= place->status.instance || now_ns - place->arrived_ns > kSilent_ns) {
     *place = {status, now_ns};
   }  // else a late sample of the old run
   std::sort(heard.begin(), heard.end(), [](const HeardStatus& a, const HeardStatus& b) {

@@ -27,7 +27,7 @@ struct HeardStatus {
   msg::NodeStatus status;
   std::int64_t arrived_ns = 0;
 };
-inline constexpr std::int64_t kSilentNs =
+inline constexpr std::int64_t kSilent_ns =
     2'500'000'000;  // a node that says nothing for so long; they speak at 1 Hz
 /// Keeps the newest run of deform_node and the picture, and of haptic and device nodes one per instance. Who
 /// falls silent is forgotten after a while, but never haptic_node and deform_node: without them the session

@@ -7,7 +7,7 @@
 
 namespace omentum::render {
 
-/// The material of a scene's `look` (runtime/scene.h): that of the liver for a word that it does not know.
+/// The material of a scene's `look` (scene/scene.h): that of the liver for a word that it does not know.
 Material tissue_material(const std::string& look);
 
 }  // namespace omentum::render

@@ -113,7 +113,7 @@ void draw_curve(const ToolRow& tool, double now_s, double top_n, const ImVec2& c
   for (const auto& sample : tool.curve) {
     if (sample.after_gap) finish_line();
     const double age = now_s - sample.time_s;
-    line.push_back({corner.x + size.x * static_cast<float>(1 - age / ForceHistory::kSpanS),
+    line.push_back({corner.x + size.x * static_cast<float>(1 - age / ForceHistory::kSpan_s),
                     corner.y + (size.y - 2) * static_cast<float>(1 - sample.force_n / top_n) + 1});
   }
   finish_line();
@@ -127,7 +127,7 @@ void label_axes(double top_n, const ImVec2& corner, const ImVec2& size) {
   draw.AddText({left, corner.y}, dim, format("%g N", top_n).c_str());
   draw.AddText({left, corner.y + size.y - line}, dim, "0 N");
   ImGui::SetCursorScreenPos({corner.x, corner.y + size.y + 1});
-  ImGui::TextDisabled("%.0f s ago", ForceHistory::kSpanS);
+  ImGui::TextDisabled("%.0f s ago", ForceHistory::kSpan_s);
   ImGui::SameLine();
   right_aligned("now", &ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
 }

@@ -14,8 +14,8 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kPicturePeriodS = 2;                  // off-screen, unless asked otherwise
-constexpr std::int64_t kStatusPeriodNs = 100'000'000;  // docs/topics.md: 1-10 Hz
+constexpr double kPicturePeriod_s = 2;                  // off-screen, unless asked otherwise
+constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
 constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
@@ -28,7 +28,7 @@ OrganShape shape_of(const node::OrganSource& source, const std::string& look) {
 
 double picture_period_s(const RenderOptions& options, bool has_window) {
   if (options.picture_period_s >= 0) return options.picture_period_s;
-  return has_window ? 0 : kPicturePeriodS;
+  return has_window ? 0 : kPicturePeriod_s;
 }
 
 }  // namespace
@@ -172,7 +172,7 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
 }
 
 void RenderLoop::tell_status(std::int64_t now_ns) {
-  next_status_ns_ = now_ns + kStatusPeriodNs;
+  next_status_ns_ = now_ns + kStatusPeriod_ns;
   status_.echoes = watch_.echoes();
   inbox_->orders().tell(status_);
   status_.paused = watch_.paused(now_ns);  // as the panel shows it

@@ -11,14 +11,14 @@ namespace {
 
 const Material kDrape{{0.016f, 0.046f, 0.056f}, 0.0f, 0.9f};
 
-constexpr double kArrowRadiusM = 0.0013, kHeadRadiusM = 0.0034, kHeadLengthM = 0.009;
-constexpr double kMarkerRadiusM = 0.0011;
+constexpr double kArrowRadius_m = 0.0013, kHeadRadius_m = 0.0034, kHeadLength_m = 0.009;
+constexpr double kMarkerRadius_m = 0.0011;
 constexpr double kShadowReach =
     1.45;  // of the organs' radius: the instruments' near parts and the shadow beside the organ
 
 // An endoscope without a tool or pose of its own looks from here.
 constexpr double kScopeDistance = 0.42;  // of the orbit camera's start
-constexpr double kScopeFieldDeg = 62;    // a laparoscope's, bottom to top
+constexpr double kScopeField_deg = 62;   // a laparoscope's, bottom to top
 
 constexpr double kLeastHeight = 0.45;  // of the unit viewing direction: never from under the table
 
@@ -108,12 +108,12 @@ Camera SceneView::first_camera() const {
 Camera SceneView::camera(const ViewChoices& choices, std::span<const ToolNow> tools) const {
   if (!choices.endoscope) return choices.orbit;
   if (const auto scope = scope_of(scene_); scope && tools[*scope].seen) {
-    return scope_camera(tools[*scope].p_WT, tools[*scope].q_WT, kScopeFieldDeg);
+    return scope_camera(tools[*scope].p_WT, tools[*scope].q_WT, kScopeField_deg);
   }
   Camera fixed = first_camera();
   if (scene_.camera.mode == "endoscope") return fixed;
   fixed.eye = fixed.target + kScopeDistance * (fixed.eye - fixed.target);
-  fixed.field_of_view_deg = kScopeFieldDeg;
+  fixed.field_of_view_deg = kScopeField_deg;
   return fixed;
 }
 
@@ -186,16 +186,16 @@ void SceneView::add_instrument(std::size_t tool, const ToolNow& now, std::vector
 
 void SceneView::add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
   const double force = now.force_n.norm();
-  if (!(force >= kLeastArrowN)) return;
+  if (!(force >= kLeastArrow_n)) return;
   const Vec3 direction = now.force_n / force;
-  const double length = std::min(force * kArrowMetresPerNewton, kLongestArrowM);
-  const double head = std::min(kHeadLengthM, 0.6 * length), shaft = length - head;
-  const double scale = head / kHeadLengthM;  // a weak force has a small arrow, not a squashed one
+  const double length = std::min(force * kArrowMetresPerNewton, kLongestArrow_m);
+  const double head = std::min(kHeadLength_m, 0.6 * length), shaft = length - head;
+  const double scale = head / kHeadLength_m;  // a weak force has a small arrow, not a squashed one
   const Material material = signal_material(scene_.tools[tool].id);
   items.push_back(
-      {arrow_shaft_, Look::kSignal, placed(now.p_WT, direction, scale * kArrowRadiusM, shaft), material});
+      {arrow_shaft_, Look::kSignal, placed(now.p_WT, direction, scale * kArrowRadius_m, shaft), material});
   items.push_back({arrow_head_, Look::kSignal,
-                   placed(now.p_WT + shaft * direction, direction, scale * kHeadRadiusM, head), material});
+                   placed(now.p_WT + shaft * direction, direction, scale * kHeadRadius_m, head), material});
 }
 
 void SceneView::add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
@@ -205,7 +205,7 @@ void SceneView::add_markers(std::size_t tool, const ToolNow& now, std::vector<Dr
     const geometry::SurfaceId surface_node = touched->node(node);
     if (!surface_node.valid()) continue;
     const Vec3 at = touched->skin.position(surface_node).cast<double>();
-    items.push_back({marker_, Look::kSignal, placed(at, Vec3::UnitZ(), kMarkerRadiusM, kMarkerRadiusM),
+    items.push_back({marker_, Look::kSignal, placed(at, Vec3::UnitZ(), kMarkerRadius_m, kMarkerRadius_m),
                      signal_material(scene_.tools[tool].id)});
   }
 }

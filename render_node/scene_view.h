@@ -32,8 +32,8 @@ struct ViewChoices {
 
 /// Arrows: this long per newton, up to a longest one; weaker forces than the least have none.
 inline constexpr double kArrowMetresPerNewton = 0.02;  // 1 N, a firm press on a liver, is clearly seen
-inline constexpr double kLongestArrowM = 0.12;
-inline constexpr double kLeastArrowN = 0.02;  // below what a hand feels
+inline constexpr double kLongestArrow_m = 0.12;
+inline constexpr double kLeastArrow_n = 0.02;  // below what a hand feels
 
 /// Holds the meshes that it gave the renderer. One thread, the renderer's.
 class SceneView {

@@ -10,9 +10,9 @@
 namespace omentum::render {
 namespace {
 
-constexpr std::int64_t kToolGoneNs =
+constexpr std::int64_t kToolGone_ns =
     1'000'000'000;  // a pose this old: the device has left, its tool is not drawn
-constexpr std::int64_t kForceGoneNs = 250'000'000;  // a force this old is nobody's any more
+constexpr std::int64_t kForceGone_ns = 250'000'000;  // a force this old is nobody's any more
 
 std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
   std::vector<msg::OrganInfo> infos;
@@ -89,7 +89,7 @@ void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t 
 void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns) {
   ToolNow& now = tools_[tool];
   transport::Arrived<msg::ToolPose> pose;
-  now.seen = inbox.pose(ids_[tool], pose) && pose.age_ns(now_ns) < kToolGoneNs && pose.sample.valid &&
+  now.seen = inbox.pose(ids_[tool], pose) && pose.age_ns(now_ns) < kToolGone_ns && pose.sample.valid &&
              is_plausible(pose.sample);
   if (now.seen) {
     const auto& q = pose.sample.orientation;
@@ -98,7 +98,7 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
     now.grip_rad = pose.sample.grip;
   }
   transport::Arrived<msg::ToolForce> force;
-  const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGoneNs &&
+  const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGone_ns &&
                     is_plausible(force.sample, max_force_n_);
   now.force_n = felt ? to_eigen(force.sample.force) : Vec3::Zero();
   now.contact_nodes.clear();
@@ -141,7 +141,7 @@ void SessionWatch::find_deepest_dent(const SceneView& view, std::int64_t now_ns)
   for (const ToolNow& tool : tools_) {
     // a tool of now and an organ of then make no dent
     if (tool.contact_organ >= loaded_.organ_count ||
-        now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleStateNs)
+        now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleState_ns)
       continue;
     const auto dent = view.dent_of(tool);
     if (dent && (!dent_ || dent->depth_m > dent_->depth_m)) dent_ = dent;

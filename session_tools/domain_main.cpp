@@ -15,7 +15,7 @@ namespace {
 using namespace omentum;
 
 /// How often a claim is told. A node's status is durable: whoever finds it hears it at once.
-constexpr double kRateHz = 2;
+constexpr double kRate_hz = 2;
 /// 2.5 s of listening: Cyclone finds its like within 0.1 s and a Fast participant within about one.
 constexpr int kListeningTicks = 5;
 
@@ -43,10 +43,10 @@ void say(const std::string& line) {
 }
 
 void run(const transport::BusOptions& options) {
-  const msg::NodeStatus self = node::introduce(msg::NODE_LAUNCHER, kRateHz);
+  const msg::NodeStatus self = node::introduce(msg::NODE_LAUNCHER, kRate_hz);
   const session::DomainClaim listening{self.instance, self.host, false};
   session::DomainClaim claim = listening;
-  runtime::RateLoop loop(kRateHz);
+  runtime::RateLoop loop(kRate_hz);
   const runtime::StopSignal stop([&loop] { loop.stop(); });
   Rival rival;
   const auto bus = transport::Bus::open(options);

@@ -19,16 +19,16 @@ namespace {
 using namespace omentum;
 
 /// Discovery takes up to 2.9 s between two Fast participants (docs/topics.md).
-constexpr double kDiscoveryS = 5.0;
+constexpr double kDiscovery_s = 5.0;
 /// Other vendors' nodes are found up to this much after the first one.
-constexpr double kSettleS = 1.2;
+constexpr double kSettle_s = 1.2;
 /// "Matched" is not "ready": a first sample may be lost across vendors, so a command is sent twice,
-/// this far apart, under one order, by which nodes know the second one (node/session_orders.h). The same time
-/// is left for delivery.
-constexpr double kDeliveryS = 0.2;
+/// this far apart, under one order, by which nodes know the second one (node_common/session_orders.h). The
+/// same time is left for delivery.
+constexpr double kDelivery_s = 0.2;
 /// haptic_node tells its state several times a second; a second participant's first status takes discovery
 /// besides.
-constexpr double kAnswerS = 5.0;
+constexpr double kAnswer_s = 5.0;
 
 void sleep_s(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -44,11 +44,11 @@ int wait_for_readers(const transport::Writer<msg::SessionCommand>& writer, int n
   const double begin = now_s();
   double changed = begin;
   int matched = 0;
-  while (now_s() - begin < kDiscoveryS) {
+  while (now_s() - begin < kDiscovery_s) {
     const int now_matched = writer.status().matched;
     if (now_matched != matched) changed = now_s();
     matched = now_matched;
-    if (nodes > 0 ? matched >= nodes : matched > 0 && now_s() - changed > kSettleS) break;
+    if (nodes > 0 ? matched >= nodes : matched > 0 && now_s() - changed > kSettle_s) break;
     sleep_s(0.01);
   }
   return matched;
@@ -74,18 +74,18 @@ class Listener {
   /// A command that is later than all that the nodes know of. Where no node tells what it knows, the first
   /// one.
   msg::SessionCommand issue(std::uint32_t command) {
-    comes_true(kAnswerS, [&] { return heard_.load(); });
+    comes_true(kAnswer_s, [&] { return heard_.load(); });
     return orders_.issue(command, sender_);
   }
   /// Whether haptic_node is paused, in its own words. Throws when no haptic_node speaks.
   bool paused() const {
-    if (!comes_true(kAnswerS, [&] { return said_ != Said::kNothing; }))
+    if (!comes_true(kAnswer_s, [&] { return said_ != Said::kNothing; }))
       throw std::runtime_error("no haptic_node answers (expected one that says whether it is paused)");
     return said_ == Said::kPaused;
   }
   /// Throws when it does not become so.
   void expect(bool paused) const {
-    if (!comes_true(kAnswerS, [&] { return this->paused() == paused; }))
+    if (!comes_true(kAnswer_s, [&] { return this->paused() == paused; }))
       throw std::runtime_error(std::string("haptic_node ") + (paused ? "does not pause" : "stays paused"));
   }
 
@@ -108,7 +108,7 @@ void send(transport::Bus& bus, const transport::BusOptions& options, Listener& l
   const msg::SessionCommand message = listener.issue(command);
   for (int copy = 0; copy < 2; ++copy) {
     if (!writer->write(message)) throw std::runtime_error("the command could not be written");
-    sleep_s(kDeliveryS);
+    sleep_s(kDelivery_s);
   }
 }
 

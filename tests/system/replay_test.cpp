@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 constexpr std::size_t kTicks = 20;
 /// Asked for by the issue: float tensors, and contacts that travel as double.
 constexpr double kWithin = 1e-3;
-constexpr double kFeltN = 0.1;
+constexpr double kFelt_n = 0.1;
 
 Vector3d to_vector(const msg::Vec3& v) {
   return {v.x, v.y, v.z};
@@ -66,7 +66,7 @@ std::vector<Moment> record(const std::string& scene, milliseconds apart) {
   std::vector<Moment> moments;
   std::set<std::uint64_t> ticks;
   comes_true([&] {
-    if (observer.force_n() < kFeltN) return false;
+    if (observer.force_n() < kFelt_n) return false;
     const auto state = observer.state();
     const auto moment = state ? moment_of(*state, observer.contacts(), observer.forces()) : std::nullopt;
     if (moment && ticks.insert(moment->contacts.front().tick).second) moments.push_back(*moment);

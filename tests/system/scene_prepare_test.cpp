@@ -21,7 +21,7 @@ using geometry::Vec3;
 
 const std::string kOwnScene = OMENTUM_SOURCE_DIR "/scenes/liver.toml";
 /// Closest points and interpolated positions are doubles on an organ of decimetres.
-constexpr double kOnSurfaceM = 1e-9;
+constexpr double kOnSurface_m = 1e-9;
 /// A slide may leave a curved surface by this part of its length: the hand's target is 10 mm below it.
 constexpr double kLiftShare = 0.3;
 
@@ -65,9 +65,8 @@ class Skin {
 };
 
 void expect_hand_fits(const Skin& skin, const scene::HandSpec& hand) {
-  const Vec3 p = hand.press_point, n = hand.press_normal,
-             d = hand.slide_direction;
-  EXPECT_LE(skin.distance(p), kOnSurfaceM);
+  const Vec3 p = hand.press_point, n = hand.press_normal, d = hand.slide_direction;
+  EXPECT_LE(skin.distance(p), kOnSurface_m);
   EXPECT_NEAR(n.norm(), 1, 1e-9);
   EXPECT_NEAR(d.norm(), 1, 1e-9);
   EXPECT_NEAR(n.dot(d), 0, 1e-9) << "the slide is tangential";
@@ -100,7 +99,7 @@ TEST_P(ForeignOrganTest, HandsPressOnTheSurfaceApartAndAwayFromTheSupportsAndSli
     const Vec3 p = hand.press_point, d = hand.slide_direction;
     EXPECT_GT(skin.to_support(p), 0.1 * skin.diagonal());
     for (const double part : {0.5, 1.0})
-      EXPECT_LE(skin.distance(p + part * hand.slide_m * d), kLiftShare * hand.slide_m + kOnSurfaceM);
+      EXPECT_LE(skin.distance(p + part * hand.slide_m * d), kLiftShare * hand.slide_m + kOnSurface_m);
   }
   const Vec3 between = scene.hands[0].press_point - scene.hands[1].press_point;
   EXPECT_GT(between.norm(), 0.1 * skin.diagonal());
@@ -226,7 +225,7 @@ TEST_F(TwoOrgansTest, EachHandIsProjectedOntoTheOrganThatItPresses) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(scene.organs[i].file, files[i]);
     EXPECT_EQ(scene.hands[i].organ, scene.organs[i].name);
-    EXPECT_LE(Skin(files[i]).distance(scene.hands[i].press_point), kOnSurfaceM);
+    EXPECT_LE(Skin(files[i]).distance(scene.hands[i].press_point), kOnSurface_m);
   }
   EXPECT_EQ(scene.organs[1].look, "gallbladder");
 }
@@ -239,7 +238,7 @@ TEST_F(TwoOrgansTest, AForeignOrganTakesThePlaceOfTheFirstAndItsHandAndTheOtherH
   EXPECT_EQ(scene.hands[0].organ, "kidney");
   EXPECT_EQ(scene.hands[1].organ, "gallbladder");
   expect_hand_fits(Skin(foreign), scene.hands[0]);
-  EXPECT_LE(Skin(own).distance(scene.hands[1].press_point), kOnSurfaceM);
+  EXPECT_LE(Skin(own).distance(scene.hands[1].press_point), kOnSurface_m);
   EXPECT_EQ(scene.hands[1].depth_m, scene::load_scene(scene_).hands[1].depth_m);
 }
 
@@ -274,7 +273,7 @@ TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
   for (std::size_t i = 0; i < after.hands.size(); ++i) {
     expect_hand_fits(skin, after.hands[i]);
     const Vec3 wanted = before.hands[i].press_point;
-    EXPECT_NEAR((after.hands[i].press_point - wanted).norm(), skin.distance(wanted), kOnSurfaceM)
+    EXPECT_NEAR((after.hands[i].press_point - wanted).norm(), skin.distance(wanted), kOnSurface_m)
         << "the nearest surface point";
     EXPECT_EQ(after.hands[i].slide_m, before.hands[i].slide_m);
     EXPECT_EQ(after.hands[i].depth_m, before.hands[i].depth_m);

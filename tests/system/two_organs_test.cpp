@@ -9,8 +9,8 @@
 namespace omentum::test {
 namespace {
 
-constexpr double kFeltN = 0.1;     // a tip that sinks some millimetres into soft tissue feels more than this
-constexpr double kMovedM = 0.001;  // and moves its surface by more than this
+constexpr double kFelt_n = 0.1;     // a tip that sinks some millimetres into soft tissue feels more than this
+constexpr double kMoved_m = 0.001;  // and moves its surface by more than this
 constexpr std::size_t kStatesInARow = 10;              // 0.1 s: not one contact that was lost or late
 constexpr std::uint32_t kLiver = 0, kGallbladder = 1;  // organs, and the tools whose hands press them
 
@@ -51,7 +51,7 @@ class MovedOrgans {
 
 /// Whether for some states in a row those organs were moved, and the others at rest.
 bool moved_for_a_while(const std::vector<Moved>& moved, const std::array<bool, 2>& wanted) {
-  const auto is = [](double moved_m, bool wanted) { return wanted ? moved_m > kMovedM : moved_m == 0; };
+  const auto is = [](double moved_m, bool wanted) { return wanted ? moved_m > kMoved_m : moved_m == 0; };
   std::size_t in_a_row = 0;
   return std::ranges::any_of(moved, [&](const Moved& m) {
     const bool as_wanted = is(m[kLiver], wanted[kLiver]) && is(m[kGallbladder], wanted[kGallbladder]);
@@ -76,7 +76,7 @@ TEST_P(TwoOrgansTest, EachHandMovesItsOwnOrganAloneAndBothMoveTogether) {
         << "liver " << who[0] << ", gallbladder " << who[1] << ", in " << organs.together().size()
         << " states: " << session["haptic_node"].messages() << session["deform_node"].messages();
   }
-  EXPECT_TRUE(comes_true([&] { return observer.force_n(0) > kFeltN && observer.force_n(1) > kFeltN; }));
+  EXPECT_TRUE(comes_true([&] { return observer.force_n(0) > kFelt_n && observer.force_n(1) > kFelt_n; }));
   for (const msg::Contact& contact : observer.contacts())
     EXPECT_TRUE(contact.nodes.empty() || contact.organ == contact.tool) << "a hand touches the other's organ";
 }

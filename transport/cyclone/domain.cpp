@@ -56,8 +56,8 @@ std::string general(Profile profile) {
 std::string discovery(const std::vector<std::string>& peers) {
   // participants of one machine that are found by address need ports that can be guessed: an index each
   constexpr int kMostParticipants = 30;
-  std::string text = element("LeaseDuration", milliseconds(kCycloneLeaseMs)) +
-                     element("SPDPInterval", milliseconds(kAnnouncementPeriodMs));
+  std::string text = element("LeaseDuration", milliseconds(kCycloneLease_ms)) +
+                     element("SPDPInterval", milliseconds(kAnnouncementPeriod_ms));
   if (!peers.empty()) {
     std::string list;
     for (const std::string& peer : peers) list += "<Peer Address=\"" + peer + "\"/>";
