@@ -439,7 +439,7 @@ class Parts(unittest.TestCase):
             return ""
 
         with mock.patch.object(organs, "run_tool", run_tool), contextlib.redirect_stdout(io.StringIO()) as said:
-            organs.organ_file(options, cache.Cache(), spec)
+            organs.users_organ_file(options, cache.Cache(), spec)
         self.assertNotIn("--region", told)
         self.assertIn("kidney.msh is of one material", said.getvalue())
 
