@@ -113,6 +113,7 @@ class DeformedSurface : public Body {
 
   void index_clusters();
   void size_bounds();
+  bool is_mobile(SurfaceId node) const noexcept { return node >= 0 && node < surface_.mobile_count; }
   bool fresh(std::int32_t cluster) const noexcept {
     return cluster >= clusters_ || cluster_version_[cluster] == version_;
   }

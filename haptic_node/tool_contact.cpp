@@ -158,6 +158,10 @@ void find_contacts_with(BodyId id, Body& body, std::size_t tool_index, HapticSta
       hold(alone ? *found : body.slide(*found, with_the_others(*known, tool.now)), *known, body);
     } else if (ToolContact* contact = add_contact(state, of_tool, point, id)) {
       begin_contact(*found, state, *contact, body);
+    } else {
+      // who finds no room in the list and is inside feels nothing until it was outside
+      const Place met = body.place_of(*found);
+      memory.adrift = (met.position - tool.now[p]).dot(met.normal) > 0;
     }
   }
 }

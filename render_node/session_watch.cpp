@@ -119,7 +119,9 @@ void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_
   // a tool is drawn with the organ that it presses hardest
   double most_n = -1;
   for (std::size_t organ = 0; organ < loaded_.organ_count; ++organ) {
-    const msg::Contact& contact = inbox.contact(organ, ids_[tool]);
+    const auto& [contact, arrived_ns] = inbox.contact(organ, ids_[tool]);
+    if (now_ns - arrived_ns > kForceGone_ns)
+      continue;  // haptic_node tells an organ that was left for a while only
     const double total_n = node::total_force_n(contact);
     if (contact.nodes.empty() || !is_plausible(contact, max_force_n_) || total_n <= most_n) continue;
     most_n = total_n;

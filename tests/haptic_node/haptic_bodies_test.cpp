@@ -224,6 +224,44 @@ TEST_F(Exchange, AToolInsideOfABodyThatComesIsHeldWhereItIs) {
   EXPECT_GT(bench_.move_to(pressed_ - Vec3(0, 0, 0.002), 100).z(), 0.05) << "it is pressed from there";
 }
 
+TEST_F(Exchange, WhatGrewOverATipHoldsItWhereItIs) {
+  bench_.step_to(over_);
+  haptic::ElasticSurface grown = bench_.model().organs[0];
+  for (Vec3& x : grown.rest) x.z() += 0.004;  // a millimetre above the tip
+  bench_.work().doors[0].post(body_of(grown));
+  for (int i = 0; i < 5; ++i) EXPECT_LE(bench_.step_to(over_).norm(), 1e-6);
+  EXPECT_GT(bench_.move_to(over_ - Vec3(0, 0, 0.003), 150).z(), 0.05) << "it is pressed from there";
+  bench_.work().doors[0].post(nullptr);
+  bench_.step();
+}
+
+TEST_F(Exchange, ATipThatLosesItsTissueIsHeldWhenTissueComesBack) {
+  bench_.step_to(over_);
+  ASSERT_GT(bench_.move_to(pressed_, 200).norm(), 0.1);
+  haptic::ElasticSurface elsewhere = bench_.model().organs[0];
+  for (Vec3& x : elsewhere.rest) x.x() += 0.3;
+  bench_.work().doors[0].post(body_of(elsewhere));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(bench_.step_to(pressed_), Vec3(0, 0, 0));
+  bench_.work().doors[0].post(nullptr);
+  bench_.step();
+  bench_.work().doors[0].post(body_of(bench_.model().organs[0]));
+  for (int i = 0; i < 5; ++i) EXPECT_LE(bench_.step_to(pressed_).norm(), 1e-6);
+  EXPECT_GT(bench_.move_to(pressed_ - Vec3(0, 0, 0.002), 100).z(), 0.05);
+}
+
+TEST_F(Exchange, JawsDoNotHoldWhatIsGone) {
+  haptic::ToolModel grasper = round_tool();
+  grasper.grasps = true;
+  Bench bench(make_model(block(), {grasper}));
+  bench.place(0, over_, 0.3).step();
+  for (int i = 1; i <= 200; ++i) bench.place(0, over_ + (pressed_ - over_) * i / 200, 0.3).step();
+  bench.place(0, pressed_, 0.05).step();
+  ASSERT_TRUE(bench.output().grasping);
+  bench.work().doors[0].post(nullptr);
+  bench.place(0, pressed_, 0.05).step();
+  EXPECT_FALSE(bench.output().grasping);
+}
+
 TEST_F(Exchange, WhatStoodThereIsFreedByWhoHandsOver) {
   struct Counted final : haptic::DeformedSurface {
     Counted(const haptic::ElasticSurface& organ, int& alive_)
@@ -261,15 +299,15 @@ haptic::LocalPatch patch_around(const Vec3& place, double radius_m, Bench& bench
     });
     if (near) patch.triangles.push_back({add(t[0]), add(t[1]), add(t[2])});
   }
-  patch.load.assign(nodes.size(), Vec3::Zero());
+  patch.forces.assign(nodes.size(), Vec3::Zero());
   for (const haptic::NodeForce& entry : bench.state().forces())
-    if (local[entry.node] >= 0) patch.load[static_cast<std::size_t>(local[entry.node])] += entry.force;
+    if (local[entry.node] >= 0) patch.forces[static_cast<std::size_t>(local[entry.node])] += entry.force;
   for (const SurfaceId n : nodes) {
     Vec3 x = organ.rest[n];
     for (const haptic::NodeForce& entry : bench.state().forces())
       x += organ.compliance.block(n, entry.node) * entry.force;
     patch.positions.push_back(x);
-    patch.file_node.push_back(organ.file_node[n]);
+    patch.nodes.push_back(organ.file_node[n]);
   }
   for (std::size_t i = 0; i < 3 * nodes.size(); ++i) {
     for (std::size_t j = i; j < 3 * nodes.size(); ++j)
@@ -314,16 +352,28 @@ TEST(LocalBody, NobodyIsInsideBeyondItsBorder) {
 TEST(LocalBody, WhatIsNoPatchIsRefused) {
   Bench bench(make_model(block(), {needle()}));
   const haptic::LocalPatch good = patch_around({0.05, 0.05, kTop_m}, 0.025, bench);
-  ASSERT_EQ(haptic::reason_against(good), std::nullopt);
+  ASSERT_EQ(haptic::reason_against(good, 1), std::nullopt);
   const auto refused = [&](auto&& spoil) {
     haptic::LocalPatch patch = good;
     spoil(patch);
-    return haptic::reason_against(patch).has_value();
+    return haptic::reason_against(patch, 1).has_value();
   };
-  EXPECT_TRUE(refused([](auto& p) { p.load.pop_back(); }));
+  EXPECT_TRUE(refused([](auto& p) { p.forces.pop_back(); }));
   EXPECT_TRUE(refused([](auto& p) { p.compliance.pop_back(); }));
   EXPECT_TRUE(refused([](auto& p) { p.compliance[0] = -1; })) << "a node that comes towards its push";
   EXPECT_TRUE(refused([](auto& p) { p.compliance[5] *= 1e4f; })) << "a neighbour that goes farther";
+  EXPECT_TRUE(refused([](auto& p) {
+    // every pair by itself is possible, all of them together are not
+    const std::size_t rows = 3 * p.positions.size();
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t j = i; j < rows; ++j) p.compliance[at++] = i == j ? 1e-3f : -0.9e-3f;
+    }
+  })) << "a press that gives energy";
+  EXPECT_TRUE(refused([](auto& p) { p.organ = 1; }));
+  EXPECT_TRUE(refused([](auto& p) { p.triangles[0][1] = p.triangles[0][0]; }));
+  EXPECT_TRUE(refused([](auto& p) { std::ranges::fill(p.positions, p.positions[0]); }));
+  EXPECT_TRUE(refused([](auto& p) { std::ranges::fill(p.forces, Vec3(0, 0, 1e12)); }));
   EXPECT_TRUE(refused([](auto& p) { p.positions[3].x() = std::nan(""); }));
   EXPECT_TRUE(refused([](auto& p) { p.triangles[0][1] = SurfaceId(4000); }));
   EXPECT_TRUE(refused([](auto& p) { p.triangles[0][1] = SurfaceId(-1); }));
