@@ -41,7 +41,7 @@ inline ToolContact* add_contact(HapticState& state, std::int32_t tool, std::int3
 /// The contact holds another material point, or the same one where it is by now.
 inline void hold(const SurfacePoint& point, ToolContact& contact, Body& body) {
   contact.held = point;
-  contact.place = body.place_of(point);
+  body.find_place(point, contact.place);
 }
 
 /// A tool's point as the contact sees it: less the depth that is no press.

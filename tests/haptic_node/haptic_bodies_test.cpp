@@ -65,9 +65,9 @@ class SpringBed final : public Body {
   double entered_motion() const noexcept override { return 0; }
 
   SurfacePoint slide(const SurfacePoint&, const Vec3& p) noexcept override { return point_below(p); }
-  haptic::Place place_of(const SurfacePoint& point) noexcept override {
+  void find_place(const SurfacePoint& point, haptic::Place& place) noexcept override {
     const Vec3 rest(point.barycentric.x(), point.barycentric.y(), height_m_);
-    return {rest + compliance_ * force_, rest, Vec3::UnitZ(), {{SurfaceId(0)}, Vec3(1, 0, 0), 1}};
+    place = {rest + compliance_ * force_, rest, Vec3::UnitZ(), {{SurfaceId(0)}, Vec3(1, 0, 0), 1}};
   }
   Vec3 position(const SurfacePoint& point) noexcept override { return place_of(point).position; }
   double tissue_ahead(const SurfacePoint&, const Vec3&) noexcept override { return 1; }
