@@ -125,6 +125,18 @@ Surface extract_surface(const TetraMesh& mesh, const std::vector<bool>& pinned) 
   return surface;
 }
 
+Surface surface_of_triangles(std::int32_t node_count, std::vector<Triangle> triangles) {
+  Surface surface;
+  for (std::int32_t n = 0; n < node_count; ++n) {
+    surface.node.emplace_back(n);
+    surface.of_node.emplace_back(n);
+  }
+  surface.triangles = std::move(triangles);
+  surface.mobile_count = node_count;
+  collect_fans(surface);
+  return surface;
+}
+
 std::vector<Vec3> surface_positions(const TetraMesh& mesh, const Surface& surface) {
   std::vector<Vec3> positions;
   positions.reserve(surface.node.size());

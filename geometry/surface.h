@@ -31,6 +31,10 @@ struct Surface {
 /// `pinned[n]` (may be empty: none) tells which mesh nodes are fixed in all three components.
 Surface extract_surface(const TetraMesh& mesh, const std::vector<bool>& pinned);
 
+/// The surface that triangles make, which may be open: numbered as given, `node_count` nodes, all mobile,
+/// without a mesh behind it (no `tetrahedron`).
+Surface surface_of_triangles(std::int32_t node_count, std::vector<Triangle> triangles);
+
 /// Rest positions of the surface's nodes, [S], m.
 std::vector<Vec3> surface_positions(const TetraMesh& mesh, const Surface& surface);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "haptic_node/body.h"
+#include "runtime/mailbox.h"
 
 #include <memory>
 #include <vector>
@@ -32,5 +33,10 @@ class Bodies {
  private:
   std::vector<std::unique_ptr<Body>> places_;
 };
+
+/// Through which an ordinary thread hands the loop a body for a place. What stood there goes back the same
+/// way, and is freed by who hands over the next but one: neither waits, and the loop neither allocates nor
+/// frees. An empty pointer empties the place.
+using BodyDoor = runtime::Mailbox<std::unique_ptr<Body>>;
 
 }  // namespace omentum::haptic

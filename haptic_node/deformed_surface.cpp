@@ -44,6 +44,7 @@ DeformedSurface::DeformedSurface(const geometry::Surface& surface, std::span<con
   index_clusters();
   find_normals();
   find_longest_edges();
+  find_border();
   find_other_side();
   size_bounds();
   restore_rest();

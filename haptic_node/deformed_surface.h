@@ -16,42 +16,44 @@ namespace omentum::haptic {
 /// cost of one dot product per cluster, whatever the mesh's size. Triangles of evaluated clusters are kept in
 /// Cotin's bucket grid.
 ///
+/// The surface may be open: what is nearest to its border is outside of it.
+///
 /// No allocation after construction. One thread at a time. Surface, positions and compliance must outlive it.
-class DeformedSurface final : public Body {
+class DeformedSurface : public Body {
  public:
   DeformedSurface(const geometry::Surface& surface, std::span<const Vec3> rest,
                   const physics::SurfaceCompliance& compliance, const BodyOrigin& origin = {});
 
-  void restore_rest() noexcept override;
+  void restore_rest() noexcept final;
   /// What may follow and that it does in one step.
   void set_forces(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
     propose(nodes, forces);
     accept();
   }
-  void propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept override;
-  void accept() noexcept override;
+  void propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept final;
+  void accept() noexcept final;
   /// Holds for the point's whole triangle.
-  double motion_bound(const SurfacePoint& point) const noexcept override;
-  Eigen::Matrix3f block(SurfaceId n, SurfaceId k) const noexcept override {
+  double motion_bound(const SurfacePoint& point) const noexcept final;
+  Eigen::Matrix3f block(SurfaceId n, SurfaceId k) const noexcept final {
     return compliance_.block(n, k).cast<float>();
   }
   /// Neighbours: of its fan, held ones too.
-  double beyond_neighbours(SurfaceId n) const noexcept override;
+  double beyond_neighbours(SurfaceId n) const noexcept final;
 
   /// Makes exact every cluster of which a triangle may be within kReach_m of the region.
-  void evaluate(const Region& region) noexcept override;
+  void evaluate(const Region& region) noexcept final;
 
   /// The node's cluster is evaluated when it was not.
-  const Vec3& position(SurfaceId node) noexcept override {
+  const Vec3& position(SurfaceId node) noexcept final {
     ensure(node / geometry::kClusterSize);
     return positions_[node];
   }
-  Vec3 position(const SurfacePoint& point) noexcept override {
+  Vec3 position(const SurfacePoint& point) noexcept final {
     const geometry::Triangle& t = surface_.triangles[point.triangle];
     const Vec3& k = point.barycentric;
     return k[0] * position(t[0]) + k[1] * position(t[1]) + k[2] * position(t[2]);
   }
-  Place place_of(const SurfacePoint& point) noexcept override {
+  Place place_of(const SurfacePoint& point) noexcept final {
     return {position(point), rest_position(point), normal(point), nodes_at(point)};
   }
   Vec3 rest_position(const SurfacePoint& point) const noexcept {
@@ -59,8 +61,8 @@ class DeformedSurface final : public Body {
     const Vec3& k = point.barycentric;
     return k[0] * rest_[t[0]] + k[1] * rest_[t[1]] + k[2] * rest_[t[2]];
   }
-  std::optional<SurfacePoint> nearest_at_rest(const Vec3& p, double reach_m) noexcept override;
-  double longest_edge(SurfaceId node) const noexcept override { return longest_edge_[node]; }
+  std::optional<SurfacePoint> nearest_at_rest(const Vec3& p, double reach_m) noexcept final;
+  double longest_edge(SurfaceId node) const noexcept final { return longest_edge_[node]; }
 
   /// Rest normals of the triangle's vertices (area-weighted over their fans), interpolated, so that it is
   /// continuous across edges. Of the rest shape on purpose: linear elasticity states equilibrium there, and
@@ -71,7 +73,7 @@ class DeformedSurface final : public Body {
   /// Straight in from the point's nearest vertex: the way to the surface on the other side over the thickness
   /// at rest; about 1 while nothing is squeezed, however far the organ is bent. Asked for p beyond where the
   /// other side is at rest only: elsewhere 1, without a look at it.
-  double tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept override;
+  double tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept final;
 
   /// The first place where the segment p -> q, inside an evaluated region, passes a triangle from outside to
   /// inside. Looks through every bucket that it crosses.
@@ -81,18 +83,18 @@ class DeformedSurface final : public Body {
   /// deep.
   std::optional<SurfacePoint> nearest_if_inside(const Vec3& p, double reach_m) noexcept;
 
-  std::optional<Immersion> immersion(const Vec3& p, double reach_m) noexcept override;
-  Encounter meet(const Vec3& p, const Vec3& q, double radius_m, bool outside = true) noexcept override;
+  std::optional<Immersion> immersion(const Vec3& p, double reach_m) noexcept final;
+  Encounter meet(const Vec3& p, const Vec3& q, double radius_m, bool outside = true) noexcept final;
 
-  double known_motion() const noexcept override { return known_motion_; }
-  double entered_motion() const noexcept override { return entered_motion_; }
+  double known_motion() const noexcept final { return known_motion_; }
+  double entered_motion() const noexcept final { return entered_motion_; }
 
   /// From triangle to touching triangle: sliding without search.
-  SurfacePoint slide(const SurfacePoint& from, const Vec3& p) noexcept override;
+  SurfacePoint slide(const SurfacePoint& from, const Vec3& p) noexcept final;
 
-  int loaded_nodes() const noexcept override { return static_cast<int>(nodes_.size()); }
+  int loaded_nodes() const noexcept final { return static_cast<int>(nodes_.size()); }
   /// Whole clusters.
-  int evaluated_nodes() const noexcept override { return evaluated_clusters_ * geometry::kClusterSize; }
+  int evaluated_nodes() const noexcept final { return evaluated_clusters_ * geometry::kClusterSize; }
 
   const geometry::Surface& surface() const noexcept { return surface_; }
 
@@ -135,6 +137,7 @@ class DeformedSurface final : public Body {
   void find_normals();
   void find_longest_edges();
   void find_other_side();
+  void find_border();
   bool outside_of_feature(const SurfacePoint& nearest, const Vec3& p) noexcept;
 
   const geometry::Surface& surface_;
@@ -148,6 +151,7 @@ class DeformedSurface final : public Body {
   std::vector<std::int32_t> owned_start_, owned_;  // triangles binned with it
   std::vector<Vec3> normals_;                      // [S] at rest, unit
   std::vector<double> longest_edge_;               // [S] at rest, m
+  std::vector<bool> on_border_;                    // [S] of an open surface
   std::vector<SurfacePoint> other_side_;           // [S] straight in from each node ...
   std::vector<double> thickness_;                  // ... and how far that is at rest, m; infinity: nowhere
   std::vector<double> other_height_;               // ... and its height at rest along the node's normal, m

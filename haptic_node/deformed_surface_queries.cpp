@@ -107,6 +107,22 @@ void DeformedSurface::find_longest_edges() {
   }
 }
 
+// Edges of one triangle alone, looked for from both ends.
+void DeformedSurface::find_border() {
+  on_border_.assign(rest_.size(), false);
+  for (const geometry::Triangle& t : surface_.triangles) {
+    for (int v = 0; v < 3; ++v) {
+      const SurfaceId from = t[v], to = t[(v + 1) % 3];
+      const auto has_edge = [&](TriangleId other) {
+        const geometry::Triangle& face = surface_.triangles[other];
+        return std::ranges::find(face, to) != face.end();
+      };
+      if (std::ranges::count_if(surface_.triangles_of(from), has_edge) > 1) continue;
+      on_border_[static_cast<std::size_t>(from)] = on_border_[static_cast<std::size_t>(to)] = true;
+    }
+  }
+}
+
 void DeformedSurface::find_other_side() {
   Vec3 low = rest_[0], high = rest_[0];
   for (const Vec3& x : rest_) {
@@ -220,11 +236,14 @@ bool DeformedSurface::outside_of_feature(const SurfacePoint& nearest, const Vec3
   for (int v = 0; v < 3; ++v) {
     if (nearest.barycentric[v] > kOnEdge) feature[size++] = t[v];
   }
+  if (size == 1 && on_border_[static_cast<std::size_t>(feature[0])]) return true;
   Vec3 normal = Vec3::Zero();
+  int faces = 0;
   for (const TriangleId around : surface_.triangles_of(feature[0])) {
     const geometry::Triangle& face = surface_.triangles[around];
     const auto holds = [&](SurfaceId n) { return std::find(face.begin(), face.end(), n) != face.end(); };
     if ((size > 1 && !holds(feature[1])) || (size > 2 && !holds(feature[2]))) continue;
+    ++faces;
     const Vec3 face_normal =
         area_normal(position(face[0]), position(face[1]), position(face[2])).normalized();
     double weight = 1;
@@ -235,7 +254,8 @@ bool DeformedSurface::outside_of_feature(const SurfacePoint& nearest, const Vec3
     }
     normal += weight * face_normal;
   }
-  return normal.dot(p - position(nearest)) >= 0;
+  const bool on_border = size == 2 && faces == 1;
+  return on_border || normal.dot(p - position(nearest)) >= 0;
 }
 
 SurfacePoint DeformedSurface::slide(const SurfacePoint& from, const Vec3& p) noexcept {

@@ -25,7 +25,7 @@ HapticState::HapticState(const HapticModel& model) {
 }
 
 HapticWorkspace::HapticWorkspace(const HapticModel& model)
-    : bodies(model.place_count()), works(model.tools.size()) {
+    : bodies(model.place_count()), doors(model.place_count()), works(model.tools.size()) {
   for (std::size_t i = 0; i < model.organs.size(); ++i) {
     const ElasticSurface& organ = model.organs[i];
     const BodyOrigin origin{.organ = static_cast<std::uint32_t>(i), .file_node = organ.file_node};

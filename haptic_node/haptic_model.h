@@ -127,6 +127,7 @@ struct HapticWorkspace {
   explicit HapticWorkspace(const HapticModel& model);
 
   Bodies bodies;
+  std::vector<BodyDoor> doors;     // [places]
   std::vector<ContactWork> works;  // [tools]
   std::array<Share, physics::kMaxContacts> shares;
   // of the contacts, m and N: p - X without and with the tissue's displacement, the last tick's forces, and

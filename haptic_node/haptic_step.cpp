@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_step.h"
 
+#include "haptic_node/body_change.h"
 #include "haptic_node/contact_list.h"
 #include "haptic_node/contact_work.h"
 #include "haptic_node/lost_contact.h"
@@ -131,6 +132,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   Bodies& bodies = work.bodies;
   bodies.for_each([](BodyId, Body& body) { body.contact_nodes().begin_tick(); });
   place_tools(model, inputs, state, bodies);
+  take_in_bodies(state, work);
   evaluate_neighbourhood(state, bodies);
   leave_astray(state, bodies);
   follow_surface(model, state, bodies);

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <utility>
 
 namespace omentum::runtime {
 
@@ -13,13 +14,18 @@ namespace omentum::runtime {
 template <class T>
 class Mailbox {
  public:
-  explicit Mailbox(const T& initial = T{}) : slots_{initial, initial, initial} {}
+  Mailbox() = default;
+  explicit Mailbox(const T& initial) : slots_{initial, initial, initial} {}
 
   /// Writer: the slot to fill. Call post() when it is complete.
   T& draft() { return slots_[write_]; }
   void post() noexcept { write_ = newest_.exchange(write_ | kFresh, std::memory_order_acq_rel) & kSlot; }
   void post(const T& value) {
     draft() = value;
+    post();
+  }
+  void post(T&& value) {
+    draft() = std::move(value);
     post();
   }
 
@@ -29,13 +35,15 @@ class Mailbox {
     read_ = newest_.exchange(read_, std::memory_order_acq_rel) & kSlot;
     return true;
   }
-  /// Reader: the value taken last (the initial one before).
+  /// Reader: the value taken last (the initial one before). It is the reader's: what it leaves there comes
+  /// back to the writer.
   const T& value() const { return slots_[read_]; }
+  T& value() { return slots_[read_]; }
 
  private:
   static constexpr std::uint8_t kFresh = 4;
   static constexpr std::uint8_t kSlot = 3;
-  std::array<T, 3> slots_;
+  std::array<T, 3> slots_{};
   std::uint8_t write_ = 0;
   std::uint8_t read_ = 1;
   std::atomic<std::uint8_t> newest_{2};

@@ -109,6 +109,27 @@ void expect_no_allocation(double friction, haptic::ContactMode mode) {
   EXPECT_GT(changes, 100) << "the ticks were meant to make and lose contacts";
 }
 
+TEST(Allocation, NoneWhenABodyComesUnderAPress) {
+#ifndef OMENTUM_COUNTS_MALLOC
+  GTEST_SKIP() << "the sanitizer owns malloc";
+#endif
+  haptic::HapticModel model = make_model(block(), {round_tool()});
+  model.spare_places = 1;
+  Bench bench(std::move(model));
+  const haptic::ElasticSurface& organ = bench.model().organs[0];
+  bench.step_to({0.05, 0.05, 0.043});
+  bench.move_to({0.05, 0.05, 0.036}, 200);
+  for (int i = 0; i < 20; ++i) {
+    for (haptic::BodyDoor& door : bench.work().doors) {
+      const bool leaves = i % 3 == 2;
+      door.post(leaves
+                    ? nullptr
+                    : std::make_unique<haptic::DeformedSurface>(organ.surface, organ.rest, organ.compliance));
+    }
+    EXPECT_EQ(allocations_of([&] { bench.step_to({0.05, 0.05, 0.036}); }), 0u) << "tick " << i;
+  }
+}
+
 TEST(Allocation, CountingSeesTheHeap) {
 #ifdef OMENTUM_COUNTS_MALLOC
   EXPECT_GE(allocations_of([] { std::vector<int> v(100); }), 1u);
