@@ -82,8 +82,9 @@ organ::Organ prepare(Mesh mesh) {
   const auto folder = std::filesystem::temp_directory_path() / "omentum_bench";
   std::filesystem::create_directories(folder);
   const auto file = folder / (mesh.name + ".h5");
-  const organ::Organ organ = organ::make_organ(mesh.name, std::move(mesh.mesh), {5000, 0.45, 1060},
-                                               std::move(fixed), organ::Storage::kFloat);
+  const organ::Organ organ =
+      organ::make_organ(mesh.name, std::move(mesh.mesh), physics::Material{5000, 0.45, 1060},
+                        std::move(fixed), organ::Storage::kFloat);
   organ::BuildOptions options;
   options.threads = 2;
   organ::build_organ(organ, file, options);

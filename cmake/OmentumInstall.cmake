@@ -3,8 +3,8 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-foreach(program haptic_node deform_node render_node virtual_device omentum_domain omentum_session organ_build organ_solve organ_phantom
-    scene_prepare)
+foreach(program haptic_node deform_node render_node virtual_device omentum_domain omentum_session organ_build organ_solve organ_check organ_phantom
+    scene_prepare force_map)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()

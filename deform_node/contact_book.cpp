@@ -1,8 +1,8 @@
 #include "deform_node/contact_book.h"
 
 #include "deform_node/contact_reach.h"
-#include "node/contact_bounds.h"
-#include "node/vectors.h"
+#include "node_common/contact_bounds.h"
+#include "node_common/vectors.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace omentum::deform {
 using node::to_vector;
 
 double staleness_gain(double age_s) noexcept {
-  return std::clamp(1.0 - (age_s - kContactStaleS) / kContactFadeS, 0.0, 1.0);
+  return std::clamp(1.0 - (age_s - kContactStale_s) / kContactFade_s, 0.0, 1.0);
 }
 
 const char* describe(Rejection rejection) noexcept {
@@ -36,9 +36,9 @@ const char* describe(Rejection rejection) noexcept {
   return "contact dropped";
 }
 
-ContactBounds bounds_of(const runtime::Scene& scene) {
+ContactBounds bounds_of(const scene::Scene& scene) {
   ContactBounds bounds{.tools = 0, .max_force_n = scene.haptics.max_force_n};
-  for (const runtime::ToolSpec& tool : scene.tools)
+  for (const scene::ToolSpec& tool : scene.tools)
     if (tool.id < msg::MAX_TOOLS) bounds.tools |= 1u << tool.id;
   return bounds;
 }
@@ -64,7 +64,6 @@ Rejection check_claims(const msg::Contact& contact, const std::vector<OrganNumbe
 }
 
 Rejection translate(const msg::Contact& contact, const OrganNumbers& organ, HeldContact& held) noexcept {
-  held.organ = contact.organ;
   held.cause = contact.cause;
   held.count = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
@@ -97,7 +96,9 @@ Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumb
 
 ContactBook::ContactBook(std::vector<OrganNumbers> organs, const ContactBounds& bounds,
                          runtime::FaultList& faults)
-    : organs_(std::move(organs)), bounds_(bounds), faults_(faults) {}
+    : organs_(std::move(organs)), bounds_(bounds), faults_(faults) {
+  for (std::size_t i = 0; i < organs_.size(); ++i) pages_.push_back(std::make_unique<OrganPages>());
+}
 
 void ContactBook::take(const msg::Contact& contact, std::int64_t now_ns) noexcept {
   const Rejection rejection = check_contact(contact, organs_, bounds_, draft_);
@@ -106,35 +107,50 @@ void ContactBook::take(const msg::Contact& contact, std::int64_t now_ns) noexcep
     return;
   }
   draft_.received_ns = now_ns;
-  newest_[contact.tool].post(draft_);
+  pages_[contact.organ]->tools[contact.tool].newest.post(draft_);
 }
 
 void ContactBook::advance(std::int64_t now_ns) noexcept {
+  for (const auto& organ : pages_)
+    for (Page& page : organ->tools) advance(page, now_ns);
+  gather_echoes();
+}
+
+void ContactBook::advance(Page& page, std::int64_t now_ns) noexcept {
+  page.newest.fetch();
+  const HeldContact& held = page.newest.value();
+  page.gain = 0;
+  if (held.received_ns == 0 || held.received_ns <= forget_until_ns_) return;
+  page.gain = staleness_gain(1e-9 * static_cast<double>(now_ns - held.received_ns));
+  for (int i = 0; i < held.count; ++i) page.faded_forces[i] = page.gain * held.forces[i];
+}
+
+void ContactBook::gather_echoes() noexcept {
   echo_count_ = 0;
-  for (int tool = 0; tool < kMaxTools; ++tool) {
-    newest_[tool].fetch();
-    const HeldContact& held = newest_[tool].value();
-    gain_[tool] = 0;
-    if (held.received_ns == 0) continue;
-    echoes_[echo_count_++] = held.cause;
-    if (held.received_ns <= forget_until_ns_) continue;
-    gain_[tool] = staleness_gain(1e-9 * static_cast<double>(now_ns - held.received_ns));
-    for (int i = 0; i < held.count; ++i) faded_forces_[tool][i] = gain_[tool] * held.forces[i];
+  for (std::size_t tool = 0; tool < kMaxTools; ++tool) {
+    const HeldContact* newest = nullptr;
+    for (const auto& organ : pages_) {
+      const HeldContact& held = organ->tools[tool].newest.value();
+      if (held.received_ns != 0 && (!newest || held.received_ns > newest->received_ns)) newest = &held;
+    }
+    if (newest) echoes_[echo_count_++] = newest->cause;
   }
 }
 
 std::span<const ToolLoad> ContactBook::loads(std::uint32_t organ) noexcept {
+  OrganPages& pages = *pages_[organ];
   std::size_t count = 0;
-  for (int tool = 0; tool < kMaxTools; ++tool) {
-    const HeldContact& held = newest_[tool].value();
-    if (gain_[tool] <= 0 || held.organ != organ || held.count == 0) continue;
+  for (std::uint32_t tool = 0; tool < kMaxTools; ++tool) {
+    const Page& page = pages.tools[tool];
+    const HeldContact& held = page.newest.value();
+    if (page.gain <= 0 || held.count == 0) continue;
     const auto size = static_cast<std::size_t>(held.count);
-    loads_[count++] = {.tool = static_cast<std::uint32_t>(tool),
-                       .nodes = {held.nodes.data(), size},
-                       .displacements = {held.displacements.data(), size},
-                       .forces = {faded_forces_[tool].data(), size}};
+    pages.loads[count++] = {.tool = tool,
+                            .nodes = {held.nodes.data(), size},
+                            .displacements = {held.displacements.data(), size},
+                            .forces = {page.faded_forces.data(), size}};
   }
-  return {loads_.data(), count};
+  return {pages.loads.data(), count};
 }
 
 }  // namespace omentum::deform

@@ -1,14 +1,16 @@
-// The newest contact of every tool: checked as it arrives, faded when its sender falls silent.
+// The newest contact of every tool with every organ: checked as it arrives, faded when its sender falls
+// silent.
 #pragma once
 
 #include "deform_node/organ_models.h"
 #include "physics/surface_compliance.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 #include "transport/messages.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace omentum::deform {
@@ -19,9 +21,9 @@ inline constexpr int kMaxLoadedNodes = kMaxTools * kMaxNodesPerTool;
 
 /// Contacts come at 250 Hz, and at once when one begins or ends; when none came for this long haptic_node is
 /// gone, not late, s.
-inline constexpr double kContactStaleS = 0.1;
+inline constexpr double kContactStale_s = 0.1;
 /// The organ then comes back to rest within this: slow enough to be seen as a release, not as a jump, s.
-inline constexpr double kContactFadeS = 0.3;
+inline constexpr double kContactFade_s = 0.3;
 
 /// The share of a contact's force that still counts: 1 while fresh, then linear to 0.
 double staleness_gain(double age_s) noexcept;
@@ -38,9 +40,9 @@ struct OrganNumbers {
 /// What a scene lets its contacts claim.
 struct ContactBounds {
   std::uint32_t tools = 0;  // bit t: the scene has tool t
-  double max_force_n = 0;   // on a hand; for the tissue see node/contact_bounds.h
+  double max_force_n = 0;   // on a hand; for the tissue see node_common/contact_bounds.h
 };
-ContactBounds bounds_of(const runtime::Scene& scene);
+ContactBounds bounds_of(const scene::Scene& scene);
 
 /// Why a Contact is dropped.
 enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kForce, kReach };
@@ -48,7 +50,6 @@ const char* describe(Rejection rejection) noexcept;
 
 /// A checked Contact with SurfaceIds, of fixed size: it crosses threads without memory being taken.
 struct HeldContact {
-  std::uint32_t organ = 0;
   msg::Echo cause{};
   std::int64_t received_ns = 0;  // this process's steady clock; 0: none came yet
   int count = 0;
@@ -62,8 +63,9 @@ struct HeldContact {
 [[nodiscard]] Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
                                       const ContactBounds& bounds, HeldContact& held) noexcept;
 
-/// Contacts on their way from the receiving thread to the loop. take() and the loop's methods may run at the
-/// same time on one thread each; neither waits or allocates.
+/// Contacts on their way from the receiving thread to the loop, one of each tool with each organ: who goes
+/// from one to another lets go of the first by an empty contact, or by telling it none. take() and the loop's
+/// methods may run at the same time on one thread each; neither waits or allocates.
 class ContactBook {
  public:
   /// Dropped contacts are raised in `faults`, which must outlive the book.
@@ -84,15 +86,26 @@ class ContactBook {
   void forget(std::int64_t now_ns) noexcept { forget_until_ns_ = now_ns; }
 
  private:
+  /// One tool with one organ.
+  struct Page {
+    runtime::Mailbox<HeldContact> newest;
+    double gain = 0;
+    std::array<Vec3, kMaxNodesPerTool> faded_forces{};
+  };
+  struct OrganPages {
+    std::array<Page, kMaxTools> tools;
+    std::array<ToolLoad, kMaxTools> loads{};
+  };
+
+  void advance(Page& page, std::int64_t now_ns) noexcept;
+  void gather_echoes() noexcept;
+
   std::vector<OrganNumbers> organs_;
   ContactBounds bounds_;
   runtime::FaultList& faults_;
-  HeldContact draft_;  // receiving thread
-  std::array<runtime::Mailbox<HeldContact>, kMaxTools> newest_;
+  HeldContact draft_;                               // receiving thread
+  std::vector<std::unique_ptr<OrganPages>> pages_;  // [organs]
   std::int64_t forget_until_ns_ = 0;
-  std::array<double, kMaxTools> gain_{};
-  std::array<std::array<Vec3, kMaxNodesPerTool>, kMaxTools> faded_forces_{};
-  std::array<ToolLoad, kMaxTools> loads_{};
   std::array<msg::Echo, kMaxTools> echoes_{};
   int echo_count_ = 0;
 };

@@ -1,6 +1,6 @@
 #include "deform_node/deform_loop.h"
 
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/report.h"
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ namespace omentum::deform {
 
 namespace {
 
-constexpr double kStatusRateHz = 10;  // docs/topics.md: 1-10 Hz
+constexpr double kStatusRate_hz = 10;  // docs/topics.md: 1-10 Hz
 
 // How long to listen for a scene that is served already, ns: haptic_node listens as long, so that this delays
 // no force, and the first picture by a second.
@@ -26,37 +26,48 @@ void say_once(bool& said, const char* what) {
   if (!std::exchange(said, true)) std::cerr << "deform_node: " << what << std::endl;
 }
 
-std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs) {
-  std::vector<OrganNumbers> numbers;
-  numbers.reserve(organs.size());
-  for (const ServedOrgan& served : organs) numbers.push_back(numbers_of(served.organ));
-  return numbers;
-}
-
 }  // namespace
 
 DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
     : options_(options),
       scene_(node::load_scene(options.node)),
-      organs_(load_organs(scene_, transport::parse_profile(options.node.profile))),
-      book_(numbers_of_all(organs_), bounds_of(scene_), faults_),
+      organs_(load_organs(scene_, options.models), faults_),
+      book_(numbers_of_all(organs_.organs()), bounds_of(scene_), faults_),
       loop_(loop),
       start_ns_(loop_.now_ns()),
-      scene_info_(describe_scene(scene_, organs_)),
-      loaded_{organs_.size(), scene_info_.organs},
+      loaded_(node::loaded_scene(scene_, describe(organs_.organs()))),
       orders_(start_ns_),
       refusal_(loop),
-      status_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
-      standby_(status_.instance),
+      own_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
+      standby_(own_.instance),
       bus_(open_bus()) {
   if (!options.node.log.empty()) {
     log_ = std::make_unique<runtime::LoopLog>(options.node.log);
     loop_.log_to(*log_);
   }
+  open_writers();
+  open_readers();
+}
+
+void DeformLoop::open_writers() {
+  const auto on_wake = [this](std::function<void()> work) { return loop_.on_wake(std::move(work)); };
   scene_writer_ = bus_->writer<msg::SceneInfo>();
   topology_writer_ = bus_->writer<msg::Topology>();
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
+  publisher_ = std::make_unique<StatePublisher>(
+      StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_}, organs_.organs(),
+      nodes_per_block(transport::parse_profile(options_.node.profile)),
+      node::to_message(loaded_, scene_.name), own_, faults_, on_wake);
+  if (offers_local_models(organs_.organs())) {
+    local_writer_ = bus_->writer<msg::LocalModel>();
+    local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(), on_wake);
+  }
+}
+
+void DeformLoop::open_readers() {
+  if (local_publisher_)
+    tool_places_ = std::make_unique<ToolPlaces>(*bus_, scene_, [this] { return loop_.now_ns(); });
   contact_reader_ = bus_->reader<msg::Contact>(
       [this](const msg::Contact& contact) { book_.take(contact, loop_.now_ns()); });
   command_reader_ = bus_->reader<msg::SessionCommand>(
@@ -91,10 +102,6 @@ void DeformLoop::serve_or_stand_by() {
 void DeformLoop::take_up() {
   if (role_ == Role::kStandingBy) say_once(told_serving_, "the other one fell silent, this one serves");
   role_ = Role::kServing;
-  if (std::exchange(introduced_, true)) return;
-  scene_writer_->write(scene_info_);
-  for (std::size_t i = 0; i < organs_.size(); ++i)
-    topology_writer_->write(uncut_topology(static_cast<std::uint32_t>(i), organs_[i].organ));
 }
 
 void DeformLoop::stand_by() {
@@ -118,43 +125,50 @@ void DeformLoop::tick() noexcept {
   obey();
   const std::int64_t now_ns = loop_.now_ns();
   book_.advance(now_ns);
-  if (!orders_.paused()) {
-    for (std::size_t i = 0; i < organs_.size(); ++i)
-      organs_[i].model->step(book_.loads(static_cast<std::uint32_t>(i)), 1 / options_.rate_hz);
-    ++steps_;
-  }
+  if (!orders_.paused()) organs_.step(book_, 1 / options_.rate_hz);
+  if (local_publisher_) local_publisher_->offer(tool_places_->find(now_ns), book_.echoes(), now_ns);
+  const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRate_hz));
+  if (ticks_++ % ticks_per_status == 0) take_figures();
   publish(now_ns);
-  ++ticks_;
 }
 
 void DeformLoop::obey() noexcept {
   if (!orders_.take_reset()) return;
   book_.forget(loop_.now_ns());
-  for (ServedOrgan& served : organs_) served.model->reset();
+  organs_.reset();
+}
+
+void DeformLoop::take_figures() noexcept {
+  const runtime::LoopRecord& record = loop_.record();
+  orders_.tell(own_);
+  figures_ = {.number = figures_.number + 1,
+              .paused = own_.paused,
+              .newest_order = own_.newest_order,
+              .ticks = record.ticks,
+              .missed = record.missed,
+              .period_us = node::to_message(record.period.percentiles()),
+              .compute_us = node::to_message(record.compute.percentiles())};
+  own_.ticks = record.ticks;
+  standby_.serving(own_);
 }
 
 void DeformLoop::publish(std::int64_t now_ns) noexcept {
-  ++states_;
-  for (ServedOrgan& served : organs_) {
-    fill_blocks(served, states_, now_ns, book_.echoes());
-    for (const msg::OrganState& block : served.blocks) state_writer_->write(block);
-  }
-  const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRateHz));
-  if (ticks_ % ticks_per_status == 0) publish_status();
-}
-
-void DeformLoop::publish_status() noexcept {
-  status_.paused = orders_.paused();
-  status_.echoes.assign(book_.echoes().begin(), book_.echoes().end());
-  node::fill_status(loop_.record(), faults_, status_);
-  standby_.serving(status_);
-  status_writer_->write(status_);
+  TickSnapshot& tick = publisher_->draft();
+  tick.seq = ++states_;
+  tick.stamp_ns = now_ns;
+  tick.echoes.take(book_.echoes());
+  for (std::size_t i = 0; i < tick.organs.size(); ++i) tick.organs[i].take(organs_.organs()[i].model->view());
+  tick.figures = figures_;
+  publisher_->publish();
 }
 
 nlohmann::json DeformLoop::report() const {
-  return {{"dds", options_.node.dds}, {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
-          {"states", states_},        {"steps", steps_},
-          {"removed_tetrahedra", 0},  {"faults", faults_.lines()}};
+  return {{"dds", options_.node.dds},
+          {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
+          {"states", states_},
+          {"steps", organs_.steps()},
+          {"removed_tetrahedra", organs_.removed_tetrahedra()},
+          {"faults", faults_.lines()}};
 }
 
 }  // namespace omentum::deform

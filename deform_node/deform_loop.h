@@ -1,11 +1,13 @@
 // The node around the models: topics in, topics out, at a fixed rate.
 #pragma once
 
-#include "deform_node/served_organ.h"
+#include "deform_node/local_publisher.h"
+#include "deform_node/organ_group.h"
 #include "deform_node/standby.h"
-#include "node/loaded_scene.h"
-#include "node/refusal.h"
-#include "node/session_orders.h"
+#include "deform_node/state_publisher.h"
+#include "node_common/loaded_scene.h"
+#include "node_common/refusal.h"
+#include "node_common/session_orders.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/pace.h"
@@ -14,10 +16,11 @@
 
 namespace omentum::deform {
 
-/// What deform_node's command line asks for.
+/// What deform_node's command line asks for, and the models that its scenes may choose from.
 struct DeformOptions {
   runtime::NodeOptions node;
   double rate_hz = 100;  // faster than any screen, slow beside a step (docs/topics.md promises 60)
+  std::span<const ModelEntry> models = model_table();
 };
 
 /// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo and
@@ -38,35 +41,35 @@ class DeformLoop {
   void require_written();
 
  private:
+  void open_writers();
+  void open_readers();
   void serve_or_stand_by();
   void take_up();
   void stand_by();
   void hear(const msg::SceneInfo& other);
   void tick() noexcept;
   void obey() noexcept;
+  void take_figures() noexcept;
   void publish(std::int64_t now_ns) noexcept;
-  void publish_status() noexcept;
 
   DeformOptions options_;
-  runtime::Scene scene_;
-  std::vector<ServedOrgan> organs_;
+  scene::Scene scene_;
   runtime::FaultList faults_;
+  OrganGroup organs_;
   ContactBook book_;
   runtime::Pace& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
   std::int64_t start_ns_;
-  msg::SceneInfo scene_info_;
   node::LoadedScene loaded_;
   node::SessionOrders orders_;
   node::Refusal refusal_;
-  std::uint64_t steps_ = 0;
   std::uint64_t states_ = 0;
   std::uint64_t ticks_ = 0;
   enum class Role { kListening, kServing, kStandingBy };
   Role role_ = Role::kListening;
-  bool introduced_ = false;                               // its durable samples are out
   bool told_standing_by_ = false, told_serving_ = false;  // on stderr
-  msg::NodeStatus status_{};
+  msg::NodeStatus own_;  // who this is; what of it changes is the publisher's, but for the ticks
+  LoopFigures figures_;
   Standby standby_;
 
   // declared last: callbacks end before what they touch
@@ -75,6 +78,10 @@ class DeformLoop {
   std::unique_ptr<transport::Writer<msg::Topology>> topology_writer_;
   std::unique_ptr<transport::Writer<msg::OrganState>> state_writer_;
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
+  std::unique_ptr<transport::Writer<msg::LocalModel>> local_writer_;  // none where no organ offers any
+  std::unique_ptr<StatePublisher> publisher_;
+  std::unique_ptr<LocalPublisher> local_publisher_;
+  std::unique_ptr<ToolPlaces> tool_places_;  // where some organ offers local models
   std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;

@@ -1,6 +1,6 @@
 // deform_node: moves the organs. Contact in, OrganState out.
 #include "deform_node/deform_loop.h"
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"

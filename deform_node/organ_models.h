@@ -1,10 +1,14 @@
-// What deform_node knows of an organ's physics: loads in, surface displacements out.
+// What deform_node knows of an organ's physics: loads and cuts in, a state to publish out.
 #pragma once
 
+#include "deform_node/local_patch.h"
+#include "deform_node/organ_contact.h"
 #include "geometry/types.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace omentum::deform {
 
@@ -19,20 +23,77 @@ struct ToolLoad {
   std::span<const Vec3> forces;         // on the tissue, in W, N
 };
 
+/// What a tool's cutting edge swept since the last tick: the two ruled triangles between both places.
+struct CutStroke {
+  std::uint32_t tool = 0;
+  std::uint64_t cut = 0;             // strokes of one cut have the same number
+  std::array<Vec3, 2> from{}, to{};  // the edge's two ends, in W, m
+};
+
+/// What is done to one organ in a tick.
+struct TickLoads {
+  std::span<const ToolLoad> presses;
+  std::span<const CutStroke> cuts;
+};
+
+/// What the values of a state are, numbered as OrganState.kind (KIND_* of idl/organ.idl).
+enum class StateKind : std::uint32_t {
+  kSurface = 0,  // displacement of every surface node in SurfaceId order, pinned ones included, in W, m
+  kTube = 1,     // position of every mass of axis and mesentery, in W, m
+};
+
+/// An organ as it is now. Valid until the model's next step() or reset().
+struct OrganView {
+  StateKind kind = StateKind::kSurface;
+  std::uint64_t topology_version = 0;  // rises with every change of what is removed, also with a reset
+  std::span<const float> values;       // x y z, one after the other: [3 n]
+  std::span<const std::uint8_t> removed_bits{};  // bit t % 8 of byte t / 8: tetrahedron t; empty: none is
+};
+
+/// What a model says of itself. Counters count since the start, over resets.
+struct ModelStatus {
+  std::uint64_t steps = 0;
+  std::uint32_t removed_tetrahedra = 0;  // now
+  bool diverged = false;                 // its state is beyond help: it must be reset, and not be published
+  std::string_view fault{};  // of this step, a text that lives as long as the program; empty: none
+};
+
+/// How large a model's outputs become at most, so that others take their memory beforehand.
+struct ModelSizes {
+  std::size_t values = 0;         // of OrganView
+  std::size_t removed_bytes = 0;  // of OrganView
+  std::size_t local_nodes = 0;    // of a LocalPatch; 0: it offers none
+  std::size_t spheres = 0;        // that other organs can meet
+};
+
 /// One organ's deformation. The quasi-static, tensor-mass, hybrid and intestine models each are one of
-/// these; deform_loop knows nothing else of them. One thread at a time.
+/// these; deform_node knows nothing else of them. One thread at a time. What is noexcept allocates nothing.
 class OrganModel {
  public:
   virtual ~OrganModel() = default;
 
-  /// Advances by dt_s (fixed for a run) under the loads of this moment. Allocates nothing.
-  virtual void step(std::span<const ToolLoad> loads, double dt_s) noexcept = 0;
+  /// Fixed from the start on.
+  virtual ModelSizes sizes() const = 0;
 
-  /// Back to rest.
+  /// Advances by dt_s (fixed for a run) under the loads of this moment.
+  virtual void step(const TickLoads& loads, double dt_s) noexcept = 0;
+
+  /// Back to rest, and whole.
   virtual void reset() noexcept = 0;
 
-  /// Displacement of every surface node, x y z in SurfaceId order, pinned nodes included: [3 S], m, in W.
-  virtual std::span<const float> displacements() const noexcept = 0;
+  virtual OrganView view() const noexcept = 0;
+  virtual ModelStatus status() const noexcept = 0;
+
+  /// A small model of the surface around `place` that haptic_node can press between two states, written into
+  /// `patch`. False: none is offered there, as by an organ whose compliance every node has.
+  virtual bool local_model(const PatchPlace& /*place*/, LocalPatch& /*patch*/) const noexcept {
+    return false;
+  }
+
+  /// What other organs may meet, at this moment; valid as a view is.
+  virtual std::span<const CollisionSphere> collidable() const noexcept { return {}; }
+  /// What they met, after all organs' steps; empty in most ticks, and then not called.
+  virtual void respond(std::span<const OrganContact> /*contacts*/) noexcept {}
 };
 
 }  // namespace omentum::deform

@@ -28,15 +28,16 @@ QuasiStaticModel::QuasiStaticModel(const physics::SurfaceCompliance& compliance,
   forces_.reserve(kMaxLoadedNodes);
 }
 
-void QuasiStaticModel::step(std::span<const ToolLoad> loads, double /*dt_s*/) noexcept {
+void QuasiStaticModel::step(const TickLoads& loads, double /*dt_s*/) noexcept {
   nodes_.clear();
   forces_.clear();
-  for (const ToolLoad& load : loads) {
+  for (const ToolLoad& load : loads.presses) {
     nodes_.insert(nodes_.end(), load.nodes.begin(), load.nodes.end());
     forces_.insert(forces_.end(), load.forces.begin(), load.forces.end());
   }
   physics::superpose_surface(compliance_, nodes_, forces_, tiled_);
   interleave(tiled_, compliance_.mobile_count(), displacements_);
+  ++steps_;
 }
 
 void QuasiStaticModel::reset() noexcept {

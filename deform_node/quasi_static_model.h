@@ -9,15 +9,20 @@
 namespace omentum::deform {
 
 /// Cotin 1999, section 4-2, in force form: u = C_:A f_A. Superposing the tools' *forces* is exact for any
-/// number of tools, one of whose contacts may be a tick older than the other's (docs/decisions.md 4).
+/// number of tools, one of whose contacts may be a tick older than the other's (docs/decisions.md 4). It
+/// cannot be cut, offers no local model, since haptic_node has the whole one, and no other organ moves it.
 class QuasiStaticModel final : public OrganModel {
  public:
   /// `compliance` must outlive the model. `surface_nodes`: pinned ones included.
   QuasiStaticModel(const physics::SurfaceCompliance& compliance, std::int32_t surface_nodes);
 
-  void step(std::span<const ToolLoad> loads, double dt_s) noexcept override;
+  ModelSizes sizes() const override { return {.values = displacements_.size()}; }
+  void step(const TickLoads& loads, double dt_s) noexcept override;
   void reset() noexcept override;
-  std::span<const float> displacements() const noexcept override { return displacements_; }
+  OrganView view() const noexcept override {
+    return {.kind = StateKind::kSurface, .topology_version = 0, .values = displacements_};
+  }
+  ModelStatus status() const noexcept override { return {.steps = steps_}; }
 
  private:
   const physics::SurfaceCompliance& compliance_;
@@ -25,6 +30,7 @@ class QuasiStaticModel final : public OrganModel {
   std::vector<Vec3> forces_;          // workspace: f_A
   std::vector<float> tiled_;          // [cluster][3][16], as superpose_surface writes it
   std::vector<float> displacements_;  // [3 S]
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace omentum::deform

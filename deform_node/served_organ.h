@@ -1,10 +1,8 @@
-// An organ of the scene as deform_node serves it: its file, its model, its messages.
+// An organ of the scene as deform_node serves it: where it comes from and what moves it.
 #pragma once
 
 #include "deform_node/contact_book.h"
-#include "deform_node/state_blocks.h"
-#include "organ/organ.h"
-#include "runtime/scene.h"
+#include "deform_node/model_table.h"
 
 #include <memory>
 #include <vector>
@@ -12,24 +10,21 @@
 namespace omentum::deform {
 
 struct ServedOrgan {
-  organ::Organ organ;  // kept for as long as the model lives: it owns the tensors
+  std::unique_ptr<const node::OrganSource> source;  // the model refers to it
   std::unique_ptr<OrganModel> model;
-  std::vector<msg::OrganState> blocks;  // one per block, memory taken beforehand
 };
 
-/// Loads every organ of the scene and chooses its model. Throws geometry::InputError (organ file) or
-/// std::runtime_error (a scene whose organ has no file).
-std::vector<ServedOrgan> load_organs(const runtime::Scene& scene, transport::Profile profile);
+/// Loads every organ of the scene and makes the model that the scene chose for it. Throws
+/// geometry::InputError (organ file) or std::runtime_error (a scene whose organ has no file, a model that
+/// `table` lacks).
+std::vector<ServedOrgan> load_organs(const scene::Scene& scene,
+                                     std::span<const ModelEntry> table = model_table());
 
 /// Refers to the organ's tensors.
-OrganNumbers numbers_of(const organ::Organ& organ);
+OrganNumbers numbers_of(const node::OrganSource& source);
+std::vector<OrganNumbers> numbers_of_all(const std::vector<ServedOrgan>& organs);
 
-/// Durable messages: topology version 0 (nothing removed) and who is in the scene.
-msg::Topology uncut_topology(std::uint32_t organ, const organ::Organ& source);
-msg::SceneInfo describe_scene(const runtime::Scene& scene, const std::vector<ServedOrgan>& organs);
-
-/// Fills `organ`'s blocks with the state of this moment; allocates nothing.
-void fill_blocks(ServedOrgan& organ, std::uint64_t seq, std::int64_t stamp_ns,
-                 std::span<const msg::Echo> echoes) noexcept;
+/// Who is in the scene, as SceneInfo tells it.
+std::vector<msg::OrganInfo> describe(const std::vector<ServedOrgan>& organs);
 
 }  // namespace omentum::deform

@@ -1,7 +1,7 @@
 // One deform_node serves a scene; another one with the same organs stands by.
 #pragma once
 
-#include "node/rivals.h"
+#include "node_common/rivals.h"
 
 #include <atomic>
 

@@ -1,6 +1,6 @@
 #include "device_bridge/device_bridge.h"
 
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/clock.h"
 #include "runtime/report.h"
 
@@ -102,7 +102,7 @@ void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
 
 void DeviceBridge::publish_status() {
   status_record_.fetch();
-  status_message_.paused = orders_.paused();
+  orders_.tell(status_message_);
   node::fill_status(status_record_.value(), faults_, status_message_);
   status_message_.round_trip_us = node::to_message(answers_.report().to_force);
   status_writer_->write(status_message_);

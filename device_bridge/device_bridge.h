@@ -4,7 +4,7 @@
 #include "device_bridge/answer_book.h"
 #include "device_bridge/tool_channel.h"
 #include "device_bridge/trace.h"
-#include "node/session_orders.h"
+#include "node_common/session_orders.h"
 #include "runtime/background.h"
 #include "runtime/faults.h"
 #include "runtime/loop_log.h"

@@ -35,6 +35,7 @@ bool ForceHold::take(const msg::ToolForce& answer, std::int64_t now_ns) noexcept
   }
   newest_ = {clamped(force, max_force_n_), clamped(torque, max_torque_nm_),
              std::clamp(answer.grip_torque, -max_torque_nm_, max_torque_nm_)};
+  newest_seq_ = answer.seq;
   // written so that a validity that is not a number counts as none
   const double valid_s = answer.valid_for_s > 0 ? std::min(answer.valid_for_s, kLongestValidity_s) : 0;
   valid_until_ns_ = now_ns + static_cast<std::int64_t>(1e9 * valid_s);
@@ -44,6 +45,7 @@ bool ForceHold::take(const msg::ToolForce& answer, std::int64_t now_ns) noexcept
 
 Wrench ForceHold::at(std::int64_t now_ns) noexcept {
   const double stale_s = 1e-9 * static_cast<double>(now_ns - valid_until_ns_);
+  exerted_seq_ = stale_s < kDecay_s ? newest_seq_ : 0;
   if (stale_s > 0) {
     exerted_ = decaying(stale_s);
   } else {

@@ -31,6 +31,8 @@ class ForceHold {
   /// What to exert now. Zero before the first answer.
   Wrench at(std::int64_t now_ns) noexcept;
 
+  /// Which answer (ToolForce.seq) at() gave last, whole, fading in or decaying; 0: none, or nothing is left.
+  std::uint64_t answer_seq() const { return exerted_seq_; }
   /// How many times an answer outlived its validity.
   std::uint64_t expired() const { return expired_; }
 
@@ -41,6 +43,7 @@ class ForceHold {
 
   double max_force_n_, max_torque_nm_;
   Wrench newest_;
+  std::uint64_t newest_seq_ = 0, exerted_seq_ = 0;
   Wrench exerted_;      // what at() gave last
   Wrench decays_from_;  // what was exerted when the newest answer expired
   std::int64_t valid_until_ns_ = 0;

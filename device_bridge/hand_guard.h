@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device_bridge/device.h"
-#include "node/energy_tank.h"
+#include "node_common/energy_tank.h"
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 
 namespace omentum::device {
 
-Motion step_hand(const runtime::HandSpec& hand, const Motion& now, const Motion& target, const Vec3& force,
+Motion step_hand(const scene::HandSpec& hand, const Motion& now, const Motion& target, const Vec3& force,
                  double dt_s) noexcept {
   const Vec3 acceleration = (hand.stiffness_n_m * (target.position - now.position) +
                              hand.damping_n_s_m * (target.velocity - now.velocity) + force) /
@@ -13,7 +13,7 @@ Motion step_hand(const runtime::HandSpec& hand, const Motion& now, const Motion&
   return {now.position + velocity * dt_s, velocity};
 }
 
-double hand_energy(const runtime::HandSpec& hand, const Motion& now, const Motion& target) {
+double hand_energy(const scene::HandSpec& hand, const Motion& now, const Motion& target) {
   return 0.5 * hand.mass_kg * now.velocity.squaredNorm() +
          0.5 * hand.stiffness_n_m * (now.position - target.position).squaredNorm();
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device_bridge/device.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 namespace omentum::device {
 
@@ -15,11 +15,11 @@ struct Motion {
 /// m a = k (target - x) + d (target' - x') + f: one step of semi-implicit Euler, velocity first. `force`: on
 /// the hand, N, constant over the step. Stable for dt < 2 / (w (z + sqrt(1 + z^2))) with w = sqrt(k/m), z = d
 /// / (2 sqrt(k m)).
-Motion step_hand(const runtime::HandSpec& hand, const Motion& now, const Motion& target, const Vec3& force,
+Motion step_hand(const scene::HandSpec& hand, const Motion& now, const Motion& target, const Vec3& force,
                  double dt_s) noexcept;
 
 /// Kinetic energy and the spring's, J.
-double hand_energy(const runtime::HandSpec& hand, const Motion& now, const Motion& target);
+double hand_energy(const scene::HandSpec& hand, const Motion& now, const Motion& target);
 
 /// q_WT of an instrument whose shaft points along `shaft` (any length, not zero), without roll against W.
 Quat shaft_orientation(const Vec3& shaft) noexcept;

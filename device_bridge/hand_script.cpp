@@ -19,7 +19,7 @@ struct PhasePlan {
   Move height, slide;
 };
 
-std::array<PhasePlan, 6> plan_of(const runtime::HandSpec& h) {
+std::array<PhasePlan, 6> plan_of(const scene::HandSpec& h) {
   const Move none{0, 0};
   const Move above{h.hover_m, h.hover_m}, below{-h.depth_m, -h.depth_m};
   return {{{Phase::kStart, h.start_s, above, none},
@@ -52,13 +52,13 @@ double minimum_jerk_rate(double s) noexcept {
   return 30 * s * s * (1 - s) * (1 - s);
 }
 
-double script_period_s(const runtime::HandSpec& hand) {
+double script_period_s(const scene::HandSpec& hand) {
   double period_s = 0;
   for (const PhasePlan& phase : plan_of(hand)) period_s += phase.duration_s;
   return period_s;
 }
 
-ScriptPoint script_at(const runtime::HandSpec& hand, double t_s) noexcept {
+ScriptPoint script_at(const scene::HandSpec& hand, double t_s) noexcept {
   double left_s = std::fmod(t_s, script_period_s(hand));
   const auto plan = plan_of(hand);
   // rounding may leave a hair more than all phases take: that is the end of the last one
@@ -76,7 +76,7 @@ ScriptPoint script_at(const runtime::HandSpec& hand, double t_s) noexcept {
   return point;
 }
 
-Motion target_of(const runtime::HandSpec& hand, const ScriptPoint& point) noexcept {
+Motion target_of(const scene::HandSpec& hand, const ScriptPoint& point) noexcept {
   const Vec3 press_point(hand.press_point.data()), normal(hand.press_normal.data()),
       slide(hand.slide_direction.data());
   return {press_point + normal * point.height_m + slide * point.slide_m,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device_bridge/hand_model.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 namespace omentum::device {
 
@@ -17,15 +17,15 @@ struct ScriptPoint {
 };
 
 /// Duration of one round, s; then it begins again.
-double script_period_s(const runtime::HandSpec& hand);
+double script_period_s(const scene::HandSpec& hand);
 
 /// `t_s` >= 0. Every move is a minimum-jerk one (Flash and Hogan 1985: 10 s^3 - 15 s^4 + 6 s^5), so that
 /// position and velocity are continuous, from one round to the next as well. The way back along the slide
 /// direction is in the second half of the release, when the instrument has left the organ.
-ScriptPoint script_at(const runtime::HandSpec& hand, double t_s) noexcept;
+ScriptPoint script_at(const scene::HandSpec& hand, double t_s) noexcept;
 
 /// The same in W.
-Motion target_of(const runtime::HandSpec& hand, const ScriptPoint& point) noexcept;
+Motion target_of(const scene::HandSpec& hand, const ScriptPoint& point) noexcept;
 
 /// Minimum-jerk share of a move at share `s` of its time (clamped to [0, 1]), and its derivative by s.
 double minimum_jerk(double s) noexcept;

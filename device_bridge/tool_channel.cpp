@@ -65,19 +65,21 @@ const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
   if (received_.fetch() && !hold_.take(received_.value().answer, received_.value().at_ns)) {
     faults_.raise(bad_force_);
   }
-  const Wrench wrench = guard_.limit(hold_.at(now_ns), now_ns);
-  device_->command(wrench);
+  const Wrench held = hold_.at(now_ns);
+  const Exerted newest{guard_.limit(held, now_ns), hold_.answer_seq()};
+  device_->command(newest.wrench);
 
   // what moved the hand to where it is measured now
-  const Wrench moving = device_->simulates() ? wrench : exerted_;
-  exerted_ = wrench;
+  const Exerted moving = device_->simulates() ? newest : exerted_;
+  exerted_ = newest;
+  pose_.answer_seq = moving.answer_seq;
   const Vec3 before = from_message(pose_.position);
   const bool moved_from_there = pose_.valid;
   const Measurement measured = device_->measure(now_ns);
   fill(measured, now_ns);
   guard_.follow(measured, pose_.valid, device_->simulates());
   if (moved_from_there && pose_.valid) {
-    energy_j_ += moving.force.dot(from_message(pose_.position) - before);
+    energy_j_ += moving.wrench.force.dot(from_message(pose_.position) - before);
     most_energy_j_ = std::max(most_energy_j_, energy_j_);
   }
   gate_.sent(pose_.seq, pose_.stamp_ns);

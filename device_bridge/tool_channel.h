@@ -55,6 +55,10 @@ class ToolChannel {
     msg::ToolForce answer;
     std::int64_t at_ns = 0;
   };
+  struct Exerted {
+    Wrench wrench;
+    std::uint64_t answer_seq = 0;  // whose, or what is left of it; 0: nobody's
+  };
 
   const std::string* objection(const Measurement& measured, std::int64_t now_ns) const noexcept;
   void fill(const Measurement& measured, std::int64_t now_ns) noexcept;
@@ -68,7 +72,7 @@ class ToolChannel {
   runtime::Mailbox<Received> received_;
   ForceHold hold_;
   HandGuard guard_;
-  Wrench exerted_;  // commanded last
+  Exerted exerted_;  // commanded last
   msg::ToolPose pose_;
   double energy_j_ = 0, most_energy_j_ = 0;
 };

@@ -1,7 +1,7 @@
 #include "device_bridge/trace.h"
 
 #include "device_bridge/hand_model.h"
-#include "geometry/file_kind.h"
+#include "geometry/mesh_io/file_kind.h"
 
 #include <algorithm>
 #include <array>

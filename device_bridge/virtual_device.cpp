@@ -4,8 +4,8 @@
 #include "device_bridge/trace_player.h"
 #include "device_bridge/virtual_hand.h"
 #include "runtime/report.h"
-#include "runtime/scene.h"
 #include "runtime/signals.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,7 +21,7 @@ struct Options {
   double rate_hz = 1000;
 };
 
-const runtime::ToolSpec& tool_of(const runtime::Scene& scene, std::uint32_t id, const std::string& who) {
+const scene::ToolSpec& tool_of(const scene::Scene& scene, std::uint32_t id, const std::string& who) {
   const auto tool =
       std::find_if(scene.tools.begin(), scene.tools.end(), [id](const auto& t) { return t.id == id; });
   if (tool == scene.tools.end()) {
@@ -31,7 +31,7 @@ const runtime::ToolSpec& tool_of(const runtime::Scene& scene, std::uint32_t id, 
   return *tool;
 }
 
-Devices make_devices(const Options& options, const runtime::Scene& scene) {
+Devices make_devices(const Options& options, const scene::Scene& scene) {
   Devices devices;
   if (!options.trace.empty()) {
     for (auto& [id, trace] : device::read_trace(options.trace)) {
@@ -40,8 +40,8 @@ Devices make_devices(const Options& options, const runtime::Scene& scene) {
     }
     return devices;
   }
-  for (const runtime::HandSpec& hand : scene.hands) {
-    const runtime::ToolSpec& tool = tool_of(scene, hand.tool, scene.file.string());
+  for (const scene::HandSpec& hand : scene.hands) {
+    const scene::ToolSpec& tool = tool_of(scene, hand.tool, scene.file.string());
     devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, options.rate_hz));
   }
   if (devices.empty()) {
@@ -52,7 +52,7 @@ Devices make_devices(const Options& options, const runtime::Scene& scene) {
 }
 
 void run(const Options& options) {
-  const runtime::Scene scene = runtime::load_scene(options.bridge.node.scene);
+  const scene::Scene scene = scene::load_scene(options.bridge.node.scene);
   runtime::RateLoop loop(options.rate_hz);
   runtime::StopSignal stop_signal([&loop] { loop.stop(); });
   device::DeviceBridge bridge(options.bridge, make_devices(options, scene), loop);

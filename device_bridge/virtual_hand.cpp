@@ -23,7 +23,7 @@ constexpr double kReach_m = 0.5;
 
 }  // namespace
 
-VirtualHand::VirtualHand(const runtime::HandSpec& hand, const runtime::ToolSpec& tool, double rate_hz)
+VirtualHand::VirtualHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz)
     : hand_(hand),
       tool_(tool),
       period_s_(1 / rate_hz),
@@ -90,7 +90,7 @@ void VirtualHand::restart() noexcept {
 Quat VirtualHand::orientation() const noexcept {
   const Vec3 normal(hand_.press_normal.data());
   if (!tool_.trocar) return shaft_orientation(normal);
-  const Vec3 shaft = Vec3(tool_.trocar->data()) - tip_.position;
+  const Vec3 shaft = *tool_.trocar - tip_.position;
   return shaft_orientation(shaft.squaredNorm() > 0 ? shaft : normal);
 }
 

@@ -3,7 +3,7 @@
 
 #include "device_bridge/device.h"
 #include "device_bridge/hand_script.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 namespace omentum::device {
 
@@ -11,7 +11,7 @@ namespace omentum::device {
 /// unstable force would be seen as an oscillation. Time advances by one period per measure().
 class VirtualHand : public Device {
  public:
-  VirtualHand(const runtime::HandSpec& hand, const runtime::ToolSpec& tool, double rate_hz);
+  VirtualHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz);
 
   msg::DeviceInfo info() const override;
   void command(const Wrench& wrench) noexcept override { wrench_ = wrench; }
@@ -40,8 +40,8 @@ class VirtualHand : public Device {
   Quat orientation() const noexcept;
   void record() noexcept;
 
-  runtime::HandSpec hand_;
-  runtime::ToolSpec tool_;
+  scene::HandSpec hand_;
+  scene::ToolSpec tool_;
   double period_s_;
   int substeps_;
   ScriptPoint script_;

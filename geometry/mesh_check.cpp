@@ -266,6 +266,8 @@ void Checker::keep_file_numbers() {
   };
   result_.mesh.node_numbers = all(raw_.node_numbers, raw_.positions.size());
   result_.mesh.tetrahedron_numbers = all(raw_.tetrahedron_numbers, raw_.tetrahedra.size());
+  result_.mesh.regions = raw_.regions;
+  result_.mesh.why_no_regions = raw_.why_no_regions;
 }
 
 // Elements first: without volume, or among copies, neighbours mean nothing.

@@ -1,9 +1,9 @@
 #include "geometry/surface.h"
 
+#include "geometry/precondition.h"
 #include "geometry/tetra_faces.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -116,7 +116,7 @@ void collect_fans(Surface& surface) {
 }  // namespace
 
 Surface extract_surface(const TetraMesh& mesh, const std::vector<bool>& pinned) {
-  assert(pinned.empty() || pinned.size() == mesh.positions.size());
+  require(pinned.empty() || pinned.size() == mesh.positions.size(), "a flag for each node, or none");
   Surface surface;
   const std::vector<BoundaryFace> faces = boundary_faces(mesh);
   number_nodes(surface, mesh, faces, pinned);
@@ -142,6 +142,18 @@ std::vector<Vec3> surface_positions(const TetraMesh& mesh, const Surface& surfac
   positions.reserve(surface.node.size());
   for (const NodeId n : surface.node) positions.push_back(mesh.positions[n]);
   return positions;
+}
+
+std::vector<Vec3> surface_normals(const Surface& surface, std::span<const Vec3> positions) {
+  std::vector<Vec3> normals(positions.size(), Vec3::Zero());
+  const auto at = [positions](SurfaceId s) -> const Vec3& { return positions[static_cast<std::size_t>(s)]; };
+  for (const Triangle& t : surface.triangles) {
+    // as long as twice the triangle's area
+    const Vec3 n = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+    for (const SurfaceId s : t) normals[static_cast<std::size_t>(s)] += n;
+  }
+  for (Vec3& n : normals) n.normalize();
+  return normals;
 }
 
 }  // namespace omentum::geometry

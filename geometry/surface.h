@@ -38,4 +38,7 @@ Surface surface_of_triangles(std::int32_t node_count, std::vector<Triangle> tria
 /// Rest positions of the surface's nodes, [S], m.
 std::vector<Vec3> surface_positions(const TetraMesh& mesh, const Surface& surface);
 
+/// Outward unit normals of the surface's nodes, [S]: the mean of their triangles', by area. `positions`: [S].
+std::vector<Vec3> surface_normals(const Surface& surface, std::span<const Vec3> positions);
+
 }  // namespace omentum::geometry

@@ -25,6 +25,8 @@ struct RawMesh {
   ElementCounts others{};                               // elements that are no tetrahedra
   std::vector<std::int64_t> node_numbers{};             // the file's own, [positions]; empty: from 0
   std::vector<std::int64_t> tetrahedron_numbers{};      // the file's own, [tetrahedra]; empty: from 0
+  std::vector<std::int32_t> regions{};                  // the file's label of each, [tetrahedra]; empty: none
+  std::string why_no_regions{};                         // where the file has labels that cannot be used
 };
 
 /// A node of the file whose place another one takes; positions in the file, from 0.
@@ -42,6 +44,8 @@ struct TetraMesh {
   std::vector<std::int64_t> node_numbers;         // [file_node_count], what the file calls its nodes
   std::vector<std::int64_t> tetrahedron_numbers;  // [T], and its tetrahedra
   std::vector<MergedNode> merged;                 // by `dropped`, ascending; on demand only
+  std::vector<std::int32_t> regions;              // [T], label of each tetrahedron's region; empty: none
+  std::string why_no_regions;                     // a sentence, where the file's labels cannot be used
 
   /// The node of this mesh that each of the file's is, [file_node_count]: of a merged one, that which took
   /// its place; invalid where no tetrahedron uses it.
@@ -67,12 +71,14 @@ struct CheckedMesh {
 /// Reads by contents, where they begin as one of these does, else by extension (capitals or not): .msh (Gmsh
 /// 1, 2.2, 4.0, 4.1; ASCII and binary where the format has it), .vtk (legacy, ASCII and binary), .vtu (ASCII,
 /// base64, raw; zlib, LZ4 and LZMA) and .node/.ele (either name). Of tetrahedra with ten nodes or more the
-/// corners are read. Other elements are counted, not read. Throws InputError naming file, line or section,
-/// and what was expected; without any tetrahedron, what the file holds instead; for a file of another kind,
-/// which (file_kind.h).
+/// corners are read. Other elements are counted, not read. Labels of the tetrahedra are Gmsh's physical
+/// groups, an array of whole numbers in VTK's cell data (region_labels.h has its names), TetGen's last
+/// attribute; where a file has two answers, none is taken and `why_no_regions` says so. Throws InputError
+/// naming file, line or section, and what was expected; without any tetrahedron, what the file holds instead;
+/// for a file of another kind, which (file_kind.h).
 RawMesh read_mesh(const std::filesystem::path& file);
 
-/// Writes Gmsh 2.2 ASCII, positions in metres.
+/// Writes Gmsh 2.2 ASCII, positions in metres, labels as physical groups.
 void write_mesh(const TetraMesh& mesh, const std::filesystem::path& file);
 
 /// What check_mesh is asked for besides.

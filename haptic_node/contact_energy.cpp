@@ -1,7 +1,8 @@
 #include "haptic_node/contact_energy.h"
 
+#include "geometry/precondition.h"
+
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace omentum::haptic {
@@ -99,7 +100,7 @@ void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
 }  // namespace
 
 void balance(std::span<ContactEnergy> tools, std::span<const ContactWork> works, bool let_go) noexcept {
-  assert(tools.size() == works.size());
+  geometry::require(tools.size() == works.size(), "work for each tool");
   for (std::size_t t = 0; t < tools.size(); ++t) {
     ContactEnergy& tool = tools[t];
     const ContactWork& work = works[t];

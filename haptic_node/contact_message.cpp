@@ -1,6 +1,6 @@
 #include "haptic_node/contact_message.h"
 
-#include "node/vectors.h"
+#include "node_common/vectors.h"
 
 namespace omentum::haptic {
 

@@ -1,7 +1,8 @@
 #include "haptic_node/contact_nodes.h"
 
+#include "geometry/precondition.h"
+
 #include <algorithm>
-#include <cassert>
 #include <memory>
 
 namespace omentum::haptic {
@@ -42,7 +43,7 @@ int ContactNodes::free_slot() noexcept {
     if (!slots_[s].node.valid() || slots_[s].used + kKeepTicks < tick_) return s;
     if (slots_[s].used < slots_[oldest].used) oldest = s;
   }
-  assert(slots_[oldest].used < tick_ && "more nodes in contact than slots");
+  geometry::require(slots_[oldest].used < tick_, "at most kSlots nodes in contact");
   return oldest;
 }
 

@@ -1,10 +1,10 @@
 #include "haptic_node/deformed_surface.h"
 
+#include "geometry/precondition.h"
 #include "haptic_node/cluster_kernels.h"
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -111,7 +111,8 @@ void DeformedSurface::restore_rest() noexcept {
 }
 
 void DeformedSurface::propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
-  assert(nodes.size() == forces.size() && nodes.size() <= kMaxForces);
+  geometry::require(nodes.size() == forces.size() && nodes.size() <= kMaxForces,
+                    "a force for each of at most kMaxForces nodes");
   proposed_nodes_.assign(nodes.begin(), nodes.end());
   proposed_forces_.assign(forces.begin(), forces.end());
   change_.count = 0;

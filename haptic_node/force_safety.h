@@ -4,7 +4,7 @@
 
 #include "haptic_node/acting_force.h"
 #include "haptic_node/device_limits.h"
-#include "node/energy_tank.h"
+#include "node_common/energy_tank.h"
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 #include "haptic_node/haptic_loop.h"
 
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/report.h"
 
 #include <nlohmann/json.hpp>
@@ -267,7 +267,7 @@ void HapticLoop::account() noexcept {
 void HapticLoop::publish_status() {
   snapshots_.fetch();
   const Snapshot& snapshot = snapshots_.value();
-  status_.paused = orders_.paused();
+  orders_.tell(status_);
   status_.tools_served = served_.load(std::memory_order_relaxed);
   status_.echoes.assign(snapshot.echoes.begin(),
                         snapshot.echoes.begin() + static_cast<std::ptrdiff_t>(lines_.size()));

@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_setup.h"
 
+#include "node_common/organ_source.h"
 #include "runtime/memory_limit.h"
 #include "transport/messages.h"
 
@@ -11,46 +12,36 @@
 namespace omentum::haptic {
 namespace {
 
-Vec3 to_vector(const runtime::Triple& t) {
-  return {t[0], t[1], t[2]};
-}
-
-[[noreturn]] void refuse(const runtime::Scene& scene, const std::string& what) {
+[[noreturn]] void refuse(const scene::Scene& scene, const std::string& what) {
   throw std::runtime_error(scene.file.string() + ": " + what);
 }
 
-std::vector<ToolModel> make_tools(const runtime::Scene& scene) {
+std::vector<ToolModel> make_tools(const scene::Scene& scene) {
   std::vector<ToolModel> tools;
-  for (const runtime::ToolSpec& spec : scene.tools) {
+  for (const scene::ToolSpec& spec : scene.tools) {
     if (spec.id >= msg::MAX_TOOLS) {
       refuse(scene,
              "tool id " + std::to_string(spec.id) + ", expected 0 to " + std::to_string(msg::MAX_TOOLS - 1));
     }
     if (spec.points.empty()) refuse(scene, "tool " + std::to_string(spec.id) + " has no points");
     ToolModel tool;
-    for (const runtime::Triple& p : spec.points) tool.points.push_back(to_vector(p));
+    tool.points = spec.points;
     tool.grasps = spec.shape == "grasper";
-    if (spec.trocar) tool.trocar = to_vector(*spec.trocar);
+    tool.trocar = spec.trocar;
     tools.push_back(std::move(tool));
   }
   require_solvable(tools);
   return tools;
 }
 
-ElasticSurface make_surface(organ::Organ&& organ) {
-  std::vector<Vec3> rest = geometry::surface_positions(organ.mesh, organ.surface);
+ElasticSurface make_surface(node::OrganSource&& source) {
+  organ::Organ& organ = source.organ;
   std::vector<std::uint32_t> file_node;
   for (const geometry::NodeId n : organ.surface.node) {
     file_node.push_back(static_cast<std::uint32_t>(organ.mesh.file_node[n]));
   }
-  return {std::move(organ.surface), std::move(rest), *std::move(organ.compliance), std::move(file_node)};
-}
-
-organ::Organ load(const runtime::Scene& scene, const runtime::OrganSpec& spec) {
-  if (spec.file.empty())
-    refuse(scene, "organ '" + spec.name +
-                      "' has no organ file: build one with organ_build and give it with --organ");
-  return organ::load_organ(spec.file, organ::Load::kWithTensors);
+  return {std::move(organ.surface), std::move(source.rest), *std::move(organ.compliance),
+          std::move(file_node)};
 }
 
 std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
@@ -60,22 +51,23 @@ std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
 
 }  // namespace
 
-HapticSetup make_setup(const runtime::Scene& scene, double rate_hz) {
+HapticSetup make_setup(const scene::Scene& scene, double rate_hz) {
   if (scene.organs.empty()) refuse(scene, "no organ, expected one at least");
-  const runtime::HapticsSpec& h = scene.haptics;
+  const scene::HapticsSpec& h = scene.haptics;
   HapticSetup setup;
-  for (const runtime::OrganSpec& spec : scene.organs) {
-    organ::Organ organ = load(scene, spec);
-    setup.scene.organs.push_back({organ.name, organ.hash});
-    setup.model.organs.push_back(make_surface(std::move(organ)));
+  std::vector<msg::OrganInfo> organs;
+  for (const scene::OrganSpec& spec : scene.organs) {
+    node::OrganSource source = node::load_organ_source(scene, spec, organ::Load::kWithTensors);
+    organs.push_back(node::describe(source));
+    setup.model.organs.push_back(make_surface(std::move(source)));
   }
-  setup.scene.organ_count = scene.organs.size();
+  setup.scene = node::loaded_scene(scene, std::move(organs));
   setup.model.tools = make_tools(scene);
   setup.model.friction = h.friction;
   setup.model.mode = h.contact == "spread" ? ContactMode::kSpread : ContactMode::kPoint;
   setup.limits = {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s,
                   h.stale_s,     h.decay_s,       1 / rate_hz};
-  for (const runtime::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
+  for (const scene::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
   return setup;
 }
 

@@ -3,9 +3,9 @@
 
 #include "haptic_node/force_safety.h"
 #include "haptic_node/haptic_model.h"
-#include "node/loaded_scene.h"
+#include "node_common/loaded_scene.h"
 #include "organ/organ.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include <stop_token>
 
@@ -21,7 +21,7 @@ struct HapticSetup {
 /// All organs of the scene and all its tools. Throws std::runtime_error (scene without organ, organ file or
 /// tools, more points than can be solved) or geometry::InputError (organ file). `rate_hz`: the loop's nominal
 /// rate.
-HapticSetup make_setup(const runtime::Scene& scene, double rate_hz);
+HapticSetup make_setup(const scene::Scene& scene, double rate_hz);
 
 /// Of all organs' mapped tensors, bytes.
 std::uint64_t tensor_bytes(const HapticModel& model);

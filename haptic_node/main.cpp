@@ -1,6 +1,6 @@
 // haptic_node: the hand's loop. ToolPose in, ToolForce and Contact out.
 #include "haptic_node/haptic_loop.h"
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"

@@ -1,7 +1,7 @@
 // Two haptic nodes must not answer for one tool.
 #pragma once
 
-#include "node/rivals.h"
+#include "node_common/rivals.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "haptic_node/tool_line.h"
 
-#include "node/vectors.h"
+#include "node_common/vectors.h"
 
 #include <algorithm>
 #include <cstdio>

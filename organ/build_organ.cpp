@@ -48,9 +48,9 @@ bool fill(const OrganWriter& writer, const Organ& organ, const physics::Stiffnes
 
 }  // namespace
 
-Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Material& material,
+Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::MaterialMap& material,
                  FixedComponents fixed, Storage storage) {
-  require_material(material, "");
+  require_materials(material, "");
   physics::require_held(mesh, fixed);
   Organ organ;
   organ.name = std::move(name);
@@ -59,6 +59,8 @@ Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Mate
     throw InputError("the supports hold every node of the surface; expected at least one that can move");
   }
   organ.mesh = std::move(mesh);
+  // labels that nobody gave a material say nothing of the tensors: the organ is that of a mesh without them
+  if (material.regions.empty()) organ.mesh.regions.clear();
   organ.material = material;
   organ.fixed = std::move(fixed);
   organ.storage = storage;

@@ -29,9 +29,10 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An organ ready to be built: surface extracted, hash computed. Throws geometry::InputError for a material
+/// An organ ready to be built: surface extracted, hash computed. Its mesh keeps labels of regions only where
+/// one has a material of its own (region_spec.h). Throws geometry::InputError for a material
 /// out of range and supports that leave the organ floating or nothing free.
-Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Material& material,
+Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::MaterialMap& material,
                  FixedComponents fixed, Storage storage);
 
 /// Whether `file` is a finished organ file with this organ's hash and name and whole tensors (all are read).

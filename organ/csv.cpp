@@ -1,6 +1,6 @@
 #include "organ/csv.h"
 
-#include "geometry/file_kind.h"
+#include "geometry/mesh_io/file_kind.h"
 #include "geometry/tetra_mesh.h"
 
 #include <algorithm>
@@ -116,6 +116,16 @@ std::optional<double> parse_number(const std::string& field) {
 
 std::optional<std::int64_t> parse_integer(const std::string& field) {
   return parse_whole<std::int64_t>(field);
+}
+
+std::optional<std::vector<double>> parse_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& field : split_fields(text)) {
+    const std::optional<double> number = parse_number(field);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 std::vector<std::string> split_fields(const std::string& line) {

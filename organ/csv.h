@@ -46,4 +46,7 @@ std::vector<std::string> split_fields(const std::string& line);
 std::optional<double> parse_number(const std::string& field);
 std::optional<std::int64_t> parse_integer(const std::string& field);
 
+/// The numbers of "a,b,c", or nothing where a field is none.
+std::optional<std::vector<double>> parse_numbers(const std::string& text);
+
 }  // namespace omentum::organ

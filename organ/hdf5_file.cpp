@@ -1,6 +1,6 @@
 #include "organ/hdf5_file.h"
 
-#include "geometry/file_kind.h"
+#include "geometry/mesh_io/file_kind.h"
 
 #include <hdf5.h>
 

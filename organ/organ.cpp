@@ -55,12 +55,23 @@ void require_format(const Hdf5File& hdf5, const std::filesystem::path& file) {
   }
 }
 
+void read_regions(const Hdf5File& hdf5, const std::filesystem::path& file, Organ& organ) {
+  organ.mesh.regions = hdf5.read<std::int32_t>(layout::kRegions, 0);
+  const std::vector<std::int32_t> labels = hdf5.read<std::int32_t>(layout::kRegionLabels, 0);
+  const auto materials = read_as<physics::Material, double>(hdf5, layout::kRegionMaterials);
+  if (materials.size() != labels.size()) {
+    throw InputError(file.string() + ": is damaged: '" + layout::kRegionMaterials + "' has " +
+                     std::to_string(materials.size()) + " rows; expected " + std::to_string(labels.size()));
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) organ.material.regions.push_back({labels[i], materials[i]});
+}
+
 Organ read_contents(const Hdf5File& hdf5, const std::filesystem::path& file) {
   Organ organ;
   organ.name = hdf5.read_text(layout::kName);
   organ.storage = read_storage(hdf5, file);
-  organ.material = {hdf5.read_number(layout::kYoung), hdf5.read_number(layout::kPoisson),
-                    hdf5.read_number(layout::kDensity)};
+  organ.material.common = {hdf5.read_number(layout::kYoung), hdf5.read_number(layout::kPoisson),
+                           hdf5.read_number(layout::kDensity)};
   organ.mesh.positions = read_as<geometry::Vec3, double>(hdf5, layout::kPositions);
   organ.mesh.tetrahedra = read_as<geometry::Tetrahedron, std::int32_t>(hdf5, layout::kTetrahedra);
   organ.mesh.file_node = hdf5.read<std::int32_t>(layout::kFileNode, 0);
@@ -69,6 +80,7 @@ Organ read_contents(const Hdf5File& hdf5, const std::filesystem::path& file) {
   organ.mesh.tetrahedron_numbers = hdf5.read<std::int64_t>(layout::kTetrahedronNumbers, 0);
   if (hdf5.has_dataset(layout::kMerged))
     organ.mesh.merged = read_as<geometry::MergedNode, std::int32_t>(hdf5, layout::kMerged);
+  if (hdf5.has_dataset(layout::kRegions)) read_regions(hdf5, file, organ);
   organ.surface.node = read_as<geometry::NodeId, std::int32_t>(hdf5, layout::kSurfaceNode);
   organ.surface.triangles = read_as<geometry::Triangle, std::int32_t>(hdf5, layout::kTriangles);
   organ.surface.tetrahedron = read_as<geometry::TetId, std::int32_t>(hdf5, layout::kBehind);

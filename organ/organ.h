@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/surface.h"
-#include "physics/material.h"
+#include "physics/material_map.h"
 #include "physics/supports.h"
 #include "physics/surface_compliance.h"
 
@@ -21,8 +21,8 @@ enum class Storage { kFloat, kDouble };
 struct Organ {
   std::string name;  // from the file's stem, unless organ_build --name
   geometry::TetraMesh mesh;
-  geometry::Surface surface;  // pinned nodes last
-  physics::Material material;
+  geometry::Surface surface;                             // pinned nodes last
+  physics::MaterialMap material;                         // without regions of its own the mesh has no labels
   FixedComponents fixed;                                 // [N]
   std::optional<physics::SurfaceCompliance> compliance;  // float; absent when not asked for
   std::string hash;  // SHA-256 (hexadecimal) over everything the tensors depend on: mesh, material,
@@ -40,7 +40,7 @@ enum class Load { kMeshOnly, kWithTensors };
 /// Throws geometry::InputError when the file is missing, truncated, unfinished, of another format version,
 /// when its hash does not match its contents, or when they contradict each other: whoever wrote it, every
 /// index that it gives is in range (organ_check.h). Of the tensors, the bounds and the diagonal are looked at
-/// (tensor_check.h); all of them only by is_up_to_date and organ_solve, which have the time to read them.
+/// (tensor_check.h); all of them only by is_up_to_date and by programs that have the time to read them.
 Organ load_organ(const std::filesystem::path& file, Load what);
 
 }  // namespace omentum::organ

@@ -20,12 +20,17 @@ using geometry::Triangle;
 class Checker {
  public:
   Checker(const Organ& organ, const std::filesystem::path& file)
-      : mesh_(organ.mesh), surface_(organ.surface), fixed_(organ.fixed), file_(file) {}
+      : mesh_(organ.mesh),
+        surface_(organ.surface),
+        regions_(organ.material.regions),
+        fixed_(organ.fixed),
+        file_(file) {}
 
   void run() const {
     check_sizes();
     check_mesh();
     check_merged();
+    check_regions();
     check_surface_nodes();
     check_triangles();
     check_closed();
@@ -36,6 +41,7 @@ class Checker {
   void check_sizes() const;
   void check_mesh() const;
   void check_merged() const;
+  void check_regions() const;
   void check_surface_nodes() const;
   void check_triangles() const;
   void check_closed() const;
@@ -55,6 +61,7 @@ class Checker {
 
   const geometry::TetraMesh& mesh_;
   const geometry::Surface& surface_;
+  const std::vector<physics::RegionMaterial>& regions_;
   const FixedComponents& fixed_;
   const std::filesystem::path& file_;
 };
@@ -109,6 +116,16 @@ void Checker::check_merged() const {
     require(in_range(dropped, count) && !used(dropped) && used(kept) &&
                 (i == 0 || dropped > mesh_.merged[i - 1].dropped),
             layout::kMerged, i, "names a node that is not there, or in use, or not above the one before");
+  }
+}
+
+// Labels where there are materials of regions, and only there; each region has a tetrahedron.
+void Checker::check_regions() const {
+  require_count(mesh_.regions.size(), regions_.empty() ? 0 : mesh_.tetrahedra.size(), layout::kRegions);
+  for (std::size_t i = 0; i < regions_.size(); ++i) {
+    require(std::ranges::find(mesh_.regions, regions_[i].label) != mesh_.regions.end() &&
+                (i == 0 || regions_[i].label > regions_[i - 1].label),
+            layout::kRegionLabels, i, "is the label of no tetrahedron, or not above the one before");
   }
 }
 
@@ -195,6 +212,8 @@ void Checker::check_fans() const {
 
 }  // namespace
 
+namespace {
+
 void require_material(const physics::Material& m, const std::string& where) {
   const auto refuse = [&](const std::string& what, double found, const std::string& expected) {
     throw InputError(where + what + " is " + std::to_string(found) + "; expected " + expected);
@@ -208,8 +227,16 @@ void require_material(const physics::Material& m, const std::string& where) {
   }
 }
 
+}  // namespace
+
+void require_materials(const physics::MaterialMap& material, const std::string& where) {
+  require_material(material.common, where);
+  for (const physics::RegionMaterial& region : material.regions)
+    require_material(region.material, where + "region " + std::to_string(region.label) + ": ");
+}
+
 void require_consistent(const Organ& organ, const std::filesystem::path& file) {
-  require_material(organ.material, file.string() + ": ");
+  require_materials(organ.material, file.string() + ": ");
   Checker(organ, file).run();
 }
 

@@ -26,12 +26,16 @@ inline constexpr const char* kFileNode = "mesh/file_node";                      
 inline constexpr const char* kNodeNumbers = "mesh/node_numbers";                // [file_node_count] int64
 inline constexpr const char* kTetrahedronNumbers = "mesh/tetrahedron_numbers";  // [T] int64
 inline constexpr const char* kMerged = "mesh/merged";  // [M][2] int32: dropped, kept; absent without any
-inline constexpr const char* kSurfaceNode = "surface/node";     // [S] int32
-inline constexpr const char* kTriangles = "surface/triangles";  // [F][3] int32
-inline constexpr const char* kBehind = "surface/tetrahedron";   // [F] int32
-inline constexpr const char* kFanStart = "surface/fan_start";   // [S+1] int32
-inline constexpr const char* kFan = "surface/fan";              // [3F] int32
-inline constexpr const char* kFixed = "supports/fixed";         // [N] uint8
+// Of an organ with regions of their own material; absent without any.
+inline constexpr const char* kRegions = "mesh/regions";              // [T] int32, a label each
+inline constexpr const char* kRegionLabels = "material/labels";      // [R] int32, ascending
+inline constexpr const char* kRegionMaterials = "material/regions";  // [R][3] double: Pa, -, kg/m^3
+inline constexpr const char* kSurfaceNode = "surface/node";          // [S] int32
+inline constexpr const char* kTriangles = "surface/triangles";       // [F][3] int32
+inline constexpr const char* kBehind = "surface/tetrahedron";        // [F] int32
+inline constexpr const char* kFanStart = "surface/fan_start";        // [S+1] int32
+inline constexpr const char* kFan = "surface/fan";                   // [3F] int32
+inline constexpr const char* kFixed = "supports/fixed";              // [N] uint8
 inline constexpr const char* kCompliance =
     "tensors/compliance";                                 // [mobile][clusters][9][16] float or double, m/N
 inline constexpr const char* kBounds = "tensors/bounds";  // [mobile][clusters] float, m/N

@@ -27,11 +27,23 @@ void write_attributes(Hdf5File& hdf5, const Organ& organ) {
   hdf5.write_text(layout::kHash, organ.hash);
   hdf5.write_text(layout::kStorage, organ.storage == Storage::kDouble ? "double" : "float");
   hdf5.write_text(layout::kName, organ.name);
-  hdf5.write_number(layout::kYoung, organ.material.young_pa);
-  hdf5.write_number(layout::kPoisson, organ.material.poisson);
-  hdf5.write_number(layout::kDensity, organ.material.density_kg_m3);
+  hdf5.write_number(layout::kYoung, organ.material.common.young_pa);
+  hdf5.write_number(layout::kPoisson, organ.material.common.poisson);
+  hdf5.write_number(layout::kDensity, organ.material.common.density_kg_m3);
   hdf5.write_number(layout::kFileNodes, organ.mesh.file_node_count);
   hdf5.write_number(layout::kMobile, organ.surface.mobile_count);
+}
+
+void write_regions(Hdf5File& hdf5, const Organ& organ) {
+  std::vector<std::int32_t> labels;
+  std::vector<physics::Material> materials;
+  for (const physics::RegionMaterial& region : organ.material.regions) {
+    labels.push_back(region.label);
+    materials.push_back(region.material);
+  }
+  hdf5.write(layout::kRegions, numbers<std::int32_t>(organ.mesh.regions), {organ.mesh.regions.size()});
+  hdf5.write(layout::kRegionLabels, numbers<std::int32_t>(labels), {labels.size()});
+  hdf5.write(layout::kRegionMaterials, numbers<double>(materials), {materials.size(), 3});
 }
 
 void write_contents(Hdf5File& hdf5, const Organ& organ) {
@@ -45,6 +57,7 @@ void write_contents(Hdf5File& hdf5, const Organ& organ) {
              {mesh.tetrahedron_numbers.size()});
   if (!mesh.merged.empty())
     hdf5.write(layout::kMerged, numbers<std::int32_t>(mesh.merged), {mesh.merged.size(), 2});
+  if (!organ.material.regions.empty()) write_regions(hdf5, organ);
   hdf5.write(layout::kSurfaceNode, numbers<std::int32_t>(surface.node), {surface.node.size()});
   hdf5.write(layout::kTriangles, numbers<std::int32_t>(surface.triangles), {surface.triangles.size(), 3});
   hdf5.write(layout::kBehind, numbers<std::int32_t>(surface.tetrahedron), {surface.tetrahedron.size()});

@@ -2,8 +2,8 @@
 
 #include "organ/csv.h"
 #include "organ/node_column.h"
+#include "organ/plausibility.h"
 
-#include <cstdio>
 #include <functional>
 #include <optional>
 
@@ -43,17 +43,6 @@ Spec split_components(const std::string& text) {
 
 bool starts_with(const std::string& text, const char* head) {
   return text.rfind(head, 0) == 0;
-}
-
-// The numbers of "a,b,c" or none.
-std::optional<std::vector<double>> parse_numbers(const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string& field : split_fields(text)) {
-    const std::optional<double> number = parse_number(field);
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-  }
-  return numbers;
 }
 
 using Match = std::function<bool(const Vec3&)>;
@@ -108,22 +97,6 @@ std::vector<bool> listed_nodes(const Spec& spec, const SupportedMesh& supported)
   return listed;
 }
 
-std::string extent_of(const TetraMesh& mesh) {
-  Vec3 low = mesh.positions.front(), high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis) {
-    char part[80];
-    std::snprintf(part, sizeof part, "%s%c %.6g .. %.6g", axis == 0 ? "" : ", ", 'x' + axis, low[axis],
-                  high[axis]);
-    text += part;
-  }
-  return text + " m";
-}
-
 void add_supports(const Spec& spec, const SupportedMesh& supported, physics::FixedComponents& fixed) {
   const TetraMesh& mesh = supported.mesh;
   std::vector<bool> listed;
@@ -141,7 +114,7 @@ void add_supports(const Spec& spec, const SupportedMesh& supported, physics::Fix
     fixed[n] |= spec.components;
     ++held;
   }
-  if (held == 0) refuse(spec.whole, "holds no node; the mesh extends over " + extent_of(mesh));
+  if (held == 0) refuse(spec.whole, "holds no node; the mesh extends over " + extent_text(mesh));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include "physics/contact_problem.h"
 
+#include "geometry/precondition.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace omentum::physics {
@@ -332,8 +333,8 @@ Vec3 gap_of(const ContactProblem& problem, std::span<const Vec3> forces, int i) 
 
 ContactSolution solve_contacts(const ContactProblem& problem, std::span<Vec3> forces,
                                ContactWorkspace& workspace) noexcept {
-  assert(problem.count >= 0 && problem.count <= kMaxContacts);
-  assert(static_cast<int>(forces.size()) >= problem.count);
+  geometry::require(problem.count >= 0 && problem.count <= kMaxContacts, "0 to kMaxContacts contacts");
+  geometry::require(static_cast<int>(forces.size()) >= problem.count, "a force for each contact");
   if (problem.count == 0) return {};
   return Solver(problem, workspace).solve(forces);
 }

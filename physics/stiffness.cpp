@@ -50,10 +50,11 @@ Stiffness empty_stiffness(const geometry::TetraMesh& mesh) {
 
 }  // namespace
 
-Stiffness assemble_stiffness(const geometry::TetraMesh& mesh, const Material& material) {
+Stiffness assemble_stiffness(const geometry::TetraMesh& mesh, const MaterialMap& material) {
   Stiffness K = empty_stiffness(mesh);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const ElementTensors element = element_tensors(corners_of(mesh, geometry::TetId(t)), material);
+    const geometry::TetId id(t);
+    const ElementTensors element = element_tensors(corners_of(mesh, id), material.of(mesh, id));
     const auto& tet = mesh.tetrahedra[t];
     for (int j = 0; j < 4; ++j) {
       const auto row = K.neighbour.begin() + K.start[tet[j]];
@@ -76,12 +77,13 @@ std::vector<Vec3> holding_forces(const Stiffness& stiffness, std::span<const Vec
   return forces;
 }
 
-std::vector<Vec3> body_forces(const geometry::TetraMesh& mesh, const Material& material,
+std::vector<Vec3> body_forces(const geometry::TetraMesh& mesh, const MaterialMap& material,
                               const Vec3& acceleration) {
   std::vector<Vec3> forces(mesh.positions.size(), Vec3::Zero());
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const Corners c = corners_of(mesh, geometry::TetId(t));
-    const double mass = material.density_kg_m3 * geometry::signed_volume(c[0], c[1], c[2], c[3]);
+    const geometry::TetId id(t);
+    const Corners c = corners_of(mesh, id);
+    const double mass = material.of(mesh, id).density_kg_m3 * geometry::signed_volume(c[0], c[1], c[2], c[3]);
     for (const NodeId n : mesh.tetrahedra[t]) forces[n] += mass / 4 * acceleration;
   }
   return forces;

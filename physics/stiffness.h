@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/element_tensors.h"
+#include "physics/material_map.h"
 
 #include <span>
 #include <vector>
@@ -18,15 +19,16 @@ struct Stiffness {
   std::int32_t node_count() const { return static_cast<std::int32_t>(start.size()) - 1; }
 };
 
-/// The sum of the element tensors (Cotin 1998, eq. 6 without its sign: K u is the force that holds u).
-Stiffness assemble_stiffness(const geometry::TetraMesh& mesh, const Material& material);
+/// The sum of the element tensors (Cotin 1998, eq. 6 without its sign: K u is the force that holds u), each
+/// of its own tetrahedron's material.
+Stiffness assemble_stiffness(const geometry::TetraMesh& mesh, const MaterialMap& material);
 
 /// f = K u, [N], N.
 std::vector<Vec3> holding_forces(const Stiffness& stiffness, std::span<const Vec3> displacements);
 
 /// Forces of a uniform acceleration (gravity), lumped consistently for linear elements: a quarter of each
 /// tetrahedron's mass times `acceleration` (m/s^2) at each of its corners, [N], N.
-std::vector<Vec3> body_forces(const geometry::TetraMesh& mesh, const Material& material,
+std::vector<Vec3> body_forces(const geometry::TetraMesh& mesh, const MaterialMap& material,
                               const Vec3& acceleration);
 
 }  // namespace omentum::physics

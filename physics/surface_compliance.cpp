@@ -1,5 +1,6 @@
 #include "physics/surface_compliance.h"
 
+#include "geometry/precondition.h"
 #include "physics/superpose_kernels.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ struct ColumnBatch {
 // u over `clusters` tiles from `first` on, a batch of columns at a time.
 void superpose(const SurfaceCompliance& compliance, std::int32_t first, std::size_t clusters,
                std::span<const SurfaceId> nodes, std::span<const Vec3> forces, float* u) noexcept {
-  assert(nodes.size() == forces.size());
+  geometry::require(nodes.size() == forces.size(), "a force for each node");
   bool accumulate = false;
   do {
     const std::size_t count = std::min<std::size_t>(nodes.size(), kernels::kMaxColumns);
@@ -71,7 +72,7 @@ void superpose_cluster(const SurfaceCompliance& compliance, std::int32_t cluster
 void superpose_surface(const SurfaceCompliance& compliance, std::span<const SurfaceId> nodes,
                        std::span<const Vec3> forces, std::span<float> u) noexcept {
   const auto clusters = static_cast<std::size_t>(compliance.cluster_count());
-  assert(u.size() >= 3 * SurfaceCompliance::kLanes * clusters);
+  geometry::require(u.size() >= 3 * SurfaceCompliance::kLanes * clusters, "room for every cluster");
   superpose(compliance, 0, clusters, nodes, forces, u.data());
 }
 

@@ -9,9 +9,9 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kFitMargin = 1.12;        // of the ball's radius, so that nothing touches the frame
-constexpr double kPoleDistanceRad = 0.05;  // looking straight along `up` would leave the roll undefined
-constexpr double kZoomPerStep = 0.9;       // of the distance, per step of the wheel
+constexpr double kFitMargin = 1.12;         // of the ball's radius, so that nothing touches the frame
+constexpr double kPoleDistance_rad = 0.05;  // looking straight along `up` would leave the roll undefined
+constexpr double kZoomPerStep = 0.9;        // of the distance, per step of the wheel
 constexpr double kNearest = 0.02;  // near plane, of the distance to the target: below it depth bits run out
 constexpr double kFarRadii = 14;   // far plane behind the ball: the ground must have faded out before
 
@@ -54,9 +54,8 @@ Ball ball_around(std::span<const Vec3> points) {
   return ball;
 }
 
-Camera start_camera(const runtime::CameraSpec& spec, const Ball& ball, const Vec3& from, float aspect) {
-  Camera camera{Vec3(spec.eye.data()), Vec3(spec.target.data()), Vec3(spec.up.data()),
-                spec.field_of_view_deg};
+Camera start_camera(const scene::CameraSpec& spec, const Ball& ball, const Vec3& from, float aspect) {
+  Camera camera{spec.eye, spec.target, spec.up, spec.field_of_view_deg};
   if (camera.eye != Vec3::Zero() || camera.target != Vec3::Zero()) return camera;
   // the narrower of the two half angles must hold the ball
   const double vertical = radians(camera.field_of_view_deg) / 2;
@@ -72,7 +71,7 @@ Camera orbited(const Camera& camera, double yaw_rad, double pitch_rad) {
   Vec3 arm = Eigen::AngleAxisd(yaw_rad, up) * (camera.eye - camera.target);
   const double from_pole = std::acos(std::clamp(arm.normalized().dot(up), -1.0, 1.0));
   const double allowed =
-      std::clamp(from_pole - pitch_rad, kPoleDistanceRad, std::numbers::pi - kPoleDistanceRad);
+      std::clamp(from_pole - pitch_rad, kPoleDistance_rad, std::numbers::pi - kPoleDistance_rad);
   const Vec3 axis = arm.cross(up);
   if (axis.norm() > 0) arm = Eigen::AngleAxisd(from_pole - allowed, axis.normalized()) * arm;
   Camera turned = camera;
@@ -99,8 +98,8 @@ Camera panned(const Camera& camera, double right, double up) {
 }
 
 Camera scope_camera(const Vec3& p_WT, const Eigen::Quaterniond& q_WT, double field_of_view_deg) {
-  constexpr double kLookAheadM = 0.1;  // any distance along the axis gives the same picture
-  return {p_WT, p_WT - kLookAheadM * (q_WT * Vec3::UnitZ()), q_WT * Vec3::UnitY(), field_of_view_deg};
+  constexpr double kLookAhead_m = 0.1;  // any distance along the axis gives the same picture
+  return {p_WT, p_WT - kLookAhead_m * (q_WT * Vec3::UnitZ()), q_WT * Vec3::UnitY(), field_of_view_deg};
 }
 
 View view_of(const Camera& camera, const Ball& ball, float aspect, double shift) {

@@ -3,7 +3,7 @@
 
 #include "geometry/types.h"
 #include "render_node/renderer.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include <Eigen/Geometry>
 
@@ -32,7 +32,7 @@ struct Camera {
 
 /// The scene's camera; where it gives none (eye == target == 0), one that shows the whole ball from `from`
 /// (a direction, need not be unit).
-Camera start_camera(const runtime::CameraSpec& spec, const Ball& ball, const Vec3& from, float aspect);
+Camera start_camera(const scene::CameraSpec& spec, const Ball& ball, const Vec3& from, float aspect);
 
 /// Turns about the target; yaw about `up`, then pitch, which stops short of the poles. rad.
 Camera orbited(const Camera& camera, double yaw_rad, double pitch_rad);

@@ -14,9 +14,9 @@ struct Shaft {
 
 /// Looks at the dent from a side from which it is seen: neither through tissue nor from under the table (the
 /// plane z = `ground_m`), if there is such a side; as flat as can be, past the shafts, and otherwise as near
-/// as can be to where `familiar` looks from. Upright along the surface's normal. `skins`: of all organs, as
-/// they are deformed now; `shafts`: of all tools that are drawn. Costs some passes over the drawn triangles.
-Camera close_up_of(const Dent& dent, std::span<const OrganSkin* const> skins, std::span<const Shaft> shafts,
+/// as can be to where `familiar` looks from. Upright along the surface's normal. `organs`: as
+/// they are drawn now; `shafts`: of all tools that are drawn. Costs some passes over the drawn triangles.
+Camera close_up_of(const Dent& dent, std::span<const MeshData* const> organs, std::span<const Shaft> shafts,
                    const Camera& familiar, double ground_m);
 
 }  // namespace omentum::render

@@ -29,7 +29,7 @@ std::optional<Contact> contact_of(const OrganSkin& skin, std::span<const Pressed
 
 // The mean displacement of what lies around the contact; none where nothing does.
 Vec3f surroundings(const OrganSkin& skin, const Contact& contact) {
-  const double radius_m = std::min(kRingRadiusM, kRingRadiusShare * skin.extent_m());
+  const double radius_m = std::min(kRingRadius_m, kRingRadiusShare * skin.extent_m());
   Vec3f sum = Vec3f::Zero();
   float count = 0;
   for (std::int32_t s = 0; s < skin.node_count(); ++s) {

@@ -24,15 +24,15 @@ struct PressedNode {
 ///   depth = (u_c - mean of u over the ring) . (-n)
 /// with u_c and n the displacement and the rest surface's outward normal at the contact (means over its
 /// nodes, each weighted by its force; for a contact inside one triangle u_c is the displacement of the
-/// contact point itself), and the ring all nodes of the same side of the organ that lie kRingRadiusM from the
-/// contact at rest, give or take kRingHalfWidth. Where a mesh is too coarse to have any, the surroundings
+/// contact point itself), and the ring all nodes of the same side of the organ that lie kRingRadius_m from
+/// the contact at rest, give or take kRingHalfWidth. Where a mesh is too coarse to have any, the surroundings
 /// count as being at rest. None where no node bears a force. Costs a pass over the surface.
 std::optional<Dent> measure_dent(const OrganSkin& skin, std::span<const PressedNode> pressed);
 
 // A point load's dent falls off as one over the distance: 35 mm from a tip of 4 mm radius a ninth of it is
 // left. On an organ smaller than a liver the ring is a share of its longest side, so that it stays on the
 // organ.
-inline constexpr double kRingRadiusM = 0.035, kRingRadiusShare = 0.2;
+inline constexpr double kRingRadius_m = 0.035, kRingRadiusShare = 0.2;
 inline constexpr double kRingHalfWidth = 0.15;  // of the radius: one triangle wide on a coarse liver
 
 }  // namespace omentum::render

@@ -9,7 +9,7 @@ void ForceHistory::add(double time_s, double force_n) {
   samples_.push_back({time_s, static_cast<float>(force_n), interrupted_});
   interrupted_ = false;
   const auto young = std::find_if(samples_.begin(), samples_.end(),
-                                  [&](const Sample& sample) { return time_s - sample.time_s <= kSpanS; });
+                                  [&](const Sample& sample) { return time_s - sample.time_s <= kSpan_s; });
   samples_.erase(samples_.begin(), young);
 }
 

@@ -9,7 +9,7 @@ namespace omentum::render {
 /// Samples of one tool, oldest first. One thread.
 class ForceHistory {
  public:
-  static constexpr double kSpanS = 10;
+  static constexpr double kSpan_s = 10;
 
   struct Sample {
     double time_s = 0;

@@ -5,18 +5,18 @@
 namespace omentum::render {
 namespace {
 
-constexpr std::int64_t kForgottenNs = 10'000'000'000;  // a node silent for so long leaves the panel
+constexpr std::int64_t kForgotten_ns = 10'000'000'000;  // a node silent for so long leaves the panel
 
 bool forgotten(const HeardStatus& heard, std::int64_t now_ns) {
   const bool needed = heard.status.kind == msg::NODE_HAPTIC || heard.status.kind == msg::NODE_DEFORM;
-  return !needed && now_ns - heard.arrived_ns > kForgottenNs;
+  return !needed && now_ns - heard.arrived_ns > kForgotten_ns;
 }
 
 // Whether `status` speaks for a later run of the same node. One deform_node and one picture are the rule;
 // hands and their haptic_nodes may be many, so there only a silent one is succeeded.
 bool succeeds(const msg::NodeStatus& status, const HeardStatus& heard, std::int64_t now_ns) {
   if (heard.status.kind != status.kind || status.kind == msg::NODE_DEVICE) return false;
-  return status.kind != msg::NODE_HAPTIC || now_ns - heard.arrived_ns > kSilentNs;
+  return status.kind != msg::NODE_HAPTIC || now_ns - heard.arrived_ns > kSilent_ns;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
     *place = {status, now_ns};
   } else if (place == heard.end()) {
     heard.push_back({status, now_ns});
-  } else if (status.instance >= place->status.instance || now_ns - place->arrived_ns > kSilentNs) {
+  } else if (status.instance >= place->status.instance || now_ns - place->arrived_ns > kSilent_ns) {
     *place = {status, now_ns};
   }  // else a late sample of the old run
   std::sort(heard.begin(), heard.end(), [](const HeardStatus& a, const HeardStatus& b) {
@@ -53,9 +53,7 @@ Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const 
       forces_(bus, {}, [this] { return clock_.now_ns(); }),
       orders_(clock_.now_ns()) {
   for (const LoadedOrgan& organ : organs) organs_.push_back(std::make_unique<OrganBox>(organ));
-  contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) {
-    if (contact.tool < contacts_.size()) contacts_[contact.tool].post(contact);
-  });
+  contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) { take_contact(contact); });
   state_reader_ = bus.reader<msg::OrganState>([this](const msg::OrganState& block) { take_state(block); });
   status_reader_ =
       bus.reader<msg::NodeStatus>([this](const msg::NodeStatus& status) { take_status(status); });
@@ -64,6 +62,13 @@ Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const 
   scene_reader_ = bus.reader<msg::SceneInfo>([this](const msg::SceneInfo& info) { scene_info_.post(info); });
   topology_reader_ =
       bus.reader<msg::Topology>([this](const msg::Topology& topology) { take_topology(topology); });
+}
+
+void Inbox::take_contact(const msg::Contact& contact) {
+  if (contact.tool >= msg::MAX_TOOLS) return;
+  if (contact.organ >= organs_.size())
+    return faults_.raise("contact with an organ that the scene does not have");
+  organs_[contact.organ]->contacts[contact.tool].post(contact);
 }
 
 void Inbox::take_state(const msg::OrganState& block) {
@@ -75,7 +80,7 @@ void Inbox::take_state(const msg::OrganState& block) {
     organ.newest.post(state);
   });
   if (outcome == StateAssembly::Outcome::kMisfit)
-    faults_.raise("organ state that does not fit the organ's surface");
+    faults_.raise("organ state of another kind or size than the organ's");
 }
 
 void Inbox::take_topology(const msg::Topology& topology) {
@@ -91,9 +96,10 @@ void Inbox::take_status(const msg::NodeStatus& status) {
   statuses_.post(heard_);
 }
 
-const msg::Contact& Inbox::contact(std::uint32_t tool) {
-  contacts_[tool].fetch();
-  return contacts_[tool].value();
+const msg::Contact& Inbox::contact(std::size_t organ, std::uint32_t tool) {
+  auto& newest = organs_[organ]->contacts[tool];
+  newest.fetch();
+  return newest.value();
 }
 
 const AssembledState* Inbox::fetch_state(std::size_t organ) {

@@ -1,7 +1,7 @@
 // Everything that render_node hears, handed from the vendor's threads to the one that draws.
 #pragma once
 
-#include "node/session_orders.h"
+#include "node_common/session_orders.h"
 #include "render_node/pose_arrivals.h"
 #include "render_node/state_assembly.h"
 #include "runtime/clock.h"
@@ -17,8 +17,9 @@ namespace omentum::render {
 struct LoadedOrgan {
   std::string name;
   std::string hash;
-  std::size_t node_count = 0;  // of its surface
+  std::size_t node_count = 0;  // of its states
   double reach_m = 0;          // a state that moves a node farther is none (plausible.h)
+  std::uint32_t state_kind = msg::KIND_SURFACE;
 };
 
 /// A node's newest status and when it came (the inbox's clock).
@@ -26,7 +27,7 @@ struct HeardStatus {
   msg::NodeStatus status;
   std::int64_t arrived_ns = 0;
 };
-inline constexpr std::int64_t kSilentNs =
+inline constexpr std::int64_t kSilent_ns =
     2'500'000'000;  // a node that says nothing for so long; they speak at 1 Hz
 /// Keeps the newest run of deform_node and the picture, and of haptic and device nodes one per instance. Who
 /// falls silent is forgotten after a while, but never haptic_node and deform_node: without them the session
@@ -53,7 +54,8 @@ class Inbox {
   std::optional<std::int64_t> arrival_of(std::uint32_t tool, std::uint64_t seq) const {
     return tool < arrivals_.size() ? arrivals_[tool].find(seq) : std::nullopt;
   }
-  const msg::Contact& contact(std::uint32_t tool);
+  /// The newest contact of a tool with an organ; without nodes before one came.
+  const msg::Contact& contact(std::size_t organ, std::uint32_t tool);
   /// The newest state of an organ if one came since the last call.
   const AssembledState* fetch_state(std::size_t organ);
   const std::vector<HeardStatus>& statuses();
@@ -65,11 +67,14 @@ class Inbox {
 
  private:
   struct OrganBox {
-    explicit OrganBox(const LoadedOrgan& organ) : assembly(organ.node_count, organ.reach_m) {}
+    explicit OrganBox(const LoadedOrgan& organ)
+        : assembly(organ.state_kind, organ.node_count, organ.reach_m) {}
     StateAssembly assembly;
     runtime::Mailbox<AssembledState> newest;
     runtime::Mailbox<msg::Topology> topology;
+    std::array<runtime::Mailbox<msg::Contact>, msg::MAX_TOOLS> contacts;
   };
+  void take_contact(const msg::Contact& contact);
   void take_state(const msg::OrganState& block);
   void take_topology(const msg::Topology& topology);
   void take_status(const msg::NodeStatus& status);
@@ -79,7 +84,6 @@ class Inbox {
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
   transport::LatestByTool<msg::ToolPose> poses_;
   transport::LatestByTool<msg::ToolForce> forces_;
-  std::array<runtime::Mailbox<msg::Contact>, msg::MAX_TOOLS> contacts_;
   std::vector<std::unique_ptr<OrganBox>> organs_;
   std::vector<HeardStatus> heard_;  // the status callback's own
   node::SessionOrders orders_;

@@ -120,7 +120,7 @@ std::vector<InstrumentPart> probe(float radius, float length, const Vec3f& band)
 
 }  // namespace
 
-std::vector<InstrumentPart> instrument_parts(const runtime::ToolSpec& tool, const Vec3f& band_colour) {
+std::vector<InstrumentPart> instrument_parts(const scene::ToolSpec& tool, const Vec3f& band_colour) {
   const auto radius = static_cast<float>(tool.shaft_radius_m);
   const auto length = static_cast<float>(tool.shaft_length_m);
   return tool.shape == "grasper" ? grasper(radius, length, band_colour) : probe(radius, length, band_colour);

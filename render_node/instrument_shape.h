@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render_node/renderer.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include <Eigen/Geometry>
 
@@ -19,7 +19,7 @@ struct InstrumentPart {
 
 /// "grasper": insulated shaft, clevis and two toothed jaws; everything else: a probe of steel with a round
 /// tip and a mark each centimetre. A band near the tip carries the tool's colour.
-std::vector<InstrumentPart> instrument_parts(const runtime::ToolSpec& tool, const Vec3f& band_colour);
+std::vector<InstrumentPart> instrument_parts(const scene::ToolSpec& tool, const Vec3f& band_colour);
 
 /// Where a part is, when the tool's tip is at p_WT with orientation q_WT and the jaws are open by grip_rad.
 Mat4f part_pose(const InstrumentPart& part, const Eigen::Vector3d& p_WT, const Eigen::Quaterniond& q_WT,

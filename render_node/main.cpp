@@ -1,5 +1,5 @@
 // render_node: shows the session. A window, or pictures where there is no display.
-#include "node/node_identity.h"
+#include "node_common/node_identity.h"
 #include "render_node/gl/display.h"
 #include "render_node/render_loop.h"
 #include "runtime/rate_loop.h"

@@ -1,15 +1,14 @@
 #include "render_node/organ_skin.h"
 
+#include "geometry/precondition.h"
 #include "render_node/surface_shading.h"
 
 #include <Eigen/Geometry>
 
-#include <cassert>
-
 namespace omentum::render {
 namespace {
 
-constexpr float kHorizonM = 0.018f;  // the width of a dent that a tool presses into soft tissue
+constexpr float kHorizon_m = 0.018f;  // the width of a dent that a tool presses into soft tissue
 
 }  // namespace
 
@@ -37,7 +36,7 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
 }
 
 void OrganSkin::deform(std::span<const float> displacements) {
-  assert(displacements.size() == 3 * rest_.size());
+  geometry::require(displacements.size() == 3 * rest_.size(), "three values for each node");
   float largest_squared = 0;
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     const Vec3f u(displacements[3 * s], displacements[3 * s + 1], displacements[3 * s + 2]);
@@ -46,7 +45,7 @@ void OrganSkin::deform(std::span<const float> displacements) {
   }
   largest_displacement_m_ = std::sqrt(largest_squared);
   smooth_normals(triangles_, positions_, normals_);
-  openness_of(triangles_, positions_, normals_, kHorizonM, openness_);
+  openness_of(triangles_, positions_, normals_, kHorizon_m, openness_);
   refinement_.apply(positions_, normals_, openness_, mesh_.vertices);
 }
 

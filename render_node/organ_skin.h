@@ -5,8 +5,7 @@
 
 namespace omentum::render {
 
-/// From displacements of the surface's nodes to lit vertices. A tube (intestine) will be another
-/// class beside this one with the same mesh() (Raghupathi 2004, section 5).
+/// From displacements of the surface's nodes to lit vertices.
 class OrganSkin {
  public:
   /// `rest`: [S], m, in the surface's order.

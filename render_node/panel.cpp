@@ -113,7 +113,7 @@ void draw_curve(const ToolRow& tool, double now_s, double top_n, const ImVec2& c
   for (const auto& sample : tool.curve) {
     if (sample.after_gap) finish_line();
     const double age = now_s - sample.time_s;
-    line.push_back({corner.x + size.x * static_cast<float>(1 - age / ForceHistory::kSpanS),
+    line.push_back({corner.x + size.x * static_cast<float>(1 - age / ForceHistory::kSpan_s),
                     corner.y + (size.y - 2) * static_cast<float>(1 - sample.force_n / top_n) + 1});
   }
   finish_line();
@@ -127,7 +127,7 @@ void label_axes(double top_n, const ImVec2& corner, const ImVec2& size) {
   draw.AddText({left, corner.y}, dim, format("%g N", top_n).c_str());
   draw.AddText({left, corner.y + size.y - line}, dim, "0 N");
   ImGui::SetCursorScreenPos({corner.x, corner.y + size.y + 1});
-  ImGui::TextDisabled("%.0f s ago", ForceHistory::kSpanS);
+  ImGui::TextDisabled("%.0f s ago", ForceHistory::kSpan_s);
   ImGui::SameLine();
   right_aligned("now", &ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
 }
@@ -184,20 +184,25 @@ void forces(const PanelView& view) {
 }
 
 void organ_line(const OrganRow& row) {
+  const std::string of = row.name.empty() ? "" : row.name + ": ";
   if (row.stale()) {
     const std::string age = format("%.0f s", 1e-9 * static_cast<double>(row.age_ns));
-    ImGui::TextColored(kAmber, "%s for %s", row.known ? "organ stale: no state" : "no organ state",
-                       age.c_str());
+    ImGui::TextColored(kAmber, "%s%s for %s", of.c_str(),
+                       row.known ? "organ stale: no state" : "no organ state", age.c_str());
   }
-  if (row.beyond_linear())
-    ImGui::TextColored(kAmber, "moved %.0f mm: beyond linear range (%.0f mm)", row.moved_mm, row.limit_mm);
+  if (row.beyond_linear()) {
+    ImGui::TextColored(kAmber, "%smoved %.0f mm: beyond linear range (%.0f mm)", of.c_str(), row.moved_mm,
+                       row.limit_mm);
+  }
 }
 
 void organs(const PanelView& view) {
   ImGui::TextUnformatted("deepest dent");
   ImGui::SameLine();
   right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  ImGui::PushTextWrapPos(0);  // an organ may have a long name
   for (const OrganRow& row : view.organs) organ_line(row);
+  ImGui::PopTextWrapPos();
   if (view.incomplete_states > 0) {
     ImGui::TextColored(kAmber, "%llu states came incomplete",
                        static_cast<unsigned long long>(view.incomplete_states));

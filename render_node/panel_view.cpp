@@ -19,7 +19,7 @@ std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64
   for (const auto& [status, arrived_ns] : heard) {
     NodeRow& row = rows.emplace_back();
     row.name = node_name(status.kind);
-    row.silent = now_ns - arrived_ns > kSilentNs;
+    row.silent = now_ns - arrived_ns > kSilent_ns;
     row.rate_hz = status.period_us.p50 > 0 ? 1e6 / status.period_us.p50 : status.rate_hz;
     row.compute_us = status.compute_us.p50;
     row.missed = status.missed;
@@ -41,7 +41,7 @@ msg::Percentiles device_round_trip(const std::vector<HeardStatus>& heard) {
 std::optional<bool> haptic_paused(const std::vector<HeardStatus>& heard, std::int64_t now_ns) {
   std::optional<bool> paused;
   for (const auto& [status, arrived_ns] : heard) {
-    if (status.kind != msg::NODE_HAPTIC || now_ns - arrived_ns > kSilentNs) continue;
+    if (status.kind != msg::NODE_HAPTIC || now_ns - arrived_ns > kSilent_ns) continue;
     paused = paused.value_or(false) || status.paused;
   }
   return paused;

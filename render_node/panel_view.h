@@ -14,7 +14,7 @@ namespace omentum::render {
 /// A node's line.
 struct NodeRow {
   std::string name;
-  bool silent = false;    // no status for kSilentNs (inbox.h)
+  bool silent = false;    // no status for kSilent_ns (inbox.h)
   double rate_hz = 0;     // measured: one over the median period; the configured one before the first tick
   double compute_us = 0;  // median
   std::uint64_t missed = 0;
@@ -39,10 +39,11 @@ struct OrganRow {
   double limit_mm = 0;  // up to where linear elasticity is trusted: kLinearShare of its size
   bool known = false;   // a state came
   std::int64_t age_ns = 0;  // of the newest state; where none came, since the start
+  std::string name = {};    // empty where the scene has no other
 
   bool beyond_linear() const { return moved_mm > limit_mm; }
-  bool stale() const { return age_ns > kStaleStateNs; }
-  static constexpr std::int64_t kStaleStateNs =
+  bool stale() const { return age_ns > kStaleState_ns; }
+  static constexpr std::int64_t kStaleState_ns =
       500'000'000;  // states come at 60 Hz or more; what is drawn is old
 };
 

@@ -6,9 +6,9 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kDeeper = 1.05;         // a picture of less is not worth writing
-constexpr double kShallowestM = 0.0005;  // below half a millimetre nothing would be seen
-constexpr double kIndentPeriodS = 1;     // reading back and writing costs a frame or two
+constexpr double kDeeper = 1.05;          // a picture of less is not worth writing
+constexpr double kShallowest_m = 0.0005;  // below half a millimetre nothing would be seen
+constexpr double kIndentPeriod_s = 1;     // reading back and writing costs a frame or two
 
 }  // namespace
 
@@ -17,8 +17,8 @@ bool PictureSchedule::frame_due(double time_s) const {
 }
 
 bool PictureSchedule::indent_due(double time_s, double dent_m) const {
-  if (dent_m < kShallowestM || dent_m <= kDeeper * indent_m_) return false;
-  return indent_m_ == 0 || time_s - indent_written_s_ >= kIndentPeriodS;
+  if (dent_m < kShallowest_m || dent_m <= kDeeper * indent_m_) return false;
+  return indent_m_ == 0 || time_s - indent_written_s_ >= kIndentPeriod_s;
 }
 
 PicturesDue PictureSchedule::due(double time_s, double dent_m) {

@@ -1,7 +1,7 @@
 #include "render_node/plausible.h"
 
-#include "node/contact_bounds.h"
-#include "node/vectors.h"
+#include "node_common/contact_bounds.h"
+#include "node_common/vectors.h"
 
 #include <Eigen/Geometry>
 
@@ -11,18 +11,18 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kRounding = 1e-9;                   // of a clamped force's length, relative
-constexpr double kRotationOff = 0.1;                 // of a quaternion's length from 1
-constexpr double kWidestGripRad = std::numbers::pi;  // jaws that point backwards
+constexpr double kRounding = 1e-9;                    // of a clamped force's length, relative
+constexpr double kRotationOff = 0.1;                  // of a quaternion's length from 1
+constexpr double kWidestGrip_rad = std::numbers::pi;  // jaws that point backwards
 
 }  // namespace
 
 // each comparison is false for NaN
 bool is_plausible(const msg::ToolPose& pose) {
   const msg::Quat& q = pose.orientation;
-  return node::to_vector(pose.position).norm() <= kRoomM &&
+  return node::to_vector(pose.position).norm() <= kRoom_m &&
          std::abs(Eigen::Vector4d(q.w, q.x, q.y, q.z).norm() - 1) <= kRotationOff &&
-         std::abs(pose.grip) <= kWidestGripRad;
+         std::abs(pose.grip) <= kWidestGrip_rad;
 }
 
 bool is_plausible(const msg::ToolForce& force, double max_force_n) {

@@ -1,8 +1,8 @@
 #include "render_node/render_loop.h"
 
-#include "node/node_identity.h"
-#include "node/session_orders.h"
-#include "organ/organ.h"
+#include "node_common/node_identity.h"
+#include "node_common/organ_source.h"
+#include "node_common/session_orders.h"
 #include "render_node/plausible.h"
 #include "runtime/report.h"
 
@@ -14,36 +14,32 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kPicturePeriodS = 2;                  // off-screen, unless asked otherwise
-constexpr std::int64_t kStatusPeriodNs = 100'000'000;  // docs/topics.md: 1-10 Hz
+constexpr double kPicturePeriod_s = 2;                  // off-screen, unless asked otherwise
+constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
 constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
-OrganShape shape_of(const organ::Organ& organ) {
-  return {organ.surface, geometry::surface_positions(organ.mesh, organ.surface),
-          organ.surface_of_file_node()};
+OrganShape shape_of(const node::OrganSource& source, const std::string& look) {
+  return {source.kind, source.organ.surface, source.rest, source.organ.surface_of_file_node(),
+          tissue_material(look)};
 }
 
 double picture_period_s(const RenderOptions& options, bool has_window) {
   if (options.picture_period_s >= 0) return options.picture_period_s;
-  return has_window ? 0 : kPicturePeriodS;
+  return has_window ? 0 : kPicturePeriod_s;
 }
 
 }  // namespace
 
 RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
   Loaded loaded{node::load_scene(options.node), {}, {}};
-  for (const runtime::OrganSpec& spec : loaded.scene.organs) {
-    if (spec.file.empty()) {
-      throw std::runtime_error(loaded.scene.file.string() + ": organ " + spec.name +
-                               " has no file; expected a resolved scene or --organ FILE");
-    }
-    const organ::Organ organ = organ::load_organ(spec.file, organ::Load::kMeshOnly);
-    loaded.shapes.push_back(shape_of(organ));
-    const std::vector<Vec3>& rest = loaded.shapes.back().rest;
-    loaded.organs.push_back({organ.name, organ.hash, rest.size(), reach_of(rest)});
+  for (const scene::OrganSpec& spec : loaded.scene.organs) {
+    const node::OrganSource source = node::load_organ_source(loaded.scene, spec, organ::Load::kMeshOnly);
+    loaded.organs.push_back({source.organ.name, source.organ.hash, source.rest.size(), reach_of(source.rest),
+                             node::state_kind(source.kind)});
+    loaded.shapes.push_back(shape_of(source, spec.look));
   }
   return loaded;
 }
@@ -161,7 +157,8 @@ void RenderLoop::obey(const PanelActions& actions) {
 }
 
 void RenderLoop::command(std::uint32_t command) {
-  if (!command_writer_->write(node::make_command(command))) faults_.raise("a command could not be sent");
+  const msg::SessionCommand order = inbox_->orders().issue(command, status_.instance);
+  if (!command_writer_->write(order)) faults_.raise("a command could not be sent");
 }
 
 PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
@@ -175,9 +172,10 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
 }
 
 void RenderLoop::tell_status(std::int64_t now_ns) {
-  next_status_ns_ = now_ns + kStatusPeriodNs;
+  next_status_ns_ = now_ns + kStatusPeriod_ns;
   status_.echoes = watch_.echoes();
-  status_.paused = watch_.paused(now_ns);
+  inbox_->orders().tell(status_);
+  status_.paused = watch_.paused(now_ns);  // as the panel shows it
   node::fill_status(account_.record(), faults_, status_);
   status_writer_->write(status_);
 }

@@ -48,7 +48,7 @@ class RenderLoop {
 
  private:
   struct Loaded {
-    runtime::Scene scene;
+    scene::Scene scene;
     std::vector<LoadedOrgan> organs;
     std::vector<OrganShape> shapes;
   };

@@ -9,25 +9,23 @@
 namespace omentum::render {
 namespace {
 
-// Liver: the hue of its reflectance in clinical photographs, linear.
-const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
 const Material kDrape{{0.016f, 0.046f, 0.056f}, 0.0f, 0.9f};
 
-constexpr double kArrowRadiusM = 0.0013, kHeadRadiusM = 0.0034, kHeadLengthM = 0.009;
-constexpr double kMarkerRadiusM = 0.0011;
+constexpr double kArrowRadius_m = 0.0013, kHeadRadius_m = 0.0034, kHeadLength_m = 0.009;
+constexpr double kMarkerRadius_m = 0.0011;
 constexpr double kShadowReach =
     1.45;  // of the organs' radius: the instruments' near parts and the shadow beside the organ
 
 // An endoscope without a tool or pose of its own looks from here.
 constexpr double kScopeDistance = 0.42;  // of the orbit camera's start
-constexpr double kScopeFieldDeg = 62;    // a laparoscope's, bottom to top
+constexpr double kScopeField_deg = 62;   // a laparoscope's, bottom to top
 
 constexpr double kLeastHeight = 0.45;  // of the unit viewing direction: never from under the table
 
 // From where a whole scene is best seen: the side on which it is pressed, from above.
-Vec3 viewing_direction(const runtime::Scene& scene) {
+Vec3 viewing_direction(const scene::Scene& scene) {
   Vec3 pressed = Vec3::Zero();
-  for (const auto& hand : scene.hands) pressed += Vec3(hand.press_normal.data());
+  for (const auto& hand : scene.hands) pressed += hand.press_normal;
   Vec3 along(pressed.x(), pressed.y(), 0);
   along = along.norm() > 0.3 * std::max(1.0, pressed.norm()) ? along.normalized() : Vec3(0, -1, 0);
   const Vec3 side = along.cross(Vec3::UnitZ());
@@ -36,10 +34,10 @@ Vec3 viewing_direction(const runtime::Scene& scene) {
   return std::sqrt(1 - height * height) * from + height * Vec3::UnitZ();
 }
 
-double area_of(std::span<const geometry::Triangle> triangles, std::span<const Vec3> p) {
-  double area = 0;
-  for (const auto& [a, b, c] : triangles) area += 0.5 * (p[b] - p[a]).cross(p[c] - p[a]).norm();
-  return area;
+std::vector<std::unique_ptr<OrganDrawing>> drawings_of(const std::vector<OrganShape>& organs) {
+  std::vector<std::unique_ptr<OrganDrawing>> drawings;
+  for (const OrganShape& shape : organs) drawings.push_back(make_drawing(shape));
+  return drawings;
 }
 
 // z of the mesh along `direction`, scaled.
@@ -57,27 +55,29 @@ Material signal_material(std::uint32_t tool) {
 
 }  // namespace
 
-std::optional<std::size_t> scope_of(const runtime::Scene& scene) {
+std::optional<std::size_t> scope_of(const scene::Scene& scene) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     if (scene.tools[t].name == "endoscope") return t;
   }
   return std::nullopt;
 }
 
-SceneView::SceneView(const runtime::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer)
+SceneView::SceneView(const scene::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer)
+    : SceneView(scene, drawings_of(organs), renderer) {}
+
+SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs,
+                     Renderer& renderer)
     : renderer_(renderer), scene_(scene) {
   std::vector<Vec3> all;
   std::vector<Vec3f> normals;
   double area = 0;
-  for (const OrganShape& shape : organs) {
-    DrawnOrgan& drawn =
-        organs_.emplace_back(DrawnOrgan{{shape.surface, shape.rest}, shape.surface_of_file_node});
-    drawn.mesh = renderer.add_mesh(drawn.skin.mesh());
-    all.insert(all.end(), shape.rest.begin(), shape.rest.end());
-    for (std::int32_t s = 0; s < shape.surface.node_count(); ++s) {
-      normals.push_back(drawn.skin.normal(geometry::SurfaceId(s)));
-    }
-    area += area_of(shape.surface.triangles, shape.rest);
+  for (std::unique_ptr<OrganDrawing>& drawing : organs) {
+    const RestOutline outline = drawing->rest_outline();
+    all.insert(all.end(), outline.points.begin(), outline.points.end());
+    normals.insert(normals.end(), outline.normals.begin(), outline.normals.end());
+    area += outline.area_m2;
+    const MeshId mesh = renderer.add_mesh(drawing->mesh());
+    organs_.push_back({std::move(drawing), mesh});
   }
   ball_ = ball_around(all);
   for (const auto& tool : scene.tools) {
@@ -95,9 +95,10 @@ SceneView::SceneView(const runtime::Scene& scene, const std::vector<OrganShape>&
   marker_ = renderer.add_mesh(unit_ball());
 }
 
-void SceneView::deform(std::size_t organ, std::span<const float> displacements) {
-  organs_[organ].skin.deform(displacements);
-  renderer_.update_vertices(organs_[organ].mesh, organs_[organ].skin.mesh().vertices);
+void SceneView::deform(std::size_t organ, std::span<const float> values) {
+  OrganDrawing& drawing = *organs_[organ].drawing;
+  drawing.deform(values);
+  renderer_.update_vertices(organs_[organ].mesh, drawing.mesh().vertices);
 }
 
 Camera SceneView::first_camera() const {
@@ -107,12 +108,12 @@ Camera SceneView::first_camera() const {
 Camera SceneView::camera(const ViewChoices& choices, std::span<const ToolNow> tools) const {
   if (!choices.endoscope) return choices.orbit;
   if (const auto scope = scope_of(scene_); scope && tools[*scope].seen) {
-    return scope_camera(tools[*scope].p_WT, tools[*scope].q_WT, kScopeFieldDeg);
+    return scope_camera(tools[*scope].p_WT, tools[*scope].q_WT, kScopeField_deg);
   }
   Camera fixed = first_camera();
   if (scene_.camera.mode == "endoscope") return fixed;
   fixed.eye = fixed.target + kScopeDistance * (fixed.eye - fixed.target);
-  fixed.field_of_view_deg = kScopeFieldDeg;
+  fixed.field_of_view_deg = kScopeField_deg;
   return fixed;
 }
 
@@ -130,24 +131,28 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
   }
   ViewChoices near = choices;
   near.markers = near.arrows = false;  // they would cover the dent
-  std::vector<const OrganSkin*> skins;
-  for (const DrawnOrgan& organ : organs_) skins.push_back(&organ.skin);
-  const Camera camera = close_up_of(dent, skins, shafts, choices.orbit, ground_m_);
+  std::vector<const MeshData*> meshes;
+  for (const DrawnOrgan& organ : organs_) meshes.push_back(&organ.drawing->mesh());
+  const Camera camera = close_up_of(dent, meshes, shafts, choices.orbit, ground_m_);
   Frame frame = frame_from(camera, near, tools, 0);
   frame.lighting = rake_light(camera, shadow_ball());
   frame.with_panel = false;
   return frame;
 }
 
+const PressedSurface* SceneView::touched_surface(const ToolNow& tool) const {
+  return tool.contact_organ < organs_.size() ? surface(tool.contact_organ) : nullptr;
+}
+
 std::optional<Dent> SceneView::dent_of(const ToolNow& tool) const {
-  if (!tool.seen || tool.contact_organ >= organs_.size()) return std::nullopt;
-  const DrawnOrgan& organ = organs_[tool.contact_organ];
+  const PressedSurface* const touched = touched_surface(tool);
+  if (!tool.seen || touched == nullptr) return std::nullopt;
   std::vector<PressedNode> pressed;
   for (std::size_t i = 0; i < std::min(tool.contact_nodes.size(), tool.contact_forces_n.size()); ++i) {
-    const auto node = organ.surface_node(tool.contact_nodes[i]);
+    const auto node = touched->node(tool.contact_nodes[i]);
     if (node.valid()) pressed.push_back({node, tool.contact_forces_n[i]});
   }
-  return measure_dent(organ.skin, pressed);
+  return measure_dent(touched->skin, pressed);
 }
 
 Ball SceneView::shadow_ball() const {
@@ -162,7 +167,7 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const DrawnOrgan& organ : organs_)
-    frame.items.push_back({organ.mesh, Look::kTissue, Mat4f::Identity(), kLiver});
+    frame.items.push_back({organ.mesh, Look::kTissue, Mat4f::Identity(), organ.drawing->material()});
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;
     add_instrument(t, tools[t], frame.items);
@@ -181,26 +186,26 @@ void SceneView::add_instrument(std::size_t tool, const ToolNow& now, std::vector
 
 void SceneView::add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
   const double force = now.force_n.norm();
-  if (!(force >= kLeastArrowN)) return;
+  if (!(force >= kLeastArrow_n)) return;
   const Vec3 direction = now.force_n / force;
-  const double length = std::min(force * kArrowMetresPerNewton, kLongestArrowM);
-  const double head = std::min(kHeadLengthM, 0.6 * length), shaft = length - head;
-  const double scale = head / kHeadLengthM;  // a weak force has a small arrow, not a squashed one
+  const double length = std::min(force * kArrowMetresPerNewton, kLongestArrow_m);
+  const double head = std::min(kHeadLength_m, 0.6 * length), shaft = length - head;
+  const double scale = head / kHeadLength_m;  // a weak force has a small arrow, not a squashed one
   const Material material = signal_material(scene_.tools[tool].id);
   items.push_back(
-      {arrow_shaft_, Look::kSignal, placed(now.p_WT, direction, scale * kArrowRadiusM, shaft), material});
+      {arrow_shaft_, Look::kSignal, placed(now.p_WT, direction, scale * kArrowRadius_m, shaft), material});
   items.push_back({arrow_head_, Look::kSignal,
-                   placed(now.p_WT + shaft * direction, direction, scale * kHeadRadiusM, head), material});
+                   placed(now.p_WT + shaft * direction, direction, scale * kHeadRadius_m, head), material});
 }
 
 void SceneView::add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
-  if (now.contact_organ >= organs_.size()) return;
-  const DrawnOrgan& organ = organs_[now.contact_organ];
+  const PressedSurface* const touched = touched_surface(now);
+  if (touched == nullptr) return;
   for (const std::uint32_t node : now.contact_nodes) {
-    const geometry::SurfaceId surface_node = organ.surface_node(node);
+    const geometry::SurfaceId surface_node = touched->node(node);
     if (!surface_node.valid()) continue;
-    const Vec3 at = organ.skin.position(surface_node).cast<double>();
-    items.push_back({marker_, Look::kSignal, placed(at, Vec3::UnitZ(), kMarkerRadiusM, kMarkerRadiusM),
+    const Vec3 at = touched->skin.position(surface_node).cast<double>();
+    items.push_back({marker_, Look::kSignal, placed(at, Vec3::UnitZ(), kMarkerRadius_m, kMarkerRadius_m),
                      signal_material(scene_.tools[tool].id)});
   }
 }

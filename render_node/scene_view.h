@@ -3,18 +3,12 @@
 
 #include "render_node/close_up.h"
 #include "render_node/instrument_shape.h"
+#include "render_node/organ_drawing.h"
 
 #include <memory>
 #include <optional>
 
 namespace omentum::render {
-
-/// One organ at rest: what an organ file says of its surface.
-struct OrganShape {
-  geometry::Surface surface;
-  std::vector<Vec3> rest;                                 // [S], m
-  std::vector<geometry::SurfaceId> surface_of_file_node;  // invalid where none
-};
 
 /// One instrument now. `force_n`: on the hand, in W.
 struct ToolNow {
@@ -38,16 +32,17 @@ struct ViewChoices {
 
 /// Arrows: this long per newton, up to a longest one; weaker forces than the least have none.
 inline constexpr double kArrowMetresPerNewton = 0.02;  // 1 N, a firm press on a liver, is clearly seen
-inline constexpr double kLongestArrowM = 0.12;
-inline constexpr double kLeastArrowN = 0.02;  // below what a hand feels
+inline constexpr double kLongestArrow_m = 0.12;
+inline constexpr double kLeastArrow_n = 0.02;  // below what a hand feels
 
 /// Holds the meshes that it gave the renderer. One thread, the renderer's.
 class SceneView {
  public:
-  SceneView(const runtime::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer);
+  SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs, Renderer& renderer);
+  SceneView(const scene::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer);
 
-  /// `displacements`: [3S] of that organ, m.
-  void deform(std::size_t organ, std::span<const float> displacements);
+  /// `values`: of a whole state of that organ (OrganDrawing::deform).
+  void deform(std::size_t organ, std::span<const float> values);
 
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
@@ -61,24 +56,20 @@ class SceneView {
   /// Where the orbit camera starts.
   Camera first_camera() const;
   const Ball& ball() const { return ball_; }
-  const OrganSkin& skin(std::size_t organ) const { return organs_[organ].skin; }
+  /// Null for an organ that tools do not dent.
+  const PressedSurface* surface(std::size_t organ) const { return organs_[organ].drawing->surface(); }
   std::size_t organ_count() const { return organs_.size(); }
 
  private:
   struct DrawnOrgan {
-    OrganSkin skin;
-    std::vector<geometry::SurfaceId> surface_of_file_node;
+    std::unique_ptr<OrganDrawing> drawing;
     MeshId mesh{};
-    /// Invalid where the file's node is not on the surface.
-    geometry::SurfaceId surface_node(std::uint32_t file_node) const {
-      return file_node < surface_of_file_node.size() ? surface_of_file_node[file_node]
-                                                     : geometry::SurfaceId();
-    }
   };
   struct DrawnPart {
     InstrumentPart part;
     MeshId mesh{};
   };
+  const PressedSurface* touched_surface(const ToolNow& tool) const;
   Ball shadow_ball() const;  // what the shadow map covers
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;
   Frame frame_from(const Camera& camera, const ViewChoices& choices, std::span<const ToolNow> tools,
@@ -88,7 +79,7 @@ class SceneView {
   void add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
 
   Renderer& renderer_;
-  runtime::Scene scene_;
+  scene::Scene scene_;
   std::vector<DrawnOrgan> organs_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
@@ -97,6 +88,6 @@ class SceneView {
 };
 
 /// The scope among the scene's tools (one named "endoscope"), or none.
-std::optional<std::size_t> scope_of(const runtime::Scene& scene);
+std::optional<std::size_t> scope_of(const scene::Scene& scene);
 
 }  // namespace omentum::render

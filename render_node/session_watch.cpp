@@ -1,6 +1,7 @@
 #include "render_node/session_watch.h"
 
-#include "node/rivals.h"
+#include "node_common/contact_bounds.h"
+#include "node_common/rivals.h"
 #include "render_node/plausible.h"
 
 #include <algorithm>
@@ -9,9 +10,21 @@
 namespace omentum::render {
 namespace {
 
-constexpr std::int64_t kToolGoneNs =
+constexpr std::int64_t kToolGone_ns =
     1'000'000'000;  // a pose this old: the device has left, its tool is not drawn
-constexpr std::int64_t kForceGoneNs = 250'000'000;  // a force this old is nobody's any more
+constexpr std::int64_t kForceGone_ns = 250'000'000;  // a force this old is nobody's any more
+
+std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
+  std::vector<msg::OrganInfo> infos;
+  for (const LoadedOrgan& organ : organs)
+    infos.push_back({.name = organ.name, .hash = organ.hash, .kind = msg::KIND_SURFACE});
+  return infos;
+}
+
+bool is_cut(const msg::Topology& topology) {
+  return std::any_of(topology.removed_bits.begin(), topology.removed_bits.end(),
+                     [](std::uint8_t byte) { return byte != 0; });
+}
 
 Vec3 to_eigen(const msg::Vec3& v) {
   return {v.x, v.y, v.z};
@@ -19,18 +32,17 @@ Vec3 to_eigen(const msg::Vec3& v) {
 
 }  // namespace
 
-SessionWatch::SessionWatch(const runtime::Scene& scene, const std::vector<LoadedOrgan>& organs,
+SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
                            std::int64_t begin_ns)
     : scene_name_(scene.name),
       max_force_n_(scene.haptics.max_force_n),
-      loaded_{organs.size(), {}},
+      loaded_(node::loaded_scene(scene, infos_of(organs))),
       begin_ns_(begin_ns),
       tools_(scene.tools.size()),
       rows_(scene.tools.size()),
       histories_(scene.tools.size()),
       echoes_(organs.size()),
       state_arrived_ns_(organs.size(), 0) {
-  for (const LoadedOrgan& organ : organs) loaded_.organs.push_back({organ.name, organ.hash});
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     ids_.push_back(scene.tools[t].id);
     rows_[t].name = scene.tools[t].name;
@@ -58,7 +70,7 @@ void SessionWatch::listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std
     if (why) faults.raise(node::kForeignScene);
   }
   for (std::size_t i = 0; i < loaded_.organ_count; ++i) {
-    if (const msg::Topology* topology = inbox.fetch_topology(i); topology && topology->version > 0)
+    if (const msg::Topology* topology = inbox.fetch_topology(i); topology && is_cut(*topology))
       faults.raise("an organ was cut, but this render_node draws whole organs only");
   }
 }
@@ -67,7 +79,7 @@ void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t 
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
     const AssembledState* state = inbox.fetch_state(i);
     if (!state) continue;
-    view.deform(i, state->displacements);
+    view.deform(i, state->values);
     echoes_[i] = state->echoes;
     state_arrived_ns_[i] = now_ns;
     fresh_echoes_ = true;
@@ -77,7 +89,7 @@ void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t 
 void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns) {
   ToolNow& now = tools_[tool];
   transport::Arrived<msg::ToolPose> pose;
-  now.seen = inbox.pose(ids_[tool], pose) && pose.age_ns(now_ns) < kToolGoneNs && pose.sample.valid &&
+  now.seen = inbox.pose(ids_[tool], pose) && pose.age_ns(now_ns) < kToolGone_ns && pose.sample.valid &&
              is_plausible(pose.sample);
   if (now.seen) {
     const auto& q = pose.sample.orientation;
@@ -86,7 +98,7 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
     now.grip_rad = pose.sample.grip;
   }
   transport::Arrived<msg::ToolForce> force;
-  const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGoneNs &&
+  const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGone_ns &&
                     is_plausible(force.sample, max_force_n_);
   now.force_n = felt ? to_eigen(force.sample.force) : Vec3::Zero();
   now.contact_nodes.clear();
@@ -104,10 +116,21 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
 void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns) {
   ToolNow& now = tools_[tool];
   histories_[tool].add(seconds_since_begin(now_ns), now.force_n.norm());
-  const msg::Contact& contact = inbox.contact(ids_[tool]);
-  if (!is_plausible(contact, max_force_n_)) return;
+  // a tool is drawn with the organ that it presses hardest
+  double most_n = -1;
+  for (std::size_t organ = 0; organ < loaded_.organ_count; ++organ) {
+    const msg::Contact& contact = inbox.contact(organ, ids_[tool]);
+    const double total_n = node::total_force_n(contact);
+    if (contact.nodes.empty() || !is_plausible(contact, max_force_n_) || total_n <= most_n) continue;
+    most_n = total_n;
+    draw_contact(contact, now);
+  }
+}
+
+void SessionWatch::draw_contact(const msg::Contact& contact, ToolNow& now) {
   now.contact_organ = contact.organ;
   now.contact_nodes = contact.nodes;
+  now.contact_forces_n.clear();
   for (const msg::Vec3& on_node : contact.forces) {
     now.contact_forces_n.push_back(static_cast<float>(to_eigen(on_node).norm()));
   }
@@ -118,7 +141,7 @@ void SessionWatch::find_deepest_dent(const SceneView& view, std::int64_t now_ns)
   for (const ToolNow& tool : tools_) {
     // a tool of now and an organ of then make no dent
     if (tool.contact_organ >= loaded_.organ_count ||
-        now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleStateNs)
+        now_ns - state_arrived_ns_[tool.contact_organ] > OrganRow::kStaleState_ns)
       continue;
     const auto dent = view.dent_of(tool);
     if (dent && (!dent_ || dent->depth_m > dent_->depth_m)) dent_ = dent;
@@ -157,9 +180,14 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
   panel.dent_mm = dent_ ? 1e3 * dent_->depth_m : 0;
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
-    const OrganSkin& skin = view.skin(i);
-    panel.organs.push_back({1e3 * skin.largest_displacement_m(), 1e3 * kLinearShare * skin.extent_m(),
-                            state_arrived_ns_[i] > 0, now_ns - std::max(state_arrived_ns_[i], begin_ns_)});
+    OrganRow& row = panel.organs.emplace_back();
+    if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
+    row.known = state_arrived_ns_[i] > 0;
+    row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);
+    if (const PressedSurface* surface = view.surface(i)) {
+      row.moved_mm = 1e3 * surface->skin.largest_displacement_m();
+      row.limit_mm = 1e3 * kLinearShare * surface->skin.extent_m();
+    }
   }
   panel.incomplete_states = incomplete_states_;
   panel.faults = all_faults(statuses_);

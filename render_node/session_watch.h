@@ -1,7 +1,7 @@
 // What render_node knows of its session at this moment.
 #pragma once
 
-#include "node/loaded_scene.h"
+#include "node_common/loaded_scene.h"
 #include "render_node/force_history.h"
 #include "render_node/inbox.h"
 #include "render_node/panel_view.h"
@@ -14,9 +14,9 @@ namespace omentum::render {
 /// times are given (steady clock, ns). One thread, the drawing one.
 class SessionWatch {
  public:
-  SessionWatch(const runtime::Scene& scene, const std::vector<LoadedOrgan>& organs, std::int64_t begin_ns);
+  SessionWatch(const scene::Scene& scene, const std::vector<LoadedOrgan>& organs, std::int64_t begin_ns);
 
-  /// What came since the last call. Throws std::runtime_error when deform_node serves another organ, within
+  /// What came since the last call. Throws std::runtime_error when deform_node serves another scene, within
   /// node::kSettled_s of the beginning; later such a scene is a fault.
   void listen(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns);
   /// The state of the last listen() is on the screen.
@@ -40,6 +40,7 @@ class SessionWatch {
   void listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t now_ns);
   void listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
   void listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
+  static void draw_contact(const msg::Contact& contact, ToolNow& now);
   void find_deepest_dent(const SceneView& view, std::int64_t now_ns);
   double seconds_since_begin(std::int64_t now_ns) const {
     return 1e-9 * static_cast<double>(now_ns - begin_ns_);

@@ -5,8 +5,9 @@
 
 namespace omentum::render {
 
-StateAssembly::StateAssembly(std::size_t node_count, double reach_m) : reach_m_(static_cast<float>(reach_m)) {
-  state_.displacements.assign(3 * node_count, 0.0f);
+StateAssembly::StateAssembly(std::uint32_t kind, std::size_t node_count, double reach_m)
+    : kind_(kind), reach_m_(static_cast<float>(reach_m)) {
+  state_.values.assign(3 * node_count, 0.0f);
 }
 
 StateAssembly::Outcome StateAssembly::take(const msg::OrganState& block,
@@ -20,17 +21,16 @@ StateAssembly::Outcome StateAssembly::take(const msg::OrganState& block,
   late_in_a_row_ = 0;
   if (arrived_.size() != block.block_count || arrived_[block.block]) return Outcome::kLate;  // a duplicate
   std::copy(block.values.begin(), block.values.end(),
-            state_.displacements.begin() + 3 * std::ptrdiff_t{block.first});
+            state_.values.begin() + 3 * std::ptrdiff_t{block.first});
   arrived_[block.block] = true;
   if (--state_.missing_blocks == 0) show(state_);
   return Outcome::kTaken;
 }
 
 bool StateAssembly::fits(const msg::OrganState& block) const {
-  return block.kind == msg::KIND_SURFACE &&
-         3 * std::size_t{block.node_count} == state_.displacements.size() &&
+  return block.kind == kind_ && 3 * std::size_t{block.node_count} == state_.values.size() &&
          block.block < block.block_count && block.block_count <= std::max(block.node_count, 1u) &&
-         3 * std::size_t{block.first} + block.values.size() <= state_.displacements.size() &&
+         3 * std::size_t{block.first} + block.values.size() <= state_.values.size() &&
          std::all_of(block.values.begin(), block.values.end(),
                      [this](float x) { return std::abs(x) <= reach_m_; });
 }

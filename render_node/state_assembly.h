@@ -8,13 +8,13 @@
 
 namespace omentum::render {
 
-/// A whole state of one organ's surface, as far as it arrived.
+/// A whole state of one organ, as far as it arrived.
 struct AssembledState {
   std::uint64_t seq = 0;
   std::int64_t stamp_ns = 0;         // deform_node's steady clock
   std::uint32_t missing_blocks = 0;  // these kept the values of an earlier state
   std::vector<msg::Echo> echoes;     // newest pose per tool in this state
-  std::vector<float> displacements;  // [3S], m
+  std::vector<float> values;         // x y z of each node, as the organ's kind of state has them, m
 };
 
 /// One organ's. A lost block keeps its old values for one state; late blocks are dropped. After a
@@ -24,8 +24,8 @@ class StateAssembly {
  public:
   static constexpr int kPatience = 100;  // blocks: a reordering network delays a few, never so many
 
-  /// `reach_m`: a value beyond it is no displacement of this organ.
-  StateAssembly(std::size_t node_count, double reach_m);
+  /// `kind`: of this organ's states, KIND_*. `reach_m`: a value beyond it is none of this organ.
+  StateAssembly(std::uint32_t kind, std::size_t node_count, double reach_m);
 
   enum class Outcome {
     kTaken,
@@ -41,6 +41,7 @@ class StateAssembly {
   bool newer(const msg::OrganState& block);
   void begin(const msg::OrganState& block);
 
+  std::uint32_t kind_;
   float reach_m_;
   AssembledState state_;
   std::vector<bool> arrived_;  // blocks of the current state

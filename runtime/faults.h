@@ -1,6 +1,8 @@
 // The faults of a node: raised anywhere, read by its status and its report.
 #pragma once
 
+#include "messages/common.h"
+
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -21,7 +23,7 @@ struct Fault {
 /// is counted as "further faults". Any thread may raise and any may read.
 class FaultList {
  public:
-  static constexpr int kCapacity = 15;  // one below NodeStatus' MAX_FAULTS: "further faults" has room
+  static constexpr int kCapacity = msg::MAX_FAULTS - 1;  // "further faults" has room
   static constexpr int kTextSize = 100;
 
   FaultList() noexcept;

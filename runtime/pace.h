@@ -3,6 +3,7 @@
 
 #include "runtime/clock.h"
 #include "runtime/tick_account.h"
+#include "runtime/woken_thread.h"
 
 #include <chrono>
 #include <cstdint>
@@ -39,6 +40,9 @@ class Pace : public Clock {
   /// Calls `work`, which must not throw, one `pause` after its last call ended, on an ordinary thread. This
   /// must outlive what it returns.
   virtual std::unique_ptr<SideWork> beside(std::chrono::milliseconds pause, std::function<void()> work) = 0;
+
+  /// Does `work`, which must not throw, whenever what it returns is woken (woken_thread.h).
+  virtual std::unique_ptr<WokenWork> on_wake(std::function<void()> work) = 0;
 
   /// The loop's thread, or any after it ended.
   virtual const LoopRecord& record() const = 0;

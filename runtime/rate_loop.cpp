@@ -14,11 +14,11 @@
 namespace omentum::runtime {
 namespace {
 
-constexpr double kSlowestHz = 0.1;
-constexpr double kFastestHz = 100'000;
+constexpr double kSlowest_hz = 0.1;
+constexpr double kFastest_hz = 100'000;
 
 double checked_rate(double rate_hz) {
-  if (!(rate_hz >= kSlowestHz && rate_hz <= kFastestHz)) {
+  if (!(rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) {
     throw std::invalid_argument("loop rate: found " + std::to_string(rate_hz) +
                                 " Hz, expected 0.1 to 100000 Hz");
   }
@@ -79,6 +79,10 @@ void RateLoop::wake() noexcept {
 void RateLoop::stop() noexcept {
   stopped_.store(true, std::memory_order_release);
   wake();
+}
+
+std::unique_ptr<WokenWork> RateLoop::on_wake(std::function<void()> work) {
+  return std::make_unique<WokenThread>(std::move(work));
 }
 
 std::unique_ptr<SideWork> RateLoop::beside(std::chrono::milliseconds pause, std::function<void()> work) {

@@ -27,6 +27,7 @@ class RateLoop final : public Pace {
   void wake() noexcept override;
   void stop() noexcept override;
   std::unique_ptr<SideWork> beside(std::chrono::milliseconds pause, std::function<void()> work) override;
+  std::unique_ptr<WokenWork> on_wake(std::function<void()> work) override;
   const LoopRecord& record() const override { return account_.record(); }
   std::int64_t now_ns() const noexcept override { return steady_now_ns(); }
 

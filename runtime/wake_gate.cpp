@@ -6,7 +6,7 @@
 namespace omentum::runtime {
 namespace {
 
-constexpr std::int64_t kLongestWindowNs = 150'000;
+constexpr std::int64_t kLongestWindow_ns = 150'000;
 constexpr std::uint32_t kLargestBurst = 8;  // tools in one session (idl/common.idl, MAX_TOOLS)
 constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 4;
 
@@ -14,7 +14,7 @@ constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 4;
 
 WakeGate::WakeGate(std::int64_t period_ns)
     : period_ns_(period_ns),
-      window_ns_(std::min(period_ns / 8, kLongestWindowNs)),
+      window_ns_(std::min(period_ns / 8, kLongestWindow_ns)),
       grace_ns_(period_ns + period_ns / 2),
       burst_begin_ns_(kLongAgo) {}
 

@@ -87,12 +87,12 @@ class SequenceTracker {
  public:
   /// A sample with an older number is a late one while the newest is younger than this, and the first of a
   /// restarted sender after it: networks do not reorder across 100 ms, and no process restarts within.
-  static constexpr std::int64_t kRestartSilenceNs = 100'000'000;
+  static constexpr std::int64_t kRestartSilence_ns = 100'000'000;
 
   /// Whether the sample is newer than all before it. now_ns: when it arrived, on any steady clock.
   bool accept(std::uint64_t seq, std::int64_t now_ns) noexcept {
     const bool first = received_.load(std::memory_order_relaxed) == 0;
-    const bool restarted = !first && seq < newest_seq_ && now_ns - newest_ns_ > kRestartSilenceNs;
+    const bool restarted = !first && seq < newest_seq_ && now_ns - newest_ns_ > kRestartSilence_ns;
     if (!first && !restarted && seq <= newest_seq_) {
       count(seq == newest_seq_ ? duplicates_ : out_of_order_, 1);
       return false;

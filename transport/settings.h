@@ -15,14 +15,14 @@ inline constexpr int kSocketBufferBytes = 4 * 1024 * 1024;
 // two that lose each other for a while, the Fast one then forgets first or alone, and Cyclone tells it
 // everything anew. The other way round they never meet again: a Fast participant that forgot nothing does not
 // announce its endpoints twice. 10 s: what stops a process for seconds (a debugger, a busy disk) is outlived.
-inline constexpr int kCycloneLeaseMs = 2000;
-inline constexpr int kFastLeaseMs = 10000;
-inline constexpr int kAnnouncementPeriodMs = 500;
+inline constexpr int kCycloneLease_ms = 2000;
+inline constexpr int kFastLease_ms = 10000;
+inline constexpr int kAnnouncementPeriod_ms = 500;
 
 // Who left its shared-memory mailbox unread for so long is dead to Fast DDS: whoever writes to it puts a new
 // mailbox in its place, and a process that was only stopped sometimes never opens that one. A killed node's
 // successor waits for it, too: long beside a busy machine's pauses, short beside a restart.
-inline constexpr int kFastMailboxMs = 2000;
+inline constexpr int kFastMailbox_ms = 2000;
 
 /// Largest domain whose ports stay below 65536 with some participants in it (7400 + 250 * domain).
 inline constexpr int kMaxDomain = 230;

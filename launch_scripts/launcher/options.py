@@ -58,7 +58,7 @@ def build_parser():
     add("--dds", default="fast", metavar="VENDOR",
         help="fast, cyclone, or haptic=fast,deform=cyclone,render=fast,device=cyclone")
     add("--device", default="virtual", metavar="KIND", help="virtual, none or trace:FILE (default: virtual)")
-    add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's")
+    add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's first one")
     add("--scale", type=float, metavar="METRES_PER_UNIT", help="of that mesh (default: found from its size)")
     add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them "
         "(a CSV has the mesh file's own node numbers)")

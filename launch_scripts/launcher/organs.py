@@ -61,14 +61,12 @@ def describe(options, scene):
 
 
 def phantom_mesh(options, cache, kind):
+    """`kind`: what a scene's mesh "phantom:KIND" says, the gallbladder or a size of the liver."""
     program = options.programs / "organ_phantom"
-    return cache.get(f"liver_{kind}.msh", ["phantom", kind, program],
-                     lambda file: run_tool(options, ["organ_phantom", *phantom_arguments(kind, file)],
-                                           f"making the liver ({kind} size)"))
-
-
-def phantom_arguments(kind, file):
-    return ["--size", kind, "-o", file]
+    option, name, what = (("--part", kind, f"the {kind}") if kind == "gallbladder" else
+                          ("--size", f"liver_{kind}", f"the liver ({kind} size)"))
+    return cache.get(f"{name}.msh", ["phantom", kind, program],
+                     lambda file: run_tool(options, ["organ_phantom", option, kind, "-o", file], f"making {what}"))
 
 
 def support_spec(measured, scale, scene_fixed):
@@ -120,7 +118,7 @@ def relative_to(scene, fixed):
 def build_organ(options, cache, mesh, name, spec, scale, fixed):
     program = options.programs / "organ_build"
     terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
-             "--scale", scale, "--fixed", fixed]
+             "--scale", scale, "--fixed", fixed, *(part for region in spec["regions"] for part in ("--region", region))]
     inputs = [mesh, *support_files(fixed)]
     if mesh.suffix.lower() in (".node", ".ele"):
         inputs += [mesh.with_suffix(suffix) for suffix in (".node", ".ele", ".NODE", ".ELE")]
@@ -129,13 +127,18 @@ def build_organ(options, cache, mesh, name, spec, scale, fixed):
                                            f"precomputing the force tensors of {mesh.name}"))
 
 
+def users_organ_file(options, cache, spec):
+    """Of the organ that the user gives instead of `spec`, the scene's first one."""
+    if options.organ.suffix.lower() == ".h5":
+        return options.organ
+    scale, fixed = foreign_terms(options, spec)
+    if spec["regions"]:
+        print(f"run: {options.organ.name} is of one material: the scene's regions lie in its own organ", flush=True)
+    return build_organ(options, cache, options.organ, options.organ.stem, {**spec, "regions": []}, scale, fixed)
+
+
 def organ_file(options, cache, spec):
-    """The organ file of the session's first organ."""
-    if options.organ:
-        if options.organ.suffix.lower() == ".h5":
-            return options.organ
-        scale, fixed = foreign_terms(options, spec)
-        return build_organ(options, cache, options.organ, options.organ.stem, spec, scale, fixed)
+    """Of an organ as the scene describes it."""
     if spec["file"] or spec["mesh"].lower().endswith(".h5"):
         return pathlib.Path(spec["file"] or spec["mesh"])
     kind, _, size = spec["mesh"].partition(":")
@@ -144,19 +147,24 @@ def organ_file(options, cache, spec):
                        relative_to(options.scene, spec["fixed"]))
 
 
+def organ_files(options, cache, specs):
+    """Of all organs, in the scene's order. One after the other: organ_build computes on all processors by itself."""
+    first, *others = specs
+    files = [(users_organ_file if options.organ else organ_file)(options, cache, first)]
+    return files + [organ_file(options, cache, spec) for spec in others]
+
+
 def prepare(options):
     """Makes what is missing; returns the fitted scene and its name. Raises Refusal."""
-    described = describe(options, options.scene)
-    if len(described["organs"]) > 1:
-        raise Refusal(f"{options.scene}: {len(described['organs'])} organs; this version's launcher prepares one")
-    file = organ_file(options, Cache(), described["organs"][0])
+    files = organ_files(options, Cache(), describe(options, options.scene)["organs"])
     try:
         options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise Refusal(f"--out: {options.out}: {error.strerror}") from error
     scene = (options.out / "scene.toml").resolve()
     keep = [] if options.organ else ["--keep-points"]
-    notes = run_tool(options, ["scene_prepare", options.scene, "--organ", file, "-o", scene, *keep], "fitting the scene")
+    given = [word for file in files for word in ("--organ", file)]
+    notes = run_tool(options, ["scene_prepare", options.scene, *given, "-o", scene, *keep], "fitting the scene")
     for line in notes.strip().splitlines():
         print(f"run: {line}", flush=True)
     return scene, describe(options, scene)["name"]

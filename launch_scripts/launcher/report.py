@@ -2,11 +2,14 @@
 import copy
 import json
 import os
+import pathlib
 import platform
+import re
 
 from .errors import Refusal
 
-PROTOCOL = 1  # idl/common.idl, PROTOCOL_VERSION
+IDL = pathlib.Path(__file__).parents[2] / "idl" / "common.idl"
+PROTOCOL = int(re.search(r"PROTOCOL_VERSION = (\d+)", IDL.read_text(encoding="utf-8"))[1])
 NONE_US = {"p50": 0.0, "p99": 0.0, "p999": 0.0, "max": 0.0, "count": 0}
 NO_LOOP = {"rate_hz": 0.0, "ticks": 0, "missed": 0, "period_us": NONE_US, "compute_us": NONE_US}
 # every field that a report has, whatever became of the node

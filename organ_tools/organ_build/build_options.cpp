@@ -37,6 +37,14 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
           ":xz for single components")
       .required()
       .type_name("SPEC");
+  line.option(
+          "--region", command.regions,
+          "tissue of another material; repeat for several, of which the last one holds where they overlap: "
+          "'PLACE; young=PA; poisson=NU; density=KG_M3' with one or more of these three; PLACE is label=N "
+          "(of "
+          "the mesh file: Gmsh's physical group, VTK's cell data, TetGen's last attribute), "
+          "box=x0,y0,z0,x1,y1,z1 or ball=x,y,z,r in metres (tetrahedra whose centre lies there)")
+      .type_name("SPEC");
   add_numbering_option(line, command.check.numbering);
   line.flag(
       "--ignore-other-cells", command.check.ignore_other_cells,

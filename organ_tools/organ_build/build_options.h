@@ -17,6 +17,7 @@ struct BuildCommand {
   double metres_per_unit = 0;
   geometry::CheckOptions check;
   std::vector<std::string> fixed;
+  std::vector<std::string> regions;
   organ::Storage storage = organ::Storage::kFloat;
   std::string name;  // empty: the output file's stem
   int threads = 0;   // 0: one per processor

@@ -1,6 +1,7 @@
 // organ_build: a tetrahedral mesh, a material and supports become an organ file with its force tensors.
 #include "organ/build_organ.h"
 #include "organ/plausibility.h"
+#include "organ/region_spec.h"
 #include "organ/support_spec.h"
 #include "organ_tools/fast_blas.h"
 #include "organ_tools/organ_build/build_options.h"
@@ -34,9 +35,10 @@ organ::Organ read_organ(const organ_tools::BuildCommand& command) {
   for (const std::string& warning : checked.warnings) warn(warning);
   physics::FixedComponents fixed =
       organ::parse_supports(command.fixed, checked.mesh, command.check.numbering);
+  const physics::MaterialMap material = organ::parse_regions(command.regions, command.material, checked.mesh);
   const std::string name = command.name.empty() ? command.output.stem().string() : command.name;
   organ::Organ made =
-      organ::make_organ(name, std::move(checked.mesh), command.material, std::move(fixed), command.storage);
+      organ::make_organ(name, std::move(checked.mesh), material, std::move(fixed), command.storage);
   for (const std::string& sentence : organ::implausible(made.mesh, made.material)) warn(sentence);
   return made;
 }

@@ -1,7 +1,6 @@
 #include "organ_tools/phantom/label_volume.h"
 
 #include "geometry/tetra_mesh.h"
-#include "organ_tools/phantom/liver_shape.h"
 
 #include <cerrno>
 #include <cmath>
@@ -29,7 +28,7 @@ struct NiftiHeader {
   char xyzt_units = 2;  // millimetres
   float cal_max = 0, cal_min = 0, slice_duration = 0, toffset = 0;
   std::int32_t glmax = 0, glmin = 0;
-  char descrip[80] = "Omentum phantom liver";
+  char descrip[80] = "Omentum phantom ";
   char aux_file[24] = {};
   std::int16_t qform_code = 0, sform_code = 1;
   std::array<float, 6> quaternion_and_offset{};
@@ -41,12 +40,13 @@ struct NiftiHeader {
 static_assert(sizeof(NiftiHeader) == 352);
 
 constexpr double kMillimetresPerMetre = 1000;
+constexpr std::size_t kLongestName = 40;  // of an organ: what the description has room for
 
 }  // namespace
 
-LabelVolume sample_liver(double spacing_m) {
-  const Extent extent = liver_extent();
-  LabelVolume volume{{}, extent.low, spacing_m, {}};
+LabelVolume sample(const ImplicitShape& shape, double spacing_m) {
+  const Extent& extent = shape.extent;
+  LabelVolume volume{shape.name, {}, extent.low, spacing_m, {}};
   for (int i = 0; i < 3; ++i) {
     volume.size[i] = static_cast<std::int16_t>(std::ceil((extent.high[i] - extent.low[i]) / spacing_m) + 1);
   }
@@ -54,7 +54,7 @@ LabelVolume sample_liver(double spacing_m) {
   for (int k = 0; k < volume.size[2]; ++k) {
     for (int j = 0; j < volume.size[1]; ++j) {
       for (int i = 0; i < volume.size[0]; ++i) {
-        volume.labels.push_back(liver_distance(volume.origin + spacing_m * Vec3(i, j, k)) < 0 ? 1 : 0);
+        volume.labels.push_back(shape.distance(volume.origin + spacing_m * Vec3(i, j, k)) < 0 ? 1 : 0);
       }
     }
   }
@@ -63,6 +63,7 @@ LabelVolume sample_liver(double spacing_m) {
 
 void write_nifti(const LabelVolume& volume, const std::filesystem::path& file) {
   NiftiHeader header;
+  volume.organ.copy(header.descrip + std::strlen(header.descrip), kLongestName);
   const auto spacing = static_cast<float>(kMillimetresPerMetre * volume.spacing_m);
   header.dim = {3, volume.size[0], volume.size[1], volume.size[2], 1, 1, 1, 1};
   header.pixdim = {1, spacing, spacing, spacing, 1, 1, 1, 1};

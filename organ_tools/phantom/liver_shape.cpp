@@ -1,7 +1,5 @@
 #include "organ_tools/phantom/liver_shape.h"
 
-#include <algorithm>
-
 namespace omentum::phantom {
 namespace {
 
@@ -38,16 +36,6 @@ double ellipsoid_distance(const Ellipsoid& e, const Vec3& p) {
   return slope > 0 ? level * (level - 1) / slope : -e.radii.minCoeff();
 }
 
-// The smaller of two distances, blended by a parabola where they differ by less than `width`.
-double blended_min(double a, double b, double width) {
-  const double overlap = std::max(width - std::abs(a - b), 0.0) / width;
-  return std::min(a, b) - overlap * overlap * width / 4;
-}
-
-double blended_max(double a, double b, double width) {
-  return -blended_min(-a, -b, width);
-}
-
 double dented(double body, const Ellipsoid& dent, const Vec3& p) {
   return blended_max(body, -ellipsoid_distance(dent, p), kDentRounding);
 }
@@ -64,8 +52,8 @@ double liver_distance(const Vec3& p) {
   return d;
 }
 
-Extent liver_extent() {
-  return {{-0.092, -0.070, -0.062}, {0.099, 0.091, 0.038}};
+ImplicitShape liver() {
+  return {"liver", liver_distance, {{-0.092, -0.070, -0.062}, {0.099, 0.091, 0.038}}};
 }
 
 }  // namespace omentum::phantom

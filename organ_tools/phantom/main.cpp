@@ -1,10 +1,13 @@
-// organ_phantom: makes the project's own liver, as a tetrahedral mesh and as a labelled volume.
+// organ_phantom: makes the project's own organs, each as a tetrahedral mesh and as a labelled volume.
 #include "files/whole_file.h"
+#include "organ_tools/phantom/gallbladder_shape.h"
 #include "organ_tools/phantom/label_volume.h"
+#include "organ_tools/phantom/liver_shape.h"
 #include "organ_tools/phantom/tetrahedralize.h"
 #include "runtime/command_line.h"
 
 #include <cstdio>
+#include <stdexcept>
 
 namespace {
 
@@ -19,27 +22,43 @@ void write_whole(const std::filesystem::path& file, Write&& write) {
   whole.move_to_its_place();
 }
 
+struct Part {
+  phantom::ImplicitShape shape;
+  phantom::MeshSize mesh_size;
+};
+
+Part chosen(const std::string& part, const std::string& size) {
+  if (part == "gallbladder") {
+    if (!size.empty()) throw std::runtime_error("--size " + size + ": the gallbladder comes in one size");
+    return {phantom::gallbladder(), phantom::gallbladder_size()};
+  }
+  return {phantom::liver(), size == "fine" ? phantom::fine_size() : phantom::paper_size()};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  runtime::CommandLine line(
-      "organ_phantom",
-      "Makes the phantom liver: about 18 cm, in metres, z up, the inferior edge towards -y.");
-  std::string size = "paper";
+  runtime::CommandLine line("organ_phantom",
+                            "Makes the phantom's organs, in one frame: a liver of about 18 cm, z up, the "
+                            "inferior edge towards -y, and its gallbladder; in metres.");
+  std::string part = "liver", size;
   std::filesystem::path mesh_file, labels_file;
-  line.option("--size", size, "paper (1,500-1,800 nodes) or fine (above 16,000)").one_of({"paper", "fine"});
+  line.option("--part", part, "liver or gallbladder (700-1,000 nodes)")
+      .one_of({"liver", "gallbladder"})
+      .show_default();
+  line.option("--size", size, "of the liver: paper (the default: 1,500-1,800 nodes) or fine (above 16,000)")
+      .one_of({"paper", "fine"});
   line.option("-o,--output", mesh_file, "the mesh, Gmsh 2.2 (.msh)").required().writes_file();
   line.option("--labels", labels_file, "also the labelled volume, NIfTI-1 (.nii)").writes_file();
   return line.run(argc, argv, [&] {
-    const geometry::TetraMesh mesh =
-        phantom::tetrahedralize_liver(size == "fine" ? phantom::fine_size() : phantom::paper_size());
+    const auto [shape, mesh_size] = chosen(part, size);
+    const geometry::TetraMesh mesh = phantom::tetrahedralize(shape, mesh_size);
     write_whole(mesh_file, [&](const auto& file) { geometry::write_mesh(mesh, file); });
     std::printf("%s: %zu nodes, %zu tetrahedra, smallest dihedral angle %.1f degrees\n", mesh_file.c_str(),
                 mesh.positions.size(), mesh.tetrahedra.size(), phantom::smallest_dihedral_angle(mesh));
     if (!labels_file.empty()) {
-      write_whole(labels_file, [&](const auto& file) {
-        phantom::write_nifti(phantom::sample_liver(kVoxelSpacing), file);
-      });
+      const phantom::LabelVolume labels = phantom::sample(shape, kVoxelSpacing);
+      write_whole(labels_file, [&](const auto& file) { phantom::write_nifti(labels, file); });
     }
   });
 }

@@ -3,8 +3,6 @@
 // writes are ours.
 #include "organ_tools/phantom/tetrahedralize.h"
 
-#include "organ_tools/phantom/liver_shape.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -39,12 +37,12 @@ constexpr double kFacetDistance = 0.12;
 // Nodes grow with the inverse cube of the edge length: a few steps of a root search suffice.
 constexpr int kMostTries = 12;
 
-Domain make_domain() {
-  const Extent extent = liver_extent();
-  const auto shape = [](const Kernel::Point_3& p) { return liver_distance({p.x(), p.y(), p.z()}); };
+Domain make_domain(const ImplicitShape& shape) {
+  const Extent& extent = shape.extent;
+  const auto distance = [of = shape.distance](const Kernel::Point_3& p) { return of({p.x(), p.y(), p.z()}); };
   const Kernel::Iso_cuboid_3 box(extent.low.x(), extent.low.y(), extent.low.z(), extent.high.x(),
                                  extent.high.y(), extent.high.z());
-  return Domain::create_implicit_mesh_domain(shape, box);
+  return Domain::create_implicit_mesh_domain(distance, box);
 }
 
 geometry::RawMesh to_raw(const Complex& complex) {
@@ -66,10 +64,10 @@ geometry::RawMesh to_raw(const Complex& complex) {
   return raw;
 }
 
-geometry::RawMesh mesh_with_edges(double edge_m) {
+geometry::RawMesh mesh_with_edges(const ImplicitShape& shape, double edge_m) {
   namespace parameters = CGAL::parameters;
   CGAL::get_default_random() = CGAL::Random(0);
-  const Domain domain = make_domain();
+  const Domain domain = make_domain(shape);
   const Criteria criteria(parameters::facet_angle = kFacetAngleDegrees, parameters::facet_size = edge_m,
                           parameters::facet_distance = kFacetDistance * edge_m,
                           parameters::cell_radius_edge_ratio = kRadiusEdgeRatio,
@@ -91,12 +89,16 @@ MeshSize fine_size() {
   return {16001, 19000, 75000, 105000, 0.0031};
 }
 
-geometry::TetraMesh tetrahedralize_liver(const MeshSize& size) {
+MeshSize gallbladder_size() {
+  return {700, 1000, 2500, 5000, 0.0042};
+}
+
+geometry::TetraMesh tetrahedralize(const ImplicitShape& shape, const MeshSize& size) {
   double edge_m = size.first_edge_m;
   const double wanted = 0.5 * static_cast<double>(size.fewest_nodes + size.most_nodes);
   std::string tried;
   for (int i = 0; i < kMostTries; ++i) {
-    const geometry::RawMesh raw = mesh_with_edges(edge_m);
+    const geometry::RawMesh raw = mesh_with_edges(shape, edge_m);
     const std::size_t nodes = raw.positions.size(), tetrahedra = raw.tetrahedra.size();
     tried = std::to_string(nodes) + " nodes and " + std::to_string(tetrahedra) + " tetrahedra";
     const bool fits = nodes >= size.fewest_nodes && nodes <= size.most_nodes &&

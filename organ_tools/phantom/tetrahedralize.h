@@ -1,7 +1,8 @@
-// Tetrahedra inside the implicit liver. This pair of files alone uses CGAL.
+// Tetrahedra inside an implicit shape. This pair of files alone uses CGAL.
 #pragma once
 
 #include "geometry/tetra_mesh.h"
+#include "organ_tools/phantom/implicit_shape.h"
 
 namespace omentum::phantom {
 
@@ -12,15 +13,17 @@ struct MeshSize {
   double first_edge_m;  // where the search for the right edge length starts
 };
 
-/// The papers' size: 1,500-1,800 nodes, 6,500-8,000 tetrahedra.
+/// The liver's. The papers' size: 1,500-1,800 nodes, 6,500-8,000 tetrahedra.
 MeshSize paper_size();
-/// Above 16,000 nodes.
+/// The liver's. Above 16,000 nodes.
 MeshSize fine_size();
+/// The gallbladder's: elements of about half the length of those of a liver of the papers' size.
+MeshSize gallbladder_size();
 
-/// Fills the liver (liver_shape.h) with a valid mesh within the bounds: Delaunay refinement with a manifold
+/// Fills the shape with a valid mesh within the bounds: Delaunay refinement with a manifold
 /// boundary, then sliver removal, with the edge length adjusted until the counts fit. The same input gives
 /// the same mesh. Throws std::runtime_error when no edge length tried gives one.
-geometry::TetraMesh tetrahedralize_liver(const MeshSize& size);
+geometry::TetraMesh tetrahedralize(const ImplicitShape& shape, const MeshSize& size);
 
 /// Smallest dihedral angle of all tetrahedra, degrees.
 double smallest_dihedral_angle(const geometry::TetraMesh& mesh);

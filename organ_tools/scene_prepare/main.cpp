@@ -1,6 +1,7 @@
-// scene_prepare: fits a scene to an organ file. The launcher also asks it what a scene or a mesh holds.
+// scene_prepare: fits a scene to its organs' files. The launcher also asks it what a scene or a mesh holds.
 #include "files/whole_file.h"
 #include "organ/plausibility.h"
+#include "organ_tools/scene_prepare/loaded_organs.h"
 #include "organ_tools/scene_prepare/scene_fit.h"
 #include "organ_tools/scene_prepare/scene_text.h"
 #include "organ_tools/scene_prepare/tip_size.h"
@@ -16,7 +17,8 @@ namespace {
 using namespace omentum;
 
 struct Options {
-  std::filesystem::path scene, organ, output, measured;
+  std::filesystem::path scene, output, measured;
+  std::vector<std::string> organs;
   bool keep_points = false;
   bool describe = false;
 };
@@ -31,7 +33,7 @@ nlohmann::json measure(const std::filesystem::path& file) {
   return {{"min", corner(box.min())}, {"max", corner(box.max())}, {"tetrahedra", raw.tetrahedra.size()}};
 }
 
-void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const runtime::Scene& scene) {
+void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const scene::Scene& scene) {
   for (const auto& sentences :
        {organ::implausible(organ.mesh, organ.material), scene_prepare::smaller_than_tips(organ, scene)}) {
     for (const std::string& sentence : sentences) std::cerr << "scene_prepare: warning: " << sentence << '\n';
@@ -39,17 +41,19 @@ void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const runtime::
 }
 
 void prepare(const Options& options) {
-  runtime::Scene scene = runtime::load_scene(options.scene);
-  scene.organs.front().file = options.organ;
-  const organ::Organ organ = organ::load_organ(options.organ, organ::Load::kMeshOnly);
-  warn_of_what_can_hardly_be_meant(organ, scene);
-  const scene_prepare::OrganSkin skin(organ);
-  if (options.keep_points) {
-    scene_prepare::project_hands(skin, scene);
-  } else {
-    scene.organs.front().mesh = options.organ;
-    scene_prepare::name_after(organ.name, scene);
-    for (const std::string& note : scene_prepare::place_hands(skin, scene)) std::cout << note << '\n';
+  scene::Scene scene = scene::load_scene(options.scene);
+  scene_prepare::name_files(options.organs, scene);
+  const std::vector<organ::Organ> organs = scene_prepare::load_all(scene);
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    warn_of_what_can_hardly_be_meant(organs[i], scene);
+    const scene_prepare::OrganSkin skin(organs[i]);
+    if (i > 0 || options.keep_points) {
+      scene_prepare::project_hands(skin, i, scene);
+    } else {
+      for (const std::string& note : scene_prepare::replace_first(organs[i].name, skin, scene))
+        std::cout << note << '\n';
+      scene_prepare::take_material(organs[i].material, scene.organs.front());
+    }
   }
   files::write_whole(options.output, scene_prepare::resolved_toml(scene));
 }
@@ -60,8 +64,8 @@ void run(const Options& options) {
   } else if (options.scene.empty()) {
     throw std::runtime_error("SCENE is missing (see scene_prepare --help)");
   } else if (options.describe) {
-    std::cout << scene_prepare::describe(runtime::load_scene(options.scene)) << '\n';
-  } else if (options.organ.empty() || options.output.empty()) {
+    std::cout << scene_prepare::describe(scene::load_scene(options.scene)) << '\n';
+  } else if (options.organs.empty() || options.output.empty()) {
     throw std::runtime_error("--organ and -o are needed (see scene_prepare --help)");
   } else {
     prepare(options);
@@ -71,14 +75,15 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  runtime::CommandLine line("scene_prepare", "Fits a scene to an organ: press points, trocars, camera.");
+  runtime::CommandLine line("scene_prepare", "Fits a scene to its organs: press points, trocars, camera.");
   Options options;
   line.option("scene", options.scene, "scene file (TOML)").type_name("SCENE");
-  line.option("--organ", options.organ, "organ file that the scene's first organ becomes")
+  line.option("--organ", options.organs,
+              "organ file that the scene's first organ becomes; given again, those that the next ones do")
       .type_name("ORGAN.h5");
   line.option("-o,--output", options.output, "the fitted scene").type_name("OUT.toml");
   line.flag("--keep-points", options.keep_points,
-            "the organ is the scene's own: only project the press points onto its surface");
+            "the first organ is the scene's own: only project the press points onto its surface");
   line.flag("--describe", options.describe, "print what the scene needs (JSON) and end");
   line.option("--measure", options.measured, "print a mesh file's bounding box (JSON) and end")
       .type_name("MESH");

@@ -11,17 +11,6 @@ namespace omentum::scene_prepare {
 
 namespace {
 
-/// Area-weighted: a triangle's cross product is its normal times twice its area.
-std::vector<Vec3> node_normals(const geometry::Surface& surface, const std::vector<Vec3>& x) {
-  std::vector<Vec3> normals(x.size(), Vec3::Zero());
-  for (const geometry::Triangle& t : surface.triangles) {
-    const Vec3 n = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-    for (const SurfaceId s : t) normals[s] += n;
-  }
-  for (Vec3& n : normals) n.normalize();
-  return normals;
-}
-
 double box_diagonal(const std::vector<Vec3>& x) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : x) box.extend(p);
@@ -39,7 +28,7 @@ Vec3 mean(const std::vector<Vec3>& x) {
 OrganSkin::OrganSkin(const organ::Organ& organ)
     : surface_(organ.surface),
       positions_(geometry::surface_positions(organ.mesh, organ.surface)),
-      normals_(node_normals(surface_, positions_)),
+      normals_(geometry::surface_normals(surface_, positions_)),
       centre_(mean(positions_)),
       support_centre_(centre_),
       diagonal_(box_diagonal(positions_)) {

@@ -11,9 +11,9 @@ namespace omentum::scene_prepare {
 namespace {
 
 /// "Flat" is judged over this radius: an instrument's tip and the dent around it, m.
-constexpr double kFlatRadiusM = 0.02;
+constexpr double kFlatRadius_m = 0.02;
 /// Lengths above are meant for an organ of a liver's size; a smaller one is judged over smaller ones, m.
-constexpr double kLiverDiagonalM = 0.2;
+constexpr double kLiverDiagonal_m = 0.2;
 /// A slide may come this near to a support, as a part of the largest distance from the supports.
 constexpr double kSupportShare = 0.3;
 /// Two hands press at least this far apart, as a part of the organ's diagonal: a hand's width on a liver.
@@ -44,7 +44,7 @@ Vec3 open_side(const OrganSkin& skin) {
 class SiteSearch {
  public:
   explicit SiteSearch(const OrganSkin& skin)
-      : skin_(skin), scale_(std::min(1.0, skin.diagonal() / kLiverDiagonalM)), open_(open_side(skin)) {
+      : skin_(skin), scale_(std::min(1.0, skin.diagonal() / kLiverDiagonal_m)), open_(open_side(skin)) {
     for (std::int32_t s = 0; s < skin.node_count(); ++s)
       farthest_ = std::max(farthest_, skin.support_distance(SurfaceId(s)));
     rank_nodes();
@@ -109,14 +109,14 @@ class SiteSearch {
   /// 1 on a plane, 0 where the surface turns by a right angle or more nearby.
   double flatness(SurfaceId s) const {
     double least = 1;
-    for (const SurfaceId n : skin_.patch(s, kFlatRadiusM * scale_))
+    for (const SurfaceId n : skin_.patch(s, kFlatRadius_m * scale_))
       least = std::min(least, skin_.normal(n).dot(skin_.normal(s)));
     return std::max(0.0, least);
   }
 
   /// The direction along which the surface stays under the instrument longest: its quality in [0,1].
   double best_direction(SurfaceId s, double slide_m, Vec3& direction) const {
-    const auto patch = skin_.patch(s, slide_m * 1.5 + kFlatRadiusM * scale_);
+    const auto patch = skin_.patch(s, slide_m * 1.5 + kFlatRadius_m * scale_);
     const Vec3 n = skin_.normal(s);
     const Vec3 first = n.unitOrthogonal();
     double best = -1;

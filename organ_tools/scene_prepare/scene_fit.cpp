@@ -21,76 +21,71 @@ constexpr double kSlideShare = 0.2;
 /// How much of the picture's height the organ's bounding sphere fills.
 constexpr double kFill = 0.9;
 
-Vec3 to_vector(const runtime::Triple& t) {
-  return {t[0], t[1], t[2]};
-}
-runtime::Triple to_triple(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 /// Rotation and translation that take the scene's press point and normal to the organ's.
-Eigen::Isometry3d carry(const runtime::HandSpec& from, const PressSite& to) {
-  const auto R = geometry::rotation_onto(to_vector(from.press_normal), to.normal);
-  return Eigen::Translation3d(to.point) * R * Eigen::Translation3d(-to_vector(from.press_point));
+Eigen::Isometry3d carry(const scene::HandSpec& from, const PressSite& to) {
+  const auto R = geometry::rotation_onto(from.press_normal, to.normal);
+  return Eigen::Translation3d(to.point) * R * Eigen::Translation3d(-from.press_point);
 }
 
-void set_site(runtime::HandSpec& hand, const PressSite& site) {
-  hand.press_point = to_triple(site.point);
-  hand.press_normal = to_triple(site.normal);
-  hand.slide_direction = to_triple(site.slide);
+void set_site(scene::HandSpec& hand, const PressSite& site) {
+  hand.press_point = site.point;
+  hand.press_normal = site.normal;
+  hand.slide_direction = site.slide;
 }
 
-void move_trocar(runtime::Scene& scene, std::uint32_t tool, const Eigen::Isometry3d& motion) {
-  for (runtime::ToolSpec& spec : scene.tools)
-    if (spec.id == tool && spec.trocar) spec.trocar = to_triple(motion * to_vector(*spec.trocar));
+void move_trocar(scene::Scene& scene, std::uint32_t tool, const Eigen::Isometry3d& motion) {
+  for (scene::ToolSpec& spec : scene.tools)
+    if (spec.id == tool && spec.trocar) spec.trocar = motion * *spec.trocar;
 }
 
 /// Looks at the organ from the side that the scene chose, far enough to see it whole.
-void move_camera(const OrganSkin& skin, runtime::CameraSpec& camera, const Eigen::Isometry3d& motion) {
-  const Vec3 view = to_vector(camera.eye) - to_vector(camera.target);
+void move_camera(const OrganSkin& skin, scene::CameraSpec& camera, const Eigen::Isometry3d& motion) {
+  const Vec3 view = camera.eye - camera.target;
   if (camera.mode == "endoscope" || view.norm() == 0) {
-    camera.eye = to_triple(motion * to_vector(camera.eye));
-    camera.target = to_triple(motion * to_vector(camera.target));
+    camera.eye = motion * camera.eye;
+    camera.target = motion * camera.target;
     return;
   }
   const double half_angle = camera.field_of_view_deg * std::numbers::pi / 360;
   const double distance = skin.diagonal() / 2 / (kFill * std::tan(half_angle));
-  camera.target = to_triple(skin.centre());
-  camera.eye = to_triple(skin.centre() + distance * view.normalized());
+  camera.target = skin.centre();
+  camera.eye = skin.centre() + distance * view.normalized();
 }
 
-std::string shrunk(const runtime::HandSpec& hand, const char* what, double from_m, double to_m) {
+std::string shrunk(const scene::HandSpec& hand, const char* what, double from_m, double to_m) {
   char line[160];
   std::snprintf(line, sizeof line, "hand of tool %u: %s %.1f mm instead of %.1f mm on this organ", hand.tool,
                 what, 1e3 * to_m, 1e3 * from_m);
   return line;
 }
 
-}  // namespace
-
-void project_hands(const OrganSkin& skin, runtime::Scene& scene) {
-  for (runtime::HandSpec& hand : scene.hands) {
-    const SkinPoint at = skin.closest(to_vector(hand.press_point));
-    Vec3 slide = to_vector(hand.slide_direction);
-    slide -= slide.dot(at.normal) * at.normal;
-    if (slide.norm() < 1e-6) slide = at.normal.unitOrthogonal();
-    set_site(hand, {at.position, at.normal, slide.normalized()});
-  }
+std::vector<scene::HandSpec*> hands_on(std::size_t organ, scene::Scene& scene) {
+  std::vector<scene::HandSpec*> hands;
+  for (scene::HandSpec& hand : scene.hands)
+    if (hand.organ == scene.organs[organ].name) hands.push_back(&hand);
+  return hands;
 }
 
-std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scene) {
-  std::vector<std::string> notes;
+std::vector<double> shorten_slides(const std::vector<scene::HandSpec*>& hands, double longest_m,
+                                   std::vector<std::string>& notes) {
   std::vector<double> slides;
-  for (runtime::HandSpec& hand : scene.hands) {
-    const double slide = std::min(hand.slide_m, kSlideShare * skin.diagonal());
-    if (slide < hand.slide_m) notes.push_back(shrunk(hand, "slides", hand.slide_m, slide));
-    hand.slide_m = slide;
+  for (scene::HandSpec* hand : hands) {
+    const double slide = std::min(hand->slide_m, longest_m);
+    if (slide < hand->slide_m) notes.push_back(shrunk(*hand, "slides", hand->slide_m, slide));
+    hand->slide_m = slide;
     slides.push_back(slide);
   }
+  return slides;
+}
+
+std::vector<std::string> place_hands(const OrganSkin& skin, scene::Scene& scene) {
+  std::vector<std::string> notes;
+  const std::vector<scene::HandSpec*> hands = hands_on(0, scene);
+  const std::vector<double> slides = shorten_slides(hands, kSlideShare * skin.diagonal(), notes);
   const std::vector<PressSite> sites = choose_press_sites(skin, slides);
   Eigen::Isometry3d first = Eigen::Isometry3d::Identity();
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    runtime::HandSpec& hand = scene.hands[i];
+    scene::HandSpec& hand = *hands[i];
     const Eigen::Isometry3d motion = carry(hand, sites[i]);
     if (i == 0) first = motion;
     move_trocar(scene, hand.tool, motion);
@@ -104,9 +99,44 @@ std::vector<std::string> place_hands(const OrganSkin& skin, runtime::Scene& scen
   return notes;
 }
 
-void name_after(const std::string& organ, runtime::Scene& scene) {
+void name_after(const std::string& organ, scene::Scene& scene) {
+  for (std::size_t i = 1; i < scene.organs.size(); ++i) {
+    if (scene.organs[i].name != organ) continue;
+    throw geometry::InputError(scene.organs.front().file.string() + ": found an organ called \"" + organ +
+                               "\" as another one of the scene, expected another name (organ_build --name)");
+  }
+  for (scene::HandSpec* hand : hands_on(0, scene)) hand->organ = organ;
   scene.organs.front().name = organ;
   scene.name = scene.hands.empty() ? organ : organ + " pressed by a simulated hand";
+}
+
+}  // namespace
+
+void project_hands(const OrganSkin& skin, std::size_t organ, scene::Scene& scene) {
+  for (scene::HandSpec* hand : hands_on(organ, scene)) {
+    const SkinPoint at = skin.closest(hand->press_point);
+    Vec3 slide = hand->slide_direction;
+    slide -= slide.dot(at.normal) * at.normal;
+    if (slide.norm() < 1e-6) slide = at.normal.unitOrthogonal();
+    set_site(*hand, {at.position, at.normal, slide.normalized()});
+  }
+}
+
+std::vector<std::string> replace_first(const std::string& name, const OrganSkin& skin, scene::Scene& scene) {
+  scene::OrganSpec& first = scene.organs.front();
+  first.mesh = first.file.string();
+  std::vector<std::string> notes = place_hands(skin, scene);
+  name_after(name, scene);
+  return notes;
+}
+
+void take_material(const physics::MaterialMap& material, scene::OrganSpec& organ) {
+  organ.young_pa = material.common.young_pa;
+  organ.poisson = material.common.poisson;
+  organ.density_kg_m3 = material.common.density_kg_m3;
+  organ.regions.clear();
+  for (const auto& [label, own] : material.regions)
+    organ.regions.push_back({label, {}, {}, own.young_pa, own.poisson, own.density_kg_m3});
 }
 
 }  // namespace omentum::scene_prepare

@@ -10,7 +10,7 @@ namespace omentum::scene_prepare {
 
 namespace {
 
-toml::array to_array(const runtime::Triple& t) {
+toml::array to_array(const scene::Vec3& t) {
   return toml::array{t[0], t[1], t[2]};
 }
 
@@ -18,14 +18,59 @@ toml::table& entry(toml::table& root, const char* list, std::size_t index) {
   return *root[list].as_array()->get(index)->as_table();
 }
 
-void write_organ(const runtime::OrganSpec& organ, toml::table& table) {
+toml::array to_array(const std::vector<double>& numbers) {
+  toml::array array;
+  for (const double number : numbers) array.push_back(number);
+  return array;
+}
+
+toml::table to_table(const scene::RegionSpec& region) {
+  toml::table table;
+  if (region.label) table.insert("label", *region.label);
+  if (!region.box.empty()) table.insert("box", to_array(region.box));
+  if (!region.ball.empty()) table.insert("ball", to_array(region.ball));
+  if (region.young_pa) table.insert("young_pa", *region.young_pa);
+  if (region.poisson) table.insert("poisson", *region.poisson);
+  if (region.density_kg_m3) table.insert("density_kg_m3", *region.density_kg_m3);
+  return table;
+}
+
+// As organ_build --region takes it.
+std::string region_text(const scene::RegionSpec& region) {
+  std::ostringstream text;
+  // JSON writes the shortest digits that come back as the same number
+  const auto add_list = [&](const char* key, const std::vector<double>& numbers) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      text << (i == 0 ? key : ",") << nlohmann::json(numbers[i]);
+  };
+  const auto add = [&](const char* key, const std::optional<double>& number) {
+    if (number) text << key << nlohmann::json(*number);
+  };
+  if (region.label) text << "label=" << *region.label;
+  add_list("box=", region.box);
+  add_list("ball=", region.ball);
+  add("; young=", region.young_pa);
+  add("; poisson=", region.poisson);
+  add("; density=", region.density_kg_m3);
+  return text.str();
+}
+
+void write_organ(const scene::OrganSpec& organ, toml::table& table) {
   table.insert_or_assign("name", organ.name);
+  table.insert_or_assign("young_pa", organ.young_pa);
+  table.insert_or_assign("poisson", organ.poisson);
+  table.insert_or_assign("density_kg_m3", organ.density_kg_m3);
+  toml::array regions;
+  for (const scene::RegionSpec& region : organ.regions) regions.push_back(to_table(region));
+  table.erase("regions");
+  if (!regions.empty()) table.insert("regions", std::move(regions));
   if (!organ.mesh.starts_with("phantom:"))
     table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
   if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
 }
 
-void write_hand(const runtime::HandSpec& hand, toml::table& table) {
+void write_hand(const scene::HandSpec& hand, toml::table& table) {
+  table.insert_or_assign("organ", hand.organ);
   table.insert_or_assign("press_point", to_array(hand.press_point));
   table.insert_or_assign("press_normal", to_array(hand.press_normal));
   table.insert_or_assign("slide_direction", to_array(hand.slide_direction));
@@ -35,7 +80,7 @@ void write_hand(const runtime::HandSpec& hand, toml::table& table) {
 
 }  // namespace
 
-std::string resolved_toml(const runtime::Scene& scene) {
+std::string resolved_toml(const scene::Scene& scene) {
   // load_scene has accepted this file: every list below has the scene's length
   toml::table root = toml::parse_file(scene.file.string());
   root.insert_or_assign("name", scene.name);
@@ -50,13 +95,15 @@ std::string resolved_toml(const runtime::Scene& scene) {
     camera->insert_or_assign("target", to_array(scene.camera.target));
   }
   std::ostringstream text;
-  text << "# Fitted to its organ by scene_prepare; the nodes of one run read this.\n" << root << '\n';
+  text << "# Fitted to its organs by scene_prepare; the nodes of one run read this.\n" << root << '\n';
   return text.str();
 }
 
-nlohmann::json describe(const runtime::Scene& scene) {
+nlohmann::json describe(const scene::Scene& scene) {
   nlohmann::json organs = nlohmann::json::array();
-  for (const runtime::OrganSpec& organ : scene.organs)
+  for (const scene::OrganSpec& organ : scene.organs) {
+    nlohmann::json regions = nlohmann::json::array();
+    for (const scene::RegionSpec& region : organ.regions) regions.push_back(region_text(region));
     organs.push_back({{"name", organ.name},
                       {"mesh", organ.mesh},
                       {"file", organ.file.string()},
@@ -64,7 +111,9 @@ nlohmann::json describe(const runtime::Scene& scene) {
                       {"young_pa", organ.young_pa},
                       {"poisson", organ.poisson},
                       {"density_kg_m3", organ.density_kg_m3},
+                      {"regions", regions},
                       {"fixed", organ.fixed}});
+  }
   return {{"name", scene.name}, {"organs", organs}};
 }
 

@@ -1,7 +1,7 @@
 // A scene as text: TOML for the nodes, JSON for the launcher.
 #pragma once
 
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -9,12 +9,12 @@
 
 namespace omentum::scene_prepare {
 
-/// The scene file with what fitting changed: organ files, hands, trocars, camera. All else is carried over.
-/// load_scene reads it from any folder.
-std::string resolved_toml(const runtime::Scene& scene);
+/// The scene file with what fitting changed: organ files and their materials, hands, trocars, camera. All
+/// else is carried over. load_scene reads it from any folder.
+std::string resolved_toml(const scene::Scene& scene);
 
 /// {"name", "organs": [{"name", "mesh", "metres_per_unit", "young_pa", "poisson", "density_kg_m3",
-/// "fixed"}]}.
-nlohmann::json describe(const runtime::Scene& scene);
+/// "regions": [as organ_build --region takes them], "fixed"}]}.
+nlohmann::json describe(const scene::Scene& scene);
 
 }  // namespace omentum::scene_prepare

@@ -7,19 +7,19 @@
 
 namespace omentum::scene_prepare {
 
-double tip_size(const runtime::ToolSpec& tool) {
+double tip_size(const scene::ToolSpec& tool) {
   double widest = 2 * tool.shaft_radius_m;
-  for (const runtime::Triple& a : tool.points) {
-    for (const runtime::Triple& b : tool.points)
+  for (const scene::Vec3& a : tool.points) {
+    for (const scene::Vec3& b : tool.points)
       widest = std::max(widest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
   }
   return widest;
 }
 
-std::vector<std::string> smaller_than_tips(const organ::Organ& organ, const runtime::Scene& scene) {
+std::vector<std::string> smaller_than_tips(const organ::Organ& organ, const scene::Scene& scene) {
   const double length = organ::longest_side(organ.mesh);
   std::vector<std::string> found;
-  for (const runtime::ToolSpec& tool : scene.tools) {
+  for (const scene::ToolSpec& tool : scene.tools) {
     const double tip = tip_size(tool);
     if (length >= tip) continue;
     found.push_back("the organ is " + organ::length_text(length) + " long, smaller than the tip of tool " +

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "organ/organ.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include <string>
 #include <vector>
@@ -10,9 +10,9 @@
 namespace omentum::scene_prepare {
 
 /// How wide a tool's tip is: the largest distance between its points, or its shaft's diameter, m.
-double tip_size(const runtime::ToolSpec& tool);
+double tip_size(const scene::ToolSpec& tool);
 
 /// A sentence for each tool whose tip is wider than the organ is long.
-std::vector<std::string> smaller_than_tips(const organ::Organ& organ, const runtime::Scene& scene);
+std::vector<std::string> smaller_than_tips(const organ::Organ& organ, const scene::Scene& scene);
 
 }  // namespace omentum::scene_prepare

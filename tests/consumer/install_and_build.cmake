@@ -7,16 +7,9 @@ function(run)
   endif()
 endfunction()
 
-set(flags "")
-if(SANITIZE STREQUAL "address")
-  set(flags "-fsanitize=address,undefined")
-elseif(SANITIZE)
-  set(flags "-fsanitize=${SANITIZE}")
-endif()
-
 file(REMOVE_RECURSE ${CONSUMER_BUILD})
 run(${CMAKE_COMMAND} --install ${OMENTUM_BUILD} --prefix ${CONSUMER_BUILD}/install --component development)
 run(${CMAKE_COMMAND} -S ${CONSUMER_SOURCE} -B ${CONSUMER_BUILD}/build
-  -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${CONSUMER_BUILD}/install -DCMAKE_CXX_FLAGS=${flags})
+  -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${CONSUMER_BUILD}/install)
 run(${CMAKE_COMMAND} --build ${CONSUMER_BUILD}/build)
 run(${CONSUMER_BUILD}/build/consumer ${CONSUMER_BUILD}/tetrahedron.h5)

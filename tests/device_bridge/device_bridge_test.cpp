@@ -35,7 +35,7 @@ class Wall {
         poses_(bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { answer(pose); })) {}
 
   void send(std::uint32_t command) {
-    command_.seq += 1;
+    command_.order += 1;
     command_.command = command;
     send_again();
   }
@@ -107,8 +107,8 @@ class ObservedHand : public VirtualHand {
 };
 
 // Presses within a second of its start and holds for long.
-runtime::HandSpec eager_hand() {
-  runtime::HandSpec hand;
+scene::HandSpec eager_hand() {
+  scene::HandSpec hand;
   hand.tool = 5;
   hand.start_s = 0;
   hand.approach_s = 0.3;
@@ -123,7 +123,7 @@ class DeviceBridgeTest : public ::testing::TestWithParam<const char*> {
     options_.node.dds = GetParam();
     options_.node.domain = test::domain_of_test();
     wall_ = std::make_unique<Wall>(options_.node.dds, options_.node.domain);
-    auto hand = std::make_unique<ObservedHand>(eager_hand(), runtime::ToolSpec{}, loop_.rate_hz());
+    auto hand = std::make_unique<ObservedHand>(eager_hand(), scene::ToolSpec{}, loop_.rate_hz());
     hand_ = hand.get();
     std::vector<std::unique_ptr<Device>> devices;
     devices.push_back(std::move(hand));

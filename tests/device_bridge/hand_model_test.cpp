@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kDt_s = 1e-3;
 
-runtime::HandSpec hand_with_damping(double damping_n_s_m) {
-  runtime::HandSpec hand;
+scene::HandSpec hand_with_damping(double damping_n_s_m) {
+  scene::HandSpec hand;
   hand.damping_n_s_m = damping_n_s_m;
   return hand;
 }
@@ -20,7 +20,7 @@ const Motion kAtRest{};
 const Motion kDisplaced{.position = {0.03, -0.02, 0.01}, .velocity = {0.1, 0.2, -0.3}};
 
 TEST(HandModel, UndampedEnergyNeitherGrowsNorVanishes) {
-  const runtime::HandSpec hand = hand_with_damping(0);
+  const scene::HandSpec hand = hand_with_damping(0);
   // semi-implicit Euler conserves a nearby energy: the true one differs by at most w dt / 2, to first order
   const double band = std::sqrt(hand.stiffness_n_m / hand.mass_kg) * kDt_s;
   Motion motion = kDisplaced;
@@ -32,7 +32,7 @@ TEST(HandModel, UndampedEnergyNeitherGrowsNorVanishes) {
 }
 
 TEST(HandModel, AFreeHandDissipatesAllItsEnergy) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   Motion motion = kDisplaced;
   const double start_j = hand_energy(hand, motion, kAtRest);
   double last_j = start_j;
@@ -47,7 +47,7 @@ TEST(HandModel, AFreeHandDissipatesAllItsEnergy) {
 }
 
 TEST(HandModel, RestsWhereTheSpringBalancesTheForce) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   const Vec3 force(1.0, -2.0, 0.5);
   const Motion target{.position = {0.1, 0.2, 0.3}};
   Motion motion = target;
@@ -57,7 +57,7 @@ TEST(HandModel, RestsWhereTheSpringBalancesTheForce) {
 }
 
 TEST(HandModel, FollowsATargetOfConstantVelocityWithinAStep) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   const Vec3 velocity(0.05, 0, -0.02);
   Motion motion{};
   Motion target{.velocity = velocity};

@@ -13,13 +13,13 @@ constexpr double kStep_s = 1e-3;
 constexpr int kRounds = 2;
 
 // The defaults, a light press, and phases of no length.
-std::vector<runtime::HandSpec> hands() {
-  runtime::HandSpec light, abrupt;
+std::vector<scene::HandSpec> hands() {
+  scene::HandSpec light, abrupt;
   light.depth_m = 0;
   light.hover_m = 0.01;
   abrupt.start_s = 0;
   abrupt.hold_s = 0;
-  return {runtime::HandSpec{}, light, abrupt};
+  return {scene::HandSpec{}, light, abrupt};
 }
 
 TEST(HandScript, PositionAndVelocityAreContinuousFromRoundToRound) {
@@ -47,7 +47,7 @@ TEST(HandScript, PositionAndVelocityAreContinuousFromRoundToRound) {
 }
 
 TEST(HandScript, GoesFromHoverToDepthAndSlides) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   double lowest = 1, highest = -1, farthest = 0;
   for (double t = 0; t < script_period_s(hand); t += kStep_s) {
     const ScriptPoint now = script_at(hand, t);
@@ -61,7 +61,7 @@ TEST(HandScript, GoesFromHoverToDepthAndSlides) {
 }
 
 TEST(HandScript, ComesBackAlongTheSlideOnlyAboveTheSurface) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   for (double t = 0; t < script_period_s(hand); t += kStep_s) {
     const ScriptPoint now = script_at(hand, t);
     ASSERT_TRUE(now.slide_rate_m_s >= 0 || now.height_m > 0) << t;
@@ -69,13 +69,13 @@ TEST(HandScript, ComesBackAlongTheSlideOnlyAboveTheSurface) {
 }
 
 TEST(HandScript, DepthZeroNeverGoesBelowTheSurface) {
-  runtime::HandSpec hand;
+  scene::HandSpec hand;
   hand.depth_m = 0;
   for (double t = 0; t < script_period_s(hand); t += kStep_s) ASSERT_GE(script_at(hand, t).height_m, 0);
 }
 
 TEST(HandScript, EveryRoundIsTheSame) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   for (double t = 0.5 * kStep_s; t < script_period_s(hand); t += 0.1) {
     const ScriptPoint first = script_at(hand, t), tenth = script_at(hand, t + 9 * script_period_s(hand));
     EXPECT_EQ(first.phase, tenth.phase) << t;
@@ -84,7 +84,7 @@ TEST(HandScript, EveryRoundIsTheSame) {
 }
 
 TEST(HandScript, TargetLiesOnTheNormalAndTheSlideDirection) {
-  runtime::HandSpec hand;
+  scene::HandSpec hand;
   hand.press_point = {1, 2, 3};
   hand.press_normal = {0, 1, 0};
   hand.slide_direction = {0, 0, 1};

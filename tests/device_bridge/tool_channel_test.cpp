@@ -23,6 +23,7 @@ struct FakeDevice : Device {
   }
   msg::DeviceInfo info() const override { return limits; }
   void command(const Wrench& wrench) noexcept override { commanded = wrench; }
+  bool simulates() const noexcept override { return simulated; }
   Measurement measure(std::int64_t now_ns) noexcept override {
     if (alive) measurement.measured_ns = now_ns - age_ns;
     return measurement;
@@ -30,7 +31,8 @@ struct FakeDevice : Device {
 
   msg::DeviceInfo limits;
   Measurement measurement{.valid = true};
-  bool alive = true;        // false: its last measurement stays behind
+  bool alive = true;  // false: its last measurement stays behind
+  bool simulated = false;
   std::int64_t age_ns = 0;  // of its measurements when they are read
   Wrench commanded;
 };
@@ -111,6 +113,38 @@ TEST_F(ToolChannelTest, WithoutAnswersTheCommandedForceVanishes) {
   tick(30 * kMs);
   EXPECT_EQ(device->commanded.force.norm(), 0);
   EXPECT_EQ(channel.expired(), 1u);
+}
+
+TEST_F(ToolChannelTest, APoseNamesTheAnswerUnderWhichTheHandCameThere) {
+  EXPECT_EQ(tick(0).answer_seq, 0u) << "none came yet";
+  answer({0, 0, 2}, kMs);
+  EXPECT_EQ(tick(kMs).answer_seq, 0u) << "hardware moved under the command before";
+  EXPECT_EQ(tick(2 * kMs).answer_seq, 1u) << "held without a new one";
+  answer({0, 0, 2}, 3 * kMs);
+  device->measurement.valid = false;
+  EXPECT_EQ(tick(3 * kMs).answer_seq, 1u);
+  EXPECT_EQ(tick(4 * kMs).answer_seq, 2u) << "whether it is measured or not";
+  answer({0, 0, std::numeric_limits<double>::quiet_NaN()}, 5 * kMs);
+  tick(5 * kMs);
+  EXPECT_EQ(tick(6 * kMs).answer_seq, 2u) << "what was not exerted is not named";
+}
+
+TEST_F(ToolChannelTest, ASimulatedHandMovesUnderTheNewestAnswer) {
+  device->simulated = true;
+  tick(0);
+  answer({0, 0, 2}, kMs);
+  EXPECT_EQ(tick(kMs).answer_seq, 1u);
+}
+
+TEST_F(ToolChannelTest, AnAnswerIsNamedUntilNothingIsLeftOfIt) {
+  constexpr auto kDecay_ns = static_cast<std::int64_t>(1e9 * ForceHold::kDecay_s);
+  device->simulated = true;
+  fade_in({0, 0, 2});
+  const std::int64_t expired_ns = -kMs + 5 * kMs;  // valid_for_s after the last one
+  EXPECT_EQ(tick(expired_ns + kDecay_ns / 2).answer_seq, answers);
+  EXPECT_GT(device->commanded.force.norm(), 0) << "it decays";
+  EXPECT_EQ(tick(expired_ns + kDecay_ns).answer_seq, 0u);
+  EXPECT_EQ(device->commanded.force.norm(), 0);
 }
 
 TEST_F(ToolChannelTest, AForceThatIsNotFiniteNeverReachesTheDevice) {
@@ -222,9 +256,9 @@ TEST_F(ToolChannelTest, ReleaseLetsTheHandGo) {
 
 TEST(ToolChannel, PressingAnElasticWallGivesTheHandNoEnergy) {
   constexpr double kRate_hz = 1000, kWall_n_m = 500;
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   runtime::FaultList faults;
-  ToolChannel channel(std::make_unique<VirtualHand>(hand, runtime::ToolSpec{}, kRate_hz), faults);
+  ToolChannel channel(std::make_unique<VirtualHand>(hand, scene::ToolSpec{}, kRate_hz), faults);
   double deepest = 0, stored_j = 0;
   for (int i = 0; i < static_cast<int>(script_period_s(hand) * kRate_hz); ++i) {
     const std::int64_t now_ns = i * kMs;
@@ -247,9 +281,9 @@ TEST(ToolChannel, PressingAnElasticWallGivesTheHandNoEnergy) {
 }
 
 TEST(ToolChannel, TicksUseNoHeap) {
-  const runtime::HandSpec hand;
-  runtime::ToolSpec tool;
-  tool.trocar = runtime::Triple{0, 0.1, 0.2};
+  const scene::HandSpec hand;
+  scene::ToolSpec tool;
+  tool.trocar = scene::Vec3{0, 0.1, 0.2};
   runtime::FaultList faults;
   ToolChannel channel(std::make_unique<VirtualHand>(hand, tool, 1000), faults);
   const std::size_t before = test::heap_allocations();

@@ -14,14 +14,14 @@ namespace {
 // A frictionless elastic wall whose surface is the plane through the press point.
 constexpr double kWall_n_m = 500;
 
-Wrench wall_force(const runtime::HandSpec& hand, const Vec3& tip) {
+Wrench wall_force(const scene::HandSpec& hand, const Vec3& tip) {
   const Vec3 normal(hand.press_normal.data());
-  const double depth = (Vec3(hand.press_point.data()) - tip).dot(normal);
+  const double depth = (hand.press_point - tip).dot(normal);
   return {.force = normal * kWall_n_m * std::max(depth, 0.0)};
 }
 
 // The hand against the wall for `seconds`, the wall answering each pose in the next period.
-std::vector<Measurement> press(VirtualHand& device, const runtime::HandSpec& hand, double rate_hz,
+std::vector<Measurement> press(VirtualHand& device, const scene::HandSpec& hand, double rate_hz,
                                double seconds) {
   std::vector<Measurement> measured;
   for (int i = 0; i < static_cast<int>(seconds * rate_hz); ++i) {
@@ -32,7 +32,7 @@ std::vector<Measurement> press(VirtualHand& device, const runtime::HandSpec& han
 }
 
 TEST(VirtualHand, TheSteadyForceIsThatOfTwoSpringsAtEveryRate) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   const double expected_n = hand.depth_m * hand.stiffness_n_m * kWall_n_m / (hand.stiffness_n_m + kWall_n_m);
   for (const double rate_hz : {250.0, 300.0, 1000.0, 2000.0}) {
     VirtualHand device(hand, {}, rate_hz);
@@ -43,7 +43,7 @@ TEST(VirtualHand, TheSteadyForceIsThatOfTwoSpringsAtEveryRate) {
 }
 
 TEST(VirtualHand, TheWholePressFeelsTheSameAt300And1000Hz) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   VirtualHand slow(hand, {}, 300), fast(hand, {}, 1000);
   const auto slow_way = press(slow, hand, 300, script_period_s(hand));
   const auto fast_way = press(fast, hand, 1000, script_period_s(hand));
@@ -59,7 +59,7 @@ TEST(VirtualHand, TheWholePressFeelsTheSameAt300And1000Hz) {
 
 TEST(VirtualHand, AnUnstableForceIsSeenAsOscillation) {
   // a wall that answers late and is far stiffer than the hand: the simulated hand must not hide it
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   VirtualHand device(hand, {}, 300);
   std::vector<Measurement> measured{device.measure(0)};
   double top_speed = 0;
@@ -74,7 +74,7 @@ TEST(VirtualHand, AnUnstableForceIsSeenAsOscillation) {
 }
 
 TEST(VirtualHand, PauseHoldsTheTargetAndTheScriptGoesOnAfterIt) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   VirtualHand device(hand, {}, 1000);
   press(device, hand, 1000, 2.0);
   device.pause(true);
@@ -88,7 +88,7 @@ TEST(VirtualHand, PauseHoldsTheTargetAndTheScriptGoesOnAfterIt) {
 }
 
 TEST(VirtualHand, RestartGlidesBackToTheStart) {
-  const runtime::HandSpec hand;
+  const scene::HandSpec hand;
   VirtualHand device(hand, {}, 1000);
   const Vec3 start = device.measure(0).position;
   press(device, hand, 1000, 8.0);  // while it slides
@@ -100,13 +100,13 @@ TEST(VirtualHand, RestartGlidesBackToTheStart) {
 }
 
 TEST(VirtualHand, TheShaftPassesThroughTheTrocar) {
-  const runtime::HandSpec hand;
-  runtime::ToolSpec tool;
-  tool.trocar = runtime::Triple{0.05, -0.1, 0.2};
+  const scene::HandSpec hand;
+  scene::ToolSpec tool;
+  tool.trocar = scene::Vec3{0.05, -0.1, 0.2};
   VirtualHand device(hand, tool, 1000);
   Quat before = device.measure(0).orientation;
   for (const Measurement& m : press(device, hand, 1000, script_period_s(hand))) {
-    const Vec3 shaft = m.orientation * Vec3::UnitZ(), to_pivot = Vec3(tool.trocar->data()) - m.position;
+    const Vec3 shaft = m.orientation * Vec3::UnitZ(), to_pivot = *tool.trocar - m.position;
     ASSERT_LT(shaft.cross(to_pivot.normalized()).norm(), 1e-9);
     ASSERT_GT(shaft.dot(to_pivot), 0);
     // the angular velocity is what turned it here since the last pose
@@ -119,10 +119,10 @@ TEST(VirtualHand, TheShaftPassesThroughTheTrocar) {
 }
 
 TEST(VirtualHand, ATrocarTurnsTheShaftAboutThePivotWithoutSpinAndLeavesTheTipToTheHand) {
-  const runtime::HandSpec hand;
-  runtime::ToolSpec tool;
-  tool.trocar = runtime::Triple{0.05, -0.1, 0.2};
-  const Vec3 pivot(tool.trocar->data());
+  const scene::HandSpec hand;
+  scene::ToolSpec tool;
+  tool.trocar = scene::Vec3{0.05, -0.1, 0.2};
+  const Vec3 pivot = *tool.trocar;
   VirtualHand held(hand, tool, 1000), free(hand, {}, 1000);
   const auto held_way = press(held, hand, 1000, script_period_s(hand));
   const auto free_way = press(free, hand, 1000, script_period_s(hand));
@@ -145,7 +145,7 @@ TEST(VirtualHand, ATrocarTurnsTheShaftAboutThePivotWithoutSpinAndLeavesTheTipToT
 }
 
 TEST(VirtualHand, WithoutATrocarTheShaftStandsOnTheSurface) {
-  runtime::HandSpec hand;
+  scene::HandSpec hand;
   hand.press_normal = {0, 0.6, 0.8};
   VirtualHand device(hand, {}, 1000);
   EXPECT_LT((device.measure(0).orientation * Vec3::UnitZ() - Vec3(0, 0.6, 0.8)).norm(), 1e-12);

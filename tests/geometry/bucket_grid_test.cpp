@@ -1,6 +1,7 @@
 #include "geometry/bucket_grid.h"
 
 #include "geometry/closest_points.h"
+#include "tests/support/effort.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -100,7 +101,7 @@ class BucketGridTest : public testing::Test {
 TEST_F(BucketGridTest, HundredThousandFastSegmentsMissNoTriangleOfTheDeformedSurface) {
   deform(1.0);
   update_all();
-  constexpr int kSegments = 100000;
+  constexpr int kSegments = test::tried(100'000);
   int hits = 0;
   for (int i = 0; i < kSegments && !HasFailure(); ++i) {
     const Vec3 p = random_point(0.03);
@@ -126,7 +127,7 @@ TEST_F(BucketGridTest, FindsTrianglesWithinTheRadiusOfASegment) {
   deform(2.0);
   update_all();
   constexpr double kRadius = 0.006;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::tried(2000); ++i) {
     const Vec3 p = random_point(0.02), q = p + 0.02 * (random_point(0.02) - p).normalized();
     std::vector<bool> visited(surface_.triangles.size(), false);
     grid_.visit_segment(p, q, kRadius, [&](TriangleId t) { visited[t] = true; });
@@ -212,7 +213,7 @@ TEST(BucketGrid, TrianglesFarLongerThanTheMeanAreFound) {
 TEST_F(BucketGridTest, NearestPointAgreesWithBruteForce) {
   deform(0.5);
   update_all();
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::tried(3000); ++i) {
     const Vec3 p = random_point(i % 2 ? 0.005 : 0.2);
     const double expected = brute_force_distance(p);
     const auto found = grid_.nearest(p, 10.0, now_);
@@ -226,7 +227,7 @@ TEST_F(BucketGridTest, NearestPointAgreesWithBruteForce) {
 }
 
 TEST_F(BucketGridTest, NearestPointRespectsTheLargestDistance) {
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::tried(1000); ++i) {
     const Vec3 p = random_point(0.05);
     const double expected = brute_force_distance(p);
     EXPECT_FALSE(grid_.nearest(p, 0.999 * expected, now_));

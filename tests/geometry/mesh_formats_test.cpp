@@ -35,12 +35,22 @@ TEST_P(MeshFormats, HoldTheSameMesh) {
       read_mesh(put(folder_ / (std::string("m") + GetParam().extension), GetParam().write(expected)));
   EXPECT_EQ(read.positions, expected.positions);
   EXPECT_EQ(read.tetrahedra, expected.tetrahedra);
+  EXPECT_TRUE(read.regions.empty());
+  EXPECT_EQ(read.why_no_regions, "");
+}
+
+TEST_P(MeshFormats, HoldTheSameLabels) {
+  const RawMesh expected = labelled_mesh();
+  const RawMesh read =
+      read_mesh(put(folder_ / (std::string("m") + GetParam().extension), GetParam().write(expected)));
+  EXPECT_EQ(read.tetrahedra, expected.tetrahedra);
+  EXPECT_EQ(read.regions, expected.regions) << read.why_no_regions;
 }
 
 // Whatever is cut off or overwritten: an InputError that names the file, or a mesh; never a crash or another
 // exception.
 TEST_P(MeshFormats, DamagedFilesAreRefusedInOneLine) {
-  const std::string whole = GetParam().write(example_mesh());
+  const std::string whole = GetParam().write(labelled_mesh());
   const std::filesystem::path file = folder_ / (std::string("damaged") + GetParam().extension);
   const auto expect_one_line = [&](const std::string& content) {
     const std::string reason = refusal(put(file, content));
@@ -108,6 +118,7 @@ TEST_F(MeshFiles, TetgenCountsFromZeroOrOneAndIsFoundByEitherName) {
       const RawMesh read = read_mesh(file);
       EXPECT_EQ(read.positions, expected.positions);
       EXPECT_EQ(read.tetrahedra, expected.tetrahedra);
+      EXPECT_EQ(read.regions, std::vector<std::int32_t>(expected.tetrahedra.size(), 7));
     }
   }
 }

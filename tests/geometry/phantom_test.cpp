@@ -1,4 +1,6 @@
+#include "geometry/closest_points.h"
 #include "geometry/surface.h"
+#include "organ_tools/phantom/gallbladder_shape.h"
 #include "organ_tools/phantom/label_volume.h"
 #include "organ_tools/phantom/liver_shape.h"
 #include "tests/support/process.h"
@@ -19,7 +21,7 @@ using geometry::Triangle;
 constexpr double kVoxel = 1.5e-3;  // m
 
 TEST(LiverShape, IsAboutEighteenCentimetresAcrossInsideItsExtent) {
-  const LabelVolume volume = sample_liver(kVoxel);
+  const LabelVolume volume = sample(liver(), kVoxel);
   std::array<int, 3> low = {1 << 20, 1 << 20, 1 << 20}, high = {-1, -1, -1};
   std::size_t voxels = 0, at = 0;
   for (int k = 0; k < volume.size[2]; ++k) {
@@ -45,7 +47,7 @@ TEST(LiverShape, IsAboutEighteenCentimetresAcrossInsideItsExtent) {
 }
 
 TEST(LiverShape, IsInOnePiece) {
-  const LabelVolume volume = sample_liver(3e-3);
+  const LabelVolume volume = sample(liver(), 3e-3);
   const std::array<std::ptrdiff_t, 3> stride = {1, volume.size[0],
                                                 static_cast<std::ptrdiff_t>(volume.size[0]) * volume.size[1]};
   std::vector<bool> seen(volume.labels.size(), false);
@@ -93,9 +95,52 @@ TEST(LiverShape, TheGallbladderHasItsFossaOnTheUnderside) {
   EXPECT_GT(underside(-0.0112, -0.030), underside(0.012, -0.030) + 0.006);
 }
 
+// Of all points of a grid inside the gallbladder.
+template <class Use>
+void for_points_inside_gallbladder(double spacing_m, Use&& use) {
+  const Extent extent = gallbladder().extent;
+  for (double x = extent.low.x(); x < extent.high.x(); x += spacing_m) {
+    for (double y = extent.low.y(); y < extent.high.y(); y += spacing_m) {
+      for (double z = extent.low.z(); z < extent.high.z(); z += spacing_m) {
+        if (const Vec3 p(x, y, z); gallbladder_distance(p) < 0) use(p);
+      }
+    }
+  }
+}
+
+TEST(GallbladderShape, IsAPearOfEightByThreeAndAHalfCentimetresInsideItsExtent) {
+  Vec3 low = Vec3::Constant(1), high = Vec3::Constant(-1);
+  for_points_inside_gallbladder(1e-3, [&](const Vec3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  });
+  const Extent extent = gallbladder().extent;
+  EXPECT_NEAR(high.y() - low.y(), 0.08, 0.005);
+  EXPECT_NEAR(high.x() - low.x(), 0.035, 0.003);
+  EXPECT_TRUE((low.array() > extent.low.array() + 1e-3).all()) << low.transpose();
+  EXPECT_TRUE((high.array() < extent.high.array() - 1e-3).all()) << high.transpose();
+  const auto width = [](double y) {
+    int inside = 0;
+    for (double x = -0.04; x < 0.02; x += 1e-3) inside += gallbladder_distance({x, y, -0.03}) < 0;
+    return inside * 1e-3;
+  };
+  EXPECT_LT(width(-0.01), 0.7 * width(-0.055)) << "the neck is thinner than the fundus";
+}
+
+TEST(GallbladderShape, LiesFreeBelowTheLiverWithItsFundusInFrontOfTheEdge) {
+  double gap_m = 1;
+  for_points_inside_gallbladder(1e-3, [&](const Vec3& p) { gap_m = std::min(gap_m, liver_distance(p)); });
+  EXPECT_GT(gap_m, 2.5e-3);
+  EXPECT_LT(gap_m, 5e-3) << "it belongs to the liver";
+  // a straight shaft from above and in front meets the fundus and no liver
+  const Vec3 towards_hand = Vec3(0.2, -0.56, 0.8).normalized();
+  for (double way = 0; way < 0.2; way += 1e-3)
+    EXPECT_GT(liver_distance(Vec3(-0.010, -0.068, -0.012) + way * towards_hand), 0.01) << way;
+}
+
 TEST(LabelVolume, NiftiFileHoldsHeaderAndLabelsInMillimetres) {
   const test::ScratchFolder folder;
-  const LabelVolume volume = sample_liver(6e-3);
+  const LabelVolume volume = sample(liver(), 6e-3);
   write_nifti(volume, folder / "liver.nii");
   const std::string file = test::read_text(folder / "liver.nii");
   ASSERT_EQ(file.size(), 352 + volume.labels.size());
@@ -117,6 +162,7 @@ TEST(LabelVolume, NiftiFileHoldsHeaderAndLabelsInMillimetres) {
   EXPECT_FLOAT_EQ(at(292, float{}), static_cast<float>(1e3 * volume.origin.x()));
   EXPECT_FLOAT_EQ(at(300, float{}), 6.0f);  // srow_y
   EXPECT_FLOAT_EQ(at(320, float{}), 6.0f);  // srow_z
+  EXPECT_EQ(file.substr(148, 22), std::string("Omentum phantom liver\0", 22));
   EXPECT_EQ(file.substr(344, 4), std::string("n+1\0", 4));
   EXPECT_EQ(std::memcmp(file.data() + 352, volume.labels.data(), volume.labels.size()), 0);
 }
@@ -158,11 +204,46 @@ TEST_F(OrganPhantom, MakesAValidLiverOfThePapersSizeAndTheSameAgain) {
     EXPECT_LT(std::abs(liver_distance(p)), kOnSurface);
 }
 
+double distance_between(const std::vector<Vec3>& points, const Surface& surface, const std::vector<Vec3>& x) {
+  double least = 1;
+  for (const Vec3& p : points) {
+    for (const Triangle& t : surface.triangles) {
+      const double squared =
+          geometry::closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]).squared_distance;
+      least = std::min(least, std::sqrt(squared));
+    }
+  }
+  return least;
+}
+
+TEST_F(OrganPhantom, TheGallbladdersMeshIsValidAndKeepsItsGapToTheLivers) {
+  const std::string liver_file = folder_ / "liver.msh", sac_file = folder_ / "sac.msh";
+  ASSERT_EQ(test::Process("organ_phantom", {"-o", liver_file}).wait(), 0);
+  ASSERT_EQ(test::Process("organ_phantom", {"--part", "gallbladder", "-o", sac_file}).wait(), 0);
+  const geometry::CheckedMesh sac = geometry::check_mesh(geometry::read_mesh(sac_file), 1.0);
+  EXPECT_TRUE(sac.warnings.empty());
+  const Surface skin = geometry::extract_surface(sac.mesh, {});
+  EXPECT_GE(skin.node_count(), 300);
+  EXPECT_LE(skin.node_count(), 1000);
+  const auto edges = 3 * static_cast<int>(skin.triangles.size()) / 2;
+  EXPECT_EQ(skin.node_count() - edges + static_cast<int>(skin.triangles.size()), 2) << "one closed sac";
+
+  const TetraMesh liver_mesh = geometry::check_mesh(geometry::read_mesh(liver_file), 1.0).mesh;
+  const Surface liver_skin = geometry::extract_surface(liver_mesh, {});
+  const auto x = geometry::surface_positions(sac.mesh, skin);
+  const auto liver_x = geometry::surface_positions(liver_mesh, liver_skin);
+  EXPECT_GT(distance_between(x, liver_skin, liver_x), 2e-3);
+  EXPECT_GT(distance_between(liver_x, skin, x), 2e-3);
+  for (const Vec3& p : liver_x) EXPECT_GT(gallbladder_distance(p), 2e-3) << "no part of the liver is inside";
+}
+
 TEST_F(OrganPhantom, WrongArgumentsEndWithTwoAndOneLine) {
-  for (const auto& arguments :
-       std::vector<std::vector<std::string>>{{},
-                                             {"--size", "huge", "-o", (folder_ / "x.msh").string()},
-                                             {"-o", (folder_ / "nowhere/x.msh").string()}}) {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {},
+           {"--size", "huge", "-o", (folder_ / "x.msh").string()},
+           {"--part", "spleen", "-o", (folder_ / "x.msh").string()},
+           {"--part", "gallbladder", "--size", "fine", "-o", (folder_ / "x.msh").string()},
+           {"-o", (folder_ / "nowhere/x.msh").string()}}) {
     test::Process process("organ_phantom", arguments);
     EXPECT_EQ(process.wait(), 2);
     const std::string messages = process.messages();
@@ -189,7 +270,7 @@ TEST_F(OrganPhantom, AFileThatCannotBeWrittenIsRefusedWithTheReasonAndNothingIsM
 
 TEST(LabelVolume, AFullDiskIsTheReason) {
   try {
-    write_nifti(sample_liver(2e-2), "/dev/full");
+    write_nifti(sample(liver(), 2e-2), "/dev/full");
     ADD_FAILURE() << "no exception";
   } catch (const geometry::InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("/dev/full: cannot be written: No space left on device"));

@@ -113,5 +113,27 @@ TEST_F(SurfaceTest, TheSameMeshGivesTheSameNumbering) {
   EXPECT_EQ(again.triangles, surface_.triangles);
 }
 
+// A box without symmetry: a face's nodes point straight out, those of edges and corners between their faces.
+TEST_F(SurfaceTest, NormalsAreUnitAndPointOut) {
+  const Vec3 size(0.03, 0.05, 0.02);
+  const TetraMesh box = test::make_box_mesh(3, 5, 4, size);
+  const Surface surface = extract_surface(box, {});
+  const std::vector<Vec3> x = surface_positions(box, surface), n = surface_normals(surface, x);
+  ASSERT_EQ(n.size(), x.size());
+  for (std::size_t s = 0; s < x.size(); ++s) {
+    EXPECT_NEAR(n[s].norm(), 1, 1e-12);
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool low = x[s][axis]<1e-9, high = x[s][axis]> size[axis] - 1e-9;
+      if (low) {
+        EXPECT_LT(n[s][axis], -0.1);
+      } else if (high) {
+        EXPECT_GT(n[s][axis], 0.1);
+      } else {
+        EXPECT_NEAR(n[s][axis], 0, 1e-12);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace omentum::geometry

@@ -10,6 +10,11 @@
 namespace omentum::geometry {
 namespace {
 
+// The label of a tetrahedron; what writers put without any is 0.
+std::int32_t label(const RawMesh& m, std::size_t t) {
+  return m.regions.empty() ? 0 : m.regions[t];
+}
+
 std::string gmsh_1(const RawMesh& m) {
   Bytes out;
   out.text("$NOD\n", m.positions.size(), "\n");
@@ -20,7 +25,9 @@ std::string gmsh_1(const RawMesh& m) {
   out.text("$ENDNOD\n$ELM\n", m.tetrahedra.size() + 1, "\n1 2 1 1 3 7 17 27\n");  // a triangle, to be ignored
   std::size_t number = 5;
   for (const auto& t : m.tetrahedra) {
-    out.text(number++, "4 1 1 4", 10 * t[0] + 7, 10 * t[1] + 7, 10 * t[2] + 7, 10 * t[3] + 7, "\n");
+    out.text(number, "4", label(m, number - 5), "1 4", 10 * t[0] + 7, 10 * t[1] + 7, 10 * t[2] + 7,
+             10 * t[3] + 7, "\n");
+    ++number;
   }
   return out.text("$ENDELM\n").content;
 }
@@ -35,8 +42,10 @@ std::string gmsh_2_text(const RawMesh& m) {
   }
   out.text("$EndNodes\n$Elements\n", m.tetrahedra.size() + 2, "\n1 15 2 0 1 1\n2 1 3 0 1 5 1 2\n");
   std::size_t number = 3;
-  for (const auto& t : m.tetrahedra)
-    out.text(number++, "4 2 0 1", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1, "\n");
+  for (const auto& t : m.tetrahedra) {
+    out.text(number, "4 2", label(m, number - 3), "1", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1, "\n");
+    ++number;
+  }
   return out.text("$EndElements\n").content;
 }
 
@@ -56,7 +65,8 @@ std::string gmsh_2_binary(const RawMesh& m) {
   for (const std::int32_t v : {4, static_cast<std::int32_t>(m.tetrahedra.size()), 2}) out.value(v);
   std::int32_t number = 9;
   for (const auto& t : m.tetrahedra) {
-    for (const std::int32_t v : {number++, 0, 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1}) out.value(v);
+    const std::int32_t region = label(m, static_cast<std::size_t>(number - 9));
+    for (const std::int32_t v : {number++, region, 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1}) out.value(v);
   }
   return out.text("\n$EndElements\n").content;
 }
@@ -64,7 +74,9 @@ std::string gmsh_2_binary(const RawMesh& m) {
 // Two node blocks, the second with parametric coordinates of a surface; one block of triangles, one of
 // tetrahedra.
 // The manual's "MSH file format version 4.0 (legacy)": tags before dimensions, numbers of 32 bits next to
-// their coordinates. The binary file has entities, whose bytes say nothing to a reader of meshes.
+// their coordinates. The binary file's entities hold the bytes of "$End" where they mean nothing.
+const double kEndMark = std::bit_cast<double>(std::array{'$', 'E', 'n', 'd', '$', 'E', 'n', '\x3f'});
+
 std::string gmsh_4_0(const RawMesh& m, bool binary) {
   const std::size_t n = m.positions.size(), half = n / 2;
   Bytes out;
@@ -74,7 +86,19 @@ std::string gmsh_4_0(const RawMesh& m, bool binary) {
   out.text("$MeshFormat\n4 ", binary ? "1" : "0", " 8\n");
   if (binary) out.value<std::int32_t>(1).text("\n");
   out.text("$EndMeshFormat\n");
-  if (binary) out.text("$Entities\n").value<std::uint64_t>(0).value(0x24456e64).text("\n$EndEntities\n");
+  const auto box = [&] {
+    for (int i = 0; i < 6; ++i) real(i == 0 ? kEndMark : 0);
+  };
+  out.text("$Entities\n");
+  for (const std::size_t count : {1u, 0u, 0u, 2u}) size(count);
+  integer(1), box(), size(0);
+  for (const std::size_t volume : {1u, 2u}) {
+    const std::int32_t region = label(m, volume == 1 ? 0 : m.tetrahedra.size() - 1);
+    integer(volume), box(), size(region != 0);
+    if (region != 0) integer(static_cast<std::size_t>(region));
+    size(0);
+  }
+  out.text("\n$EndEntities\n");
   out.text("$Nodes\n");
   size(2), size(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -85,11 +109,13 @@ std::string gmsh_4_0(const RawMesh& m, bool binary) {
     if (i >= half) real(0.5), real(0.5);
   }
   out.text("\n$EndNodes\n$Elements\n");
-  size(2), size(m.tetrahedra.size() + 1);
+  const std::size_t of_first = std::ranges::count(m.regions, label(m, 0));  // without labels none
+  size(3), size(m.tetrahedra.size() + 1);
   integer(1), integer(2), integer(2), size(1), integer(1), integer(1), integer(2), integer(3);
-  integer(1), integer(3), integer(4), size(m.tetrahedra.size());
+  integer(1), integer(3), integer(4), size(of_first);
   std::size_t number = 2;
   for (const auto& t : m.tetrahedra) {
+    if (number == of_first + 2) integer(2), integer(3), integer(4), size(m.tetrahedra.size() - of_first);
     integer(number++);
     for (const std::int32_t v : t) integer(static_cast<std::size_t>(v) + 1);
   }
@@ -107,7 +133,18 @@ std::string gmsh_4_1(const RawMesh& m, bool binary) {
   };
   out.text("$MeshFormat\n4.1 ", binary ? "1" : "0", " 8\n");
   if (binary) out.value<std::int32_t>(1).text("\n");
-  out.text("$EndMeshFormat\n$Nodes\n");
+  out.text("$EndMeshFormat\n$Entities\n");
+  sizes({1, 0, 0, 2});
+  integer(1), real(kEndMark), real(0), real(0), size(0);
+  for (const std::int32_t volume : {1, 2}) {
+    const std::int32_t region = label(m, volume == 1 ? 0 : m.tetrahedra.size() - 1);
+    integer(volume);
+    for (int i = 0; i < 6; ++i) real(i);
+    size(region != 0);
+    if (region != 0) integer(region);
+    size(1), integer(-3);
+  }
+  out.text("\n$EndEntities\n$Nodes\n");
   sizes({2, n, 1, n});
   for (const bool second : {false, true}) {
     const std::size_t first = second ? half : 0, last = second ? n : half;
@@ -119,11 +156,13 @@ std::string gmsh_4_1(const RawMesh& m, bool binary) {
     }
   }
   out.text("\n$EndNodes\n$Elements\n");
-  sizes({2, m.tetrahedra.size() + 1, 1, m.tetrahedra.size() + 1});
+  const std::size_t of_first = std::ranges::count(m.regions, label(m, 0));  // without labels none
+  sizes({3, m.tetrahedra.size() + 1, 1, m.tetrahedra.size() + 1});
   integer(2), integer(1), integer(2), sizes({1, 1, 1, 2, 3});
-  integer(3), integer(1), integer(4), size(m.tetrahedra.size());
+  integer(3), integer(1), integer(4), size(of_first);
   std::size_t number = 77;
   for (const auto& t : m.tetrahedra) {
+    if (number == of_first + 77) integer(3), integer(2), integer(4), size(m.tetrahedra.size() - of_first);
     size(number++);
     for (const std::int32_t v : t) size(static_cast<std::size_t>(v) + 1);
   }
@@ -139,7 +178,24 @@ std::string vtk_text(const RawMesh& m) {
   for (const auto& t : m.tetrahedra) out.text("4", t[0], t[1], t[2], t[3], "\n");
   out.text("CELL_TYPES ", m.tetrahedra.size() + 1, "\n5\n");
   for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.text("10\n");
-  return out.text("CELL_DATA 1\nSCALARS x float 1\nLOOKUP_TABLE default\n0\n").content;
+  if (m.regions.empty()) return out.text("CELL_DATA 1\nSCALARS x float 1\nLOOKUP_TABLE default\n0\n").content;
+  out.text("POINT_DATA ", m.positions.size(), "\nVECTORS region double\n");
+  for (const Vec3& p : m.positions) out.text(p.x(), p.y(), p.z());
+  out.text("\nCELL_DATA ", m.tetrahedra.size() + 1,
+           "\nSCALARS material_ids float\nLOOKUP_TABLE default\n0\n");
+  for (const std::int32_t region : m.regions) out.text(region);
+  return out.text("\n").content;
+}
+
+// Of cells, as binary VTK files hold them: arrays of a field, one of which gives the labels.
+void add_vtk_labels(const RawMesh& m, Bytes& out) {
+  constexpr auto big = std::endian::big;
+  if (m.regions.empty()) return;
+  out.text("\nCELL_DATA ", m.tetrahedra.size(), "\nFIELD FieldData 2\nquality 2 ", m.tetrahedra.size(),
+           "float\n");
+  for (std::size_t i = 0; i < 2 * m.tetrahedra.size(); ++i) out.value(0.5f, big);
+  out.text("\nRegion 1 ", m.tetrahedra.size(), "short\n");
+  for (const std::int32_t region : m.regions) out.value(static_cast<std::int16_t>(region), big);
 }
 
 std::string vtk_binary(const RawMesh& m) {
@@ -157,6 +213,7 @@ std::string vtk_binary(const RawMesh& m) {
   }
   out.text("\nCELL_TYPES ", m.tetrahedra.size(), "\n");
   for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.value<std::int32_t>(10, big);
+  add_vtk_labels(m, out);
   return out.text("\n").content;
 }
 
@@ -191,6 +248,7 @@ std::string vtk_5_binary(const RawMesh& m) {
   }
   out.text("\nCELL_TYPES ", cells, "\n");
   for (std::size_t t = 0; t < cells; ++t) out.value<std::int32_t>(10, big);
+  add_vtk_labels(m, out);
   return out.text("\n").content;
 }
 
@@ -299,6 +357,11 @@ std::string vtu(const RawMesh& m, const VtuCoding& how) {
   out.text("<Cells>", array("type=\"Int64\" Name=\"connectivity\"", nodes.content),
            array("type=\"Int32\" Name=\"offsets\"", ends.content),
            array("type=\"UInt8\" Name=\"types\"", types.content), "</Cells>");
+  if (!m.regions.empty()) {
+    Bytes labels;
+    for (const std::int32_t region : m.regions) labels.value(static_cast<std::int16_t>(region));
+    out.text("<CellData>", array("type=\"Int16\" Name=\"gmsh:physical\"", labels.content), "</CellData>");
+  }
   out.text("</Piece></UnstructuredGrid>");
   if (how.format == "appended") {
     out.text("<AppendedData encoding=\"", how.base64 ? "base64" : "raw", "\">\n   _", appended,
@@ -319,7 +382,13 @@ std::string vtu_text(const RawMesh& m) {
   for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.text(4 * t + 4);
   out.text("</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">");
   for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) out.text("10 ");
-  return out.text("</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>").content;
+  out.text("</DataArray></Cells>");
+  if (!m.regions.empty()) {
+    out.text("<CellData><DataArray type=\"Int32\" Name=\"Labels\" format=\"ascii\">");
+    for (const std::int32_t region : m.regions) out.text(region);
+    out.text("</DataArray></CellData>");
+  }
+  return out.text("</Piece></UnstructuredGrid></VTKFile>").content;
 }
 
 }  // namespace
@@ -327,6 +396,13 @@ std::string vtu_text(const RawMesh& m) {
 RawMesh example_mesh() {
   RawMesh raw = test::make_raw_box(2, 1, 2, {0.5, 0.25, 1});
   for (Vec3& p : raw.positions) p += Vec3(-0.125, 2.5, 0);
+  return raw;
+}
+
+RawMesh labelled_mesh() {
+  RawMesh raw = example_mesh();
+  raw.regions.assign(raw.tetrahedra.size(), 7);
+  std::fill_n(raw.regions.begin(), raw.regions.size() / 3, 12);
   return raw;
 }
 

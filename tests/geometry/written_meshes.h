@@ -46,6 +46,8 @@ class Bytes {
 
 // Coordinates are sums of a few powers of two, so that single precision holds them too.
 RawMesh example_mesh();
+/// The same, whose first tetrahedra have the label 12 and the others 7.
+RawMesh labelled_mesh();
 
 struct Format {
   const char* name;

@@ -35,7 +35,7 @@ Organ box_organ(Storage storage = Storage::kFloat) {
   for (std::size_t n = 0; n < fixed.size(); ++n) {
     if (mesh.positions[n].x() < 1e-9) fixed[n] = physics::kPinned;
   }
-  return make_organ("box", std::move(mesh), {3000, 0.45, 1050}, std::move(fixed), storage);
+  return make_organ("box", std::move(mesh), physics::Material{3000, 0.45, 1050}, std::move(fixed), storage);
 }
 
 // Replaces a dataset by the numbers that `values` are made of.
@@ -89,6 +89,7 @@ class HostileOrganTest : public testing::Test {
       put<std::int64_t>(hdf5, layout::kTetrahedronNumbers, organ.mesh.tetrahedron_numbers, H5T_NATIVE_INT64);
       if (!organ.mesh.merged.empty())
         put<std::int32_t>(hdf5, layout::kMerged, organ.mesh.merged, H5T_NATIVE_INT32);
+      if (!organ.material.regions.empty()) put_regions(hdf5, organ);
       put<std::int32_t>(hdf5, layout::kSurfaceNode, organ.surface.node, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kTriangles, organ.surface.triangles, H5T_NATIVE_INT32);
       put<std::int32_t>(hdf5, layout::kBehind, organ.surface.tetrahedron, H5T_NATIVE_INT32);
@@ -97,13 +98,26 @@ class HostileOrganTest : public testing::Test {
       put<std::uint8_t>(hdf5, layout::kFixed, organ.fixed, H5T_NATIVE_UINT8);
       put_number(hdf5, layout::kFileNodes, organ.mesh.file_node_count);
       put_number(hdf5, layout::kMobile, organ.surface.mobile_count);
-      put_number(hdf5, layout::kYoung, organ.material.young_pa);
+      put_number(hdf5, layout::kYoung, organ.material.common.young_pa);
       const std::string hash = organ_hash(organ);
       const hid_t attribute = H5Aopen(hdf5, layout::kHash, H5P_DEFAULT), type = H5Aget_type(attribute);
       EXPECT_GE(H5Awrite(attribute, type, hash.c_str()), 0);
       H5Tclose(type);
       H5Aclose(attribute);
     });
+  }
+
+  static void put_regions(hid_t hdf5, const Organ& organ) {
+    std::vector<std::int32_t> labels;
+    std::vector<physics::Material> materials;
+    for (const auto& [label, material] : organ.material.regions) {
+      labels.push_back(label);
+      materials.push_back(material);
+    }
+    H5Gclose(H5Gcreate2(hdf5, "material", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    put<std::int32_t>(hdf5, layout::kRegions, organ.mesh.regions, H5T_NATIVE_INT32);
+    put<std::int32_t>(hdf5, layout::kRegionLabels, labels, H5T_NATIVE_INT32);
+    put<double>(hdf5, layout::kRegionMaterials, materials, H5T_NATIVE_DOUBLE);
   }
 
   std::string refusal() const {
@@ -316,7 +330,21 @@ TEST_F(HostileOrganTest, WhatIsWrongIsNamed) {
   expect([](Organ& o) { o.fixed.pop_back(); }, "'supports/fixed' has 26 rows; expected 27");
   expect([](Organ& o) { o.surface.mobile_count = 1 << 28; }, "mobile_count");
   expect([](Organ& o) { o.surface.mobile_count -= 1; }, "'surface/node'");
-  expect([](Organ& o) { o.material.young_pa = -1; }, "Young's modulus");
+  expect([](Organ& o) { o.material.common.young_pa = -1; }, "Young's modulus");
+  const auto with_regions = [](std::vector<physics::RegionMaterial> regions, std::size_t labelled) {
+    return [regions, labelled](Organ& o) {
+      o.mesh.regions.assign(labelled, 3);
+      o.mesh.regions.back() = 8;
+      o.material.regions = regions;
+    };
+  };
+  const physics::Material stiff{9000, 0.4, 1050};
+  expect(with_regions({{3, stiff}, {8, stiff}}, 47), "'mesh/regions' has 47 rows; expected 48");
+  expect(with_regions({{8, stiff}, {3, stiff}}, 48), "row 1 of 'material/labels'");
+  expect(with_regions({{3, stiff}, {3, stiff}}, 48), "row 1 of 'material/labels'");
+  expect(with_regions({{4, stiff}}, 48), "row 0 of 'material/labels' is the label of no tetrahedron");
+  expect(with_regions({{3, {NAN, 0.4, 1050}}}, 48), "region 3: Young's modulus");
+  expect(with_regions({{3, {9000, 0.4, 1050}}, {8, {9000, 0.5, 1050}}}, 48), "region 8: Poisson's ratio");
   expect(
       [](Organ& o) {
         o.surface.triangles.pop_back();

@@ -29,6 +29,16 @@ Organ small_organ(const physics::Material& material = kTissue, Storage storage =
   return make_organ("box", std::move(mesh), material, std::move(fixed), storage);
 }
 
+// Its outer half five times as stiff, and a region that is heavier alone.
+Organ two_materials(Storage storage = Storage::kFloat) {
+  Organ organ = small_organ();
+  organ.mesh.regions.assign(organ.mesh.tetrahedra.size(), 0);
+  for (std::size_t t = organ.mesh.tetrahedra.size() / 2; t < organ.mesh.regions.size(); ++t)
+    organ.mesh.regions[t] = t % 5 == 0 ? 2 : 7;
+  const physics::MaterialMap material{kTissue, {{2, {3000, 0.45, 2000}}, {7, {15000, 0.4, 1050}}}};
+  return make_organ("box", std::move(organ.mesh), material, organ.fixed, storage);
+}
+
 class OrganFileTest : public testing::Test {
  protected:
   Organ build(const Organ& organ) {
@@ -78,14 +88,52 @@ TEST_F(OrganFileTest, RoundTripKeepsEverything) {
   EXPECT_EQ(found.surface.fan_start, made.surface.fan_start);
   EXPECT_EQ(found.surface.fan, made.surface.fan);
   EXPECT_EQ(found.surface.mobile_count, made.surface.mobile_count);
-  EXPECT_EQ(found.material.young_pa, made.material.young_pa);
-  EXPECT_EQ(found.material.poisson, made.material.poisson);
-  EXPECT_EQ(found.material.density_kg_m3, made.material.density_kg_m3);
+  EXPECT_EQ(found.material.common.young_pa, made.material.common.young_pa);
+  EXPECT_EQ(found.material.common.poisson, made.material.common.poisson);
+  EXPECT_EQ(found.material.common.density_kg_m3, made.material.common.density_kg_m3);
   EXPECT_EQ(found.fixed, made.fixed);
 }
 
-TEST_F(OrganFileTest, MappedTensorsAreTheCompliance) {
-  const Organ organ = build(small_organ());
+TEST_F(OrganFileTest, RegionsComeBackAndBelongToTheHash) {
+  const Organ made = two_materials();
+  const Organ found = build(made);
+  EXPECT_EQ(found.mesh.regions, made.mesh.regions);
+  ASSERT_EQ(found.material.regions.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(found.material.regions[i].label, made.material.regions[i].label);
+    EXPECT_EQ(found.material.regions[i].material.young_pa, made.material.regions[i].material.young_pa);
+    EXPECT_EQ(found.material.regions[i].material.poisson, made.material.regions[i].material.poisson);
+    EXPECT_EQ(found.material.regions[i].material.density_kg_m3,
+              made.material.regions[i].material.density_kg_m3);
+  }
+  Organ other = made;
+  other.mesh.regions.back() = 2;
+  EXPECT_NE(organ_hash(other), made.hash);
+  other = made;
+  other.material.regions[0].material.density_kg_m3 = 2001;
+  EXPECT_NE(organ_hash(other), made.hash);
+  other = made;
+  other.material.regions[1].label = 8;
+  EXPECT_NE(organ_hash(other), made.hash);
+}
+
+// Files from before there were regions, and those of meshes whose labels nobody uses, stay what they were.
+TEST_F(OrganFileTest, LabelsWithoutMaterialsChangeNothing) {
+  const Organ plain = small_organ();
+  EXPECT_EQ(plain.hash, "386f942a5f865d856838609b977ba7a383db74ff45fd52ac3aca05cdf51a5548");
+  geometry::TetraMesh labelled = plain.mesh;
+  labelled.regions.assign(labelled.tetrahedra.size(), 3);
+  const Organ made = make_organ("box", std::move(labelled), kTissue, plain.fixed, Storage::kFloat);
+  EXPECT_EQ(made.hash, plain.hash);
+  build(made);
+  damage([](hid_t hdf5) {
+    EXPECT_EQ(H5Lexists(hdf5, layout::kRegions, H5P_DEFAULT), 0);
+    EXPECT_EQ(H5Lexists(hdf5, "material", H5P_DEFAULT), 0);
+  });
+}
+
+TEST_F(OrganFileTest, MappedTensorsAreTheComplianceOfAllItsMaterials) {
+  const Organ organ = build(two_materials());
   const auto K = physics::assemble_stiffness(organ.mesh, organ.material);
   std::vector<geometry::Vec3> push(organ.mesh.positions.size(), geometry::Vec3::Zero());
   push[organ.surface.node[5]] = {0, 1, 0};
@@ -180,7 +228,7 @@ TEST_F(OrganFileTest, UpToDateFileIsLeftAndAChangedOrganIsNot) {
   EXPECT_TRUE(build_organ(small_organ(), file, {}).up_to_date);
   EXPECT_EQ(std::filesystem::last_write_time(file), written);
   EXPECT_FALSE(build_organ(small_organ({2000, 0.4, 1000}), file, {}).up_to_date);
-  EXPECT_EQ(load_organ(file, Load::kMeshOnly).material.young_pa, 2000);
+  EXPECT_EQ(load_organ(file, Load::kMeshOnly).material.common.young_pa, 2000);
   BuildOptions force;
   force.force = true;
   EXPECT_FALSE(build_organ(small_organ({2000, 0.4, 1000}), file, force).up_to_date);
@@ -281,6 +329,10 @@ TEST_F(OrganFileTest, MaterialsOutOfRangeAreRefused) {
         physics::Material{3000, -1, 1000}, physics::Material{3000, 0.4, 0}, physics::Material{NAN, 0.4, 1000},
         physics::Material{3000, NAN, 1000}}) {
     EXPECT_THROW(small_organ(wrong), geometry::InputError);
+    Organ organ = two_materials();
+    const physics::MaterialMap material{kTissue, {{7, wrong}}};
+    EXPECT_THROW(make_organ("box", std::move(organ.mesh), material, organ.fixed, Storage::kFloat),
+                 geometry::InputError);
   }
 }
 

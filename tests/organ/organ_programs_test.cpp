@@ -5,6 +5,53 @@
 namespace omentum::organ {
 namespace {
 
+TEST_F(OrganProgramsTest, RegionsThatMeanNothingAreRefused) {
+  expect_refused("organ_build", with("--region", "ball=1,1,1,0.01; young=5000"),
+                 "no tetrahedron has its centre there");
+  expect_refused("organ_build", with("--region", "label=4; young=5000"),
+                 "--region label=4; young=5000: names no");
+  expect_refused("organ_build", with("--region", "ball=0,0,0,0.05; poisson=0.6"), "Poisson's ratio is 0.6");
+}
+
+TEST_F(OrganProgramsTest, OrganCheckSaysWhatIsThereAndFindsAByteThatChanged) {
+  Process made("organ_build", with("--region", "box=0.06,0,0,0.08,0.06,0.06; young=9000"));
+  ASSERT_EQ(made.wait(), 0) << made.messages();
+  Process check("organ_check", {organ.string()});
+  ASSERT_EQ(check.wait(), 0) << check.messages();
+  EXPECT_THAT(check.output(), HasSubstr("box: whole: 80 nodes, "));
+  EXPECT_THAT(check.output(),
+              HasSubstr("elsewhere: 162 tetrahedra, 216 cm^3: 3000 Pa, Poisson's ratio 0.45, 1050 kg/m^3"));
+  EXPECT_THAT(check.output(),
+              HasSubstr("region 2: 54 tetrahedra, 72 cm^3: 9000 Pa, Poisson's ratio 0.45, 1050 kg/m^3"));
+  std::string content = test::read_text(organ);
+  content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
+  std::ofstream(organ, std::ios::binary) << content;
+  expect_refused("organ_check", {organ.string()}, "its tensors are damaged (checksum");
+}
+
+// The labels that a mesh file brings are those of --region; a label alone changes no organ.
+TEST_F(OrganProgramsTest, ALabelOfTheMeshFileGetsAMaterial) {
+  geometry::TetraMesh labelled = test::make_box_mesh(4, 3, 3, {0.08, 0.06, 0.06});
+  labelled.regions.assign(labelled.tetrahedra.size(), 1);
+  geometry::write_mesh(labelled, mesh);
+  build();
+  const Organ plain = load_organ(organ, Load::kMeshOnly);
+  labelled.regions.back() = 6;
+  geometry::write_mesh(labelled, mesh);
+  build();
+  EXPECT_EQ(load_organ(organ, Load::kMeshOnly).hash, plain.hash);
+  Process program("organ_build", with("--region", "label=6; density=5"));
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_THAT(program.messages(), HasSubstr("warning: region 6: the density is 5 kg/m^3"));
+  EXPECT_THAT(program.messages(), HasSubstr("warning: region 6: 1 tetrahedron; expected 20 or more"));
+  const Organ made = load_organ(organ, Load::kMeshOnly);
+  EXPECT_EQ(made.mesh.regions, labelled.regions);
+  ASSERT_EQ(made.material.regions.size(), 1u);
+  EXPECT_EQ(made.material.regions[0].label, 6);
+  EXPECT_EQ(made.material.regions[0].material.young_pa, 3000);
+  EXPECT_EQ(made.material.regions[0].material.density_kg_m3, 5);
+}
+
 TEST_F(OrganProgramsTest, BuildMakesAnOrganThatLoadsAndSecondBuildFindsItUpToDate) {
   build();
   const Organ built = load_organ(organ, Load::kWithTensors);

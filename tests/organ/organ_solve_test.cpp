@@ -129,6 +129,35 @@ TEST_F(OrganSolveTest, WhatASupportHoldsOfAnImposedNodeIsInItsForce) {
   }
 }
 
+// A ball five times as stiff and a heavy slab: both ways of solving see the same organ, under loads too.
+TEST_F(OrganSolveTest, TensorsAgreeWithADirectSolveOnAMeshOfSeveralMaterials) {
+  auto arguments = build_arguments(mesh);
+  arguments.insert(arguments.end(),
+                   {"--store", "double", "--region", "ball=0.05,0.03,0.03,0.025; young=15000; poisson=0.3",
+                    "--region", "box=0.06,0,0,0.08,0.06,0.06;density=4000"});
+  const std::string csv = "79,0.001,-0.0005,0\n59,0,0.001,0.0003\n";
+  const std::vector<std::string> gravity = {organ.string(), "--gravity", "1,0,-9.81", "-o",
+                                            (folder / "s").string()};
+  const auto sag = [&](const char* model) {
+    auto with_model = gravity;
+    with_model.insert(with_model.end(), {"--model", model});
+    Process program("organ_solve", with_model);
+    EXPECT_EQ(program.wait(), 0) << program.messages();
+    return numbers("s.u.csv");
+  };
+  build();
+  const Solved plain = solve(csv, "direct");
+  const Rows plain_sag = sag("direct");
+  build_with(arguments);
+  const Solved tensors = solve(csv, "tensors"), direct = solve(csv, "direct");
+  EXPECT_LE(largest_difference(tensors.f, direct.f), 1e-9 * largest_entry(direct.f));
+  EXPECT_LE(largest_difference(tensors.u, direct.u), 1e-9 * largest_entry(direct.u));
+  EXPECT_GT(largest_difference(plain.f, direct.f), 0.05 * largest_entry(plain.f)) << "stiffer";
+  const Rows tensor_sag = sag("tensors"), direct_sag = sag("direct");
+  EXPECT_LE(largest_difference(tensor_sag, direct_sag), 1e-9 * largest_entry(direct_sag));
+  EXPECT_GT(largest_entry(direct_sag), 1.2 * largest_entry(plain_sag)) << "heavier";
+}
+
 TEST_F(OrganSolveTest, AnswersBeyondAllMeaningAreRefusedAndNothingIsWritten) {
   build();
   for (const char* model : {"tensors", "direct"}) {

@@ -35,7 +35,7 @@ geometry::TetraMesh irregular_box(int n, const Vec3& size) {
 TEST(DirectSolveTest, PatchTestLinearFieldIsReproducedInside) {
   const Vec3 size(0.04, 0.05, 0.03);
   const geometry::TetraMesh mesh = irregular_box(4, size);
-  const Stiffness K = assemble_stiffness(mesh, {3000, 0.45, 1000});
+  const Stiffness K = assemble_stiffness(mesh, Material{3000, 0.45, 1000});
   Eigen::Matrix3d gradient;
   gradient << 0.01, 0.02, -0.01, 0.005, -0.02, 0.01, 0.0, 0.015, 0.03;
   std::vector<ImposedDisplacement> boundary;
@@ -84,6 +84,64 @@ TEST(DirectSolveTest, UniaxialStretchGivesYoungTimesStrainTimesArea) {
     const Vec3& p = mesh.positions[n];
     const Vec3 u(-material.poisson * strain * p.x(), -material.poisson * strain * p.y(), strain * p.z());
     EXPECT_LE((solution.displacements[n] - u).norm(), kRounding * strain * size.norm());
+  }
+}
+
+// Two materials in series: one stress in both, so that each has its own constant strain. Displacements along
+// z are linear in either part, which linear elements hold exactly where no tetrahedron lies in both.
+struct TwoMaterials {
+  const char* name;
+  Material lower, upper;
+  bool
+      confined;  // sides on rollers: strain along z alone, else sides are free and nothing contracts (nu = 0)
+};
+
+class SeriesTest : public testing::TestWithParam<TwoMaterials> {
+ protected:
+  // Stress per strain along z.
+  static double modulus(const Material& m) { return m.lambda() + 2 * m.mu(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Bars, SeriesTest,
+                         testing::Values(TwoMaterials{"free", {2000, 0, 1000}, {10000, 0, 1000}, false},
+                                         TwoMaterials{
+                                             "confined", {2000, 0.45, 1000}, {10000, 0.2, 1000}, true}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(SeriesTest, ABarUnderTensionHasTheAnalyticDisplacement) {
+  const TwoMaterials& p = GetParam();
+  const double length = 0.1, joint = 0.04, pull_n = 0.5;
+  const Vec3 size(0.02, 0.02, length);
+  geometry::TetraMesh mesh = test::make_box_mesh(2, 2, 10, size);
+  for (const auto& t : mesh.tetrahedra) {
+    const double z = (mesh.positions[t[0]].z() + mesh.positions[t[3]].z()) / 2;
+    mesh.regions.push_back(z < joint ? 3 : 8);
+  }
+  FixedComponents fixed(mesh.positions.size(), 0);
+  std::vector<ImposedDisplacement> top;
+  const double stress = pull_n / (size.x() * size.y());
+  const auto expected = [&](double z) {
+    return stress * (std::min(z, joint) / modulus(p.lower) + std::max(z - joint, 0.0) / modulus(p.upper));
+  };
+  for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+    const Vec3& x = mesh.positions[n];
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool at_side = x[axis] < 1e-12 || x[axis] > size[axis] - 1e-12;
+      if (p.confined && axis < 2 ? at_side : x[axis] < 1e-12)
+        fixed[n] |= static_cast<std::uint8_t>(1 << axis);
+    }
+    if (x.z() > length - 1e-12) top.push_back({NodeId(n), {0, 0, expected(length)}});
+  }
+
+  const MaterialMap material{p.lower, {{8, p.upper}}};
+  const StaticSolution solution = direct_solve(assemble_stiffness(mesh, material), fixed, top, {});
+
+  double pull = 0;
+  for (const Vec3& f : solution.holding_forces) pull += f.z();
+  EXPECT_NEAR(pull, pull_n, kRounding * pull_n);
+  for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+    const Vec3 u(0, 0, expected(mesh.positions[n].z()));
+    EXPECT_LE((solution.displacements[n] - u).norm(), kRounding * expected(length)) << mesh.positions[n].z();
   }
 }
 
@@ -149,7 +207,7 @@ TEST(DirectSolveTest, ImposedNodesArriveExactlyAndNothingElseIsLoaded) {
   const geometry::TetraMesh mesh = test::make_box_mesh(3, 3, 3, {0.05, 0.05, 0.05});
   FixedComponents fixed(mesh.positions.size(), 0);
   for (int n = 0; n < 16; ++n) fixed[n] = kPinned;
-  const Stiffness K = assemble_stiffness(mesh, {3000, 0.45, 1000});
+  const Stiffness K = assemble_stiffness(mesh, Material{3000, 0.45, 1000});
   const std::vector<ImposedDisplacement> imposed{{NodeId(60), {1e-3, 0, -2e-3}}, {NodeId(40), {0, 1e-3, 0}}};
 
   const StaticSolution solution = direct_solve(K, fixed, imposed, {});

@@ -56,5 +56,40 @@ TEST_F(StiffnessTest, BodyForcesSumToWeight) {
   EXPECT_LE((total - weight).norm(), kRounding * weight.norm());
 }
 
+TEST_F(StiffnessTest, EachTetrahedronIsOfItsRegionsMaterial) {
+  geometry::TetraMesh labelled = mesh;
+  labelled.regions.assign(mesh.tetrahedra.size(), 4);
+  labelled.regions.front() = -2;
+  const Material stiff{50000, 0.1, 3000};
+  const MaterialMap material{kMaterial, {{-2, stiff}, {9, Material{1, 0, 1}}}};
+  const Stiffness mixed = assemble_stiffness(labelled, material);
+
+  const ElementTensors own = element_tensors(corners_of(mesh, geometry::TetId(0)), stiff),
+                       common = element_tensors(corners_of(mesh, geometry::TetId(0)), kMaterial);
+  const auto& tet = mesh.tetrahedra[0];
+  for (int j = 0; j < 4; ++j) {
+    for (std::int32_t b = K.start[tet[j]]; b < K.start[tet[j] + 1]; ++b) {
+      const auto corner = std::ranges::find(tet, K.neighbour[b]);
+      Eigen::Matrix3d expected = K.block[b];
+      if (corner != tet.end()) expected += own[j][corner - tet.begin()] - common[j][corner - tet.begin()];
+      EXPECT_LE((mixed.block[b] - expected).norm(), kRounding * mixed.block[b].norm());
+    }
+  }
+  Vec3 more = Vec3::Zero();
+  const Vec3 gravity(0, 0, -10);
+  for (const Vec3& f : body_forces(labelled, material, gravity)) more += f;
+  for (const Vec3& f : body_forces(mesh, kMaterial, gravity)) more -= f;
+  const Corners c = corners_of(mesh, geometry::TetId(0));
+  EXPECT_NEAR(more.z(), -10 * (stiff.density_kg_m3 - 1000) * geometry::signed_volume(c[0], c[1], c[2], c[3]),
+              1e-12);
+}
+
+TEST_F(StiffnessTest, LabelsWithoutMaterialsOfTheirOwnChangeNoBit) {
+  geometry::TetraMesh labelled = mesh;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    labelled.regions.push_back(static_cast<std::int32_t>(t % 3));
+  EXPECT_EQ(assemble_stiffness(labelled, kMaterial).block, K.block);
+}
+
 }  // namespace
 }  // namespace omentum::physics

@@ -1,8 +1,8 @@
 // A node that does nothing but wait for its end: what CommandLine and StopSignal make of it is under test.
 #include "runtime/node_options.h"
 #include "runtime/rate_loop.h"
-#include "runtime/scene.h"
 #include "runtime/signals.h"
+#include "scene/scene.h"
 
 #include <iostream>
 
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   omentum::runtime::NodeOptions options;
   omentum::runtime::add_node_options(line, options);
   return line.run(argc, argv, [&] {
-    omentum::runtime::load_scene(options.scene);
+    omentum::scene::load_scene(options.scene);
     omentum::runtime::RateLoop loop(1000);
     omentum::runtime::StopSignal stop_signal([&] { loop.stop(); });
     std::cout << "ready" << std::endl;

@@ -11,7 +11,7 @@
 namespace omentum::runtime {
 namespace {
 
-constexpr double kSlowHz = 0.1;  // a scheduled tick would take 10 s: a test that waits for one is seen
+constexpr double kSlow_hz = 0.1;  // a scheduled tick would take 10 s: a test that waits for one is seen
 
 TEST(RateLoop, RefusesRatesThatAreNone) {
   for (const double rate : {0.0, -1.0, 1e6, std::numeric_limits<double>::quiet_NaN()}) {
@@ -20,20 +20,20 @@ TEST(RateLoop, RefusesRatesThatAreNone) {
 }
 
 TEST(RateLoop, AWakeEndsTheWait) {
-  RateLoop loop(kSlowHz);
+  RateLoop loop(kSlow_hz);
   std::thread waker([&] { loop.wake(); });
   EXPECT_EQ(loop.wait(), RateLoop::Cause::kWoken);
   waker.join();
 }
 
 TEST(RateLoop, AWakeBeforeTheWaitIsNotLost) {
-  RateLoop loop(kSlowHz);
+  RateLoop loop(kSlow_hz);
   loop.wake();
   EXPECT_EQ(loop.wait(), RateLoop::Cause::kWoken);
 }
 
 TEST(RateLoop, StopEndsTheWaitForGood) {
-  RateLoop loop(kSlowHz);
+  RateLoop loop(kSlow_hz);
   std::thread stopper([&] { loop.stop(); });
   EXPECT_EQ(loop.wait(), RateLoop::Cause::kStopped);
   stopper.join();
@@ -52,7 +52,7 @@ TEST(RateLoop, TicksOnItsOwnAndRecordsThem) {
 }
 
 TEST(RateLoop, WorkBesideItGoesOnUntilItIsGivenBack) {
-  RateLoop loop(kSlowHz);
+  RateLoop loop(kSlow_hz);
   std::atomic<int> calls{0};
   auto work = loop.beside(std::chrono::milliseconds(1), [&] {
     ++calls;
@@ -65,7 +65,7 @@ TEST(RateLoop, WorkBesideItGoesOnUntilItIsGivenBack) {
 
 TEST(RateLoop, EveryPostOfAnotherThreadIsSeenByATickThatStartsLater) {
   // no lost wake-up: the waker waits for each tick before it wakes again
-  RateLoop loop(kSlowHz);
+  RateLoop loop(kSlow_hz);
   std::atomic<int> posted{0}, seen{0};
   std::thread waker([&] {
     for (int i = 1; i <= 2000; ++i) {

@@ -16,11 +16,12 @@ FLOORS = {
     "organ": {"files", "geometry", "physics"},
     "idl": set(),
     "transport": {"idl"},
-    "runtime": {"files"},
-    "node": {"idl", "transport", "runtime"},
+    "runtime": {"files", "idl"},
+    "scene": {"files", "geometry", "idl"},
+    "node_common": {"geometry", "organ", "idl", "transport", "runtime", "scene"},
 }
 STANDING_ON = set(FLOORS)
-PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session", "organ_tools"}
+PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session_tools", "organ_tools"}
 FREE = {"tests", "benchmarks"}  # may look into every room
 ROOMS = set(FLOORS) | PROGRAMS | FREE
 NO_ROOMS = ("build", "install", "cmake", ".")  # how the folders are called that may hold sources without being a room

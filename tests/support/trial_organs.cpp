@@ -2,7 +2,7 @@
 
 #include "organ/build_organ.h"
 #include "organ/support_spec.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
 
@@ -64,9 +64,9 @@ std::optional<std::filesystem::path> trial_organ_file(const OrganRecipe& recipe)
   std::optional<geometry::TetraMesh> mesh = mesh_of(recipe);
   if (!mesh) return std::nullopt;
   auto fixed = organ::parse_supports(std::array{recipe.fixed}, *mesh);
-  const organ::Organ organ =
-      organ::make_organ(recipe.name, std::move(*mesh), {recipe.young_pa, kPoisson, kDensity_kg_m3},
-                        std::move(fixed), organ::Storage::kFloat);
+  const organ::Organ organ = organ::make_organ(recipe.name, std::move(*mesh),
+                                               physics::Material{recipe.young_pa, kPoisson, kDensity_kg_m3},
+                                               std::move(fixed), organ::Storage::kFloat);
   const std::filesystem::path folder = OMENTUM_BIN_DIR "/../trial_organs";
   std::filesystem::create_directories(folder);
   const auto file = folder / (organ.hash + ".h5");
@@ -89,11 +89,11 @@ std::optional<organ::Organ> make_trial_organ(const OrganRecipe& recipe) {
 
 std::vector<haptic::ToolModel> scene_tools(bool with_trocars) {
   std::vector<haptic::ToolModel> tools;
-  for (const runtime::ToolSpec& spec : runtime::load_scene(kScene).tools) {
+  for (const scene::ToolSpec& spec : scene::load_scene(kScene).tools) {
     haptic::ToolModel tool;
-    for (const runtime::Triple& p : spec.points) tool.points.emplace_back(p.data());
+    tool.points = spec.points;
     tool.grasps = spec.shape == "grasper";
-    if (with_trocars && spec.trocar) tool.trocar = Vec3(spec.trocar->data());
+    if (with_trocars) tool.trocar = spec.trocar;
     tools.push_back(std::move(tool));
   }
   return tools;

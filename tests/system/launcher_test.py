@@ -130,8 +130,11 @@ class LauncherTest(unittest.TestCase):
 
 
 class Sessions(LauncherTest):
-    def check_session(self, dds, vendors, *more):
-        done = self.run_it(*more, "--headless", "--seconds", "8", "--out", self.out, "--dds", dds)
+    # each vendor alone: tests/system/session_test.cpp, and Endings.test_sessions_in_a_row_end_well
+    def test_each_node_on_the_vendor_that_it_was_given(self):
+        vendors = dict(haptic_node="fast", deform_node="cyclone", render_node="fast", virtual_device="cyclone")
+        done = self.run_it(HOLD, "--headless", "--seconds", "8", "--out", self.out,
+                           "--dds", "haptic=fast,deform=cyclone,render=fast,device=cyclone")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         report = self.report()
         self.check_shape(report, SHAPE)
@@ -145,17 +148,6 @@ class Sessions(LauncherTest):
         for link in SHAPE["link"]:
             self.assertGreater(report["link"][link]["count"], 0, link)
         self.assertTrue((self.out / "indent.png").is_file(), "no picture of the dent")
-        return report
-
-    def test_fast(self):
-        self.check_session("fast", dict.fromkeys(NODES, "fast"), HOLD)
-
-    def test_cyclone(self):
-        self.check_session("cyclone", dict.fromkeys(NODES, "cyclone"), HOLD)
-
-    def test_mixed(self):
-        self.check_session("haptic=fast,deform=cyclone,render=fast,device=cyclone",
-                           dict(haptic_node="fast", deform_node="cyclone", render_node="fast", virtual_device="cyclone"), HOLD)
 
 
 class Pictures(LauncherTest):
@@ -179,13 +171,13 @@ class Pictures(LauncherTest):
 
 
 class Devices(LauncherTest):
-    def check_run(self, *arguments):
-        done = self.run_it(HOLD, "--headless", "--seconds", "8", "--out", self.out, *arguments)
+    def check_run(self, *arguments, seconds=8):
+        done = self.run_it(HOLD, "--headless", "--seconds", seconds, "--out", self.out, *arguments)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout, self.report()["nodes"]
 
     def test_none_leaves_the_tools_to_others(self):
-        _, nodes = self.check_run("--device", "none")
+        _, nodes = self.check_run("--device", "none", seconds=3)
         self.assertNotIn("virtual_device", nodes)
         self.assertGreater(nodes["haptic_node"]["loop"]["ticks"], 0)
         self.assertEqual(nodes["haptic_node"]["contacts"]["ticks_in_contact"], 0)
@@ -398,12 +390,12 @@ class Parts(unittest.TestCase):
         environment.start()
         self.addCleanup(environment.stop)
 
-    def build(self, fixed, name="liver", mesh=None):
+    def build(self, fixed, name="liver", mesh=None, regions=()):
         """What build_organ would take from the cache, made by a stand-in for organ_build."""
         mesh = mesh or self.folder / "liver.msh"
         mesh.touch()
         options = mock.Mock(programs=self.folder)
-        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1}
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": list(regions)}
         with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
             return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed)
 
@@ -415,6 +407,41 @@ class Parts(unittest.TestCase):
             self.assertEqual(self.build(fixed), first)
             nodes.write_text("1\n3\n")
             self.assertNotEqual(self.build(fixed), first, fixed)
+
+    def test_each_region_is_told_to_organ_build_and_makes_another_organ(self):
+        told = []
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": ["label=1; young=2", "ball=0,0,0,1; young=3"]}
+        (self.folder / "liver.msh").touch()
+
+        def run_tool(_, words, __):
+            told.extend(words)
+            pathlib.Path(words[3]).write_text("organ")
+
+        with mock.patch.object(organs, "run_tool", run_tool):
+            organs.build_organ(mock.Mock(programs=self.folder), cache.Cache(), self.folder / "liver.msh", "liver", spec, 1.0, "x")
+        self.assertEqual(told[-4:], ["--region", "label=1; young=2", "--region", "ball=0,0,0,1; young=3"])
+        plain = self.build("plane:x<0")
+        self.assertNotEqual(self.build("plane:x<0", regions=["label=1; young=2"]), plain)
+        self.assertNotEqual(self.build("plane:x<0", regions=["label=1; young=3"]),
+                            self.build("plane:x<0", regions=["label=1; young=2"]))
+
+    def test_regions_stay_behind_when_another_organ_comes(self):
+        told = []
+        (self.folder / "kidney.msh").touch()
+        spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": ["ball=0,0,0,1; young=3"]}
+        options = mock.Mock(programs=self.folder, organ=self.folder / "kidney.msh", scale=1.0, fixed="plane:x<0")
+
+        def run_tool(_, words, __):
+            if words[0] == "scene_prepare":
+                return '{"min": [0, 0, 0], "max": [0.1, 0.1, 0.1]}'
+            told.extend(words)
+            pathlib.Path(words[3]).write_text("organ")
+            return ""
+
+        with mock.patch.object(organs, "run_tool", run_tool), contextlib.redirect_stdout(io.StringIO()) as said:
+            organs.users_organ_file(options, cache.Cache(), spec)
+        self.assertNotIn("--region", told)
+        self.assertIn("kidney.msh is of one material", said.getvalue())
 
     def test_support_file_of_a_scene_lies_beside_it(self):
         scene = self.folder / "scenes" / "a.toml"
@@ -462,6 +489,22 @@ class Parts(unittest.TestCase):
         first = self.build("plane:y>0")
         (self.folder / "organ_build").write_text("format 3")
         self.assertNotEqual(self.build("plane:y>0"), first)
+
+    def test_a_users_organ_takes_the_place_of_the_first_alone(self):
+        specs = [{"file": "", "mesh": f"phantom:{kind}", "name": name, "metres_per_unit": 1, "fixed": "plane:y>0"}
+                 for kind, name in (("paper", "liver"), ("gallbladder", "sac"))]
+        made = []
+
+        def tool(_, words, __):
+            made.append(words[1:-2])
+            pathlib.Path(words[-1]).write_text(words[2])
+
+        for given, wanted in ((None, ["liver", "sac"]), (self.folder / "own.h5", [self.folder / "own.h5", "sac"])):
+            opened = mock.Mock(programs=self.folder, organ=given, scene=HOLD)
+            with mock.patch.object(organs, "run_tool", tool), \
+                    mock.patch.object(organs, "build_organ", lambda _, __, mesh, name, *more: name):
+                self.assertEqual(organs.organ_files(opened, cache.Cache(), specs), wanted)
+        self.assertEqual(made, [["--size", "paper"], ["--part", "gallbladder"]])
 
     def test_organ_of_another_name_is_another_file_and_takes_none_away(self):
         first = self.build("plane:y>0", "liver")
@@ -694,6 +737,10 @@ class Refusals(LauncherTest):
         self.check_refused("missing.toml", about="missing.toml")
         self.check_refused(self.file("syntax.toml", "name = \n"), about="syntax.toml:1")
         self.check_refused(self.file("key.toml", HOLD.read_text() + "\nflavour = 3\n"), about="flavour")
+        two = (options.REPOSITORY / "scenes" / "two_organs.toml").read_text()
+        line = two[:two.index('name = "gallbladder"')].count("\n") + 1
+        self.check_refused(self.file("twice.toml", two.replace('name = "gallbladder"', 'name = "liver"')),
+                           about=f'twice.toml:{line}: organs[1].name: found "liver" again')
         self.check_refused(self.file("mesh.toml", HOLD.read_text().replace("phantom:paper", "gone.msh")), about="gone.msh")
 
     def test_wrong_organs(self):

@@ -1,7 +1,7 @@
 // The force that is felt is the force of the elastic organ: recorded contacts, solved again without any
 // tensors.
 #include "organ/organ.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include "tests/support/meshes.h"
 #include "tests/system/session_on_trial.h"
@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 constexpr std::size_t kTicks = 20;
 /// Asked for by the issue: float tensors, and contacts that travel as double.
 constexpr double kWithin = 1e-3;
-constexpr double kFeltN = 0.1;
+constexpr double kFelt_n = 0.1;
 
 Vector3d to_vector(const msg::Vec3& v) {
   return {v.x, v.y, v.z};
@@ -66,7 +66,7 @@ std::vector<Moment> record(const std::string& scene, milliseconds apart) {
   std::vector<Moment> moments;
   std::set<std::uint64_t> ticks;
   comes_true([&] {
-    if (observer.force_n() < kFeltN) return false;
+    if (observer.force_n() < kFelt_n) return false;
     const auto state = observer.state();
     const auto moment = state ? moment_of(*state, observer.contacts(), observer.forces()) : std::nullopt;
     if (moment && ticks.insert(moment->contacts.front().tick).second) moments.push_back(*moment);
@@ -155,7 +155,7 @@ void expect_same_surface(const organ::Organ& organ, const Moment& moment, const 
 }
 
 void expect_replay_agrees(const std::string& scene, milliseconds apart) {
-  const std::string organ_file = runtime::load_scene(scene).organs.front().file;
+  const std::string organ_file = scene::load_scene(scene).organs.front().file;
   const organ::Organ organ = organ::load_organ(organ_file, organ::Load::kMeshOnly);
   const std::vector<Moment> moments = record(scene, apart);
   ASSERT_GE(moments.size(), kTicks) << "too few moments that all three topics told";

@@ -1,7 +1,7 @@
 // scene_prepare: a scene fits its organ, whichever organ that is.
 #include "geometry/closest_points.h"
 #include "organ/organ.h"
-#include "runtime/scene.h"
+#include "scene/scene.h"
 
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 
@@ -20,13 +21,9 @@ using geometry::Vec3;
 
 const std::string kOwnScene = OMENTUM_SOURCE_DIR "/scenes/liver.toml";
 /// Closest points and interpolated positions are doubles on an organ of decimetres.
-constexpr double kOnSurfaceM = 1e-9;
+constexpr double kOnSurface_m = 1e-9;
 /// A slide may leave a curved surface by this part of its length: the hand's target is 10 mm below it.
 constexpr double kLiftShare = 0.3;
-
-Vec3 to_vector(const runtime::Triple& t) {
-  return {t[0], t[1], t[2]};
-}
 
 class Skin {
  public:
@@ -67,10 +64,9 @@ class Skin {
   std::vector<Vec3> x_;
 };
 
-void expect_hand_fits(const Skin& skin, const runtime::HandSpec& hand) {
-  const Vec3 p = to_vector(hand.press_point), n = to_vector(hand.press_normal),
-             d = to_vector(hand.slide_direction);
-  EXPECT_LE(skin.distance(p), kOnSurfaceM);
+void expect_hand_fits(const Skin& skin, const scene::HandSpec& hand) {
+  const Vec3 p = hand.press_point, n = hand.press_normal, d = hand.slide_direction;
+  EXPECT_LE(skin.distance(p), kOnSurface_m);
   EXPECT_NEAR(n.norm(), 1, 1e-9);
   EXPECT_NEAR(d.norm(), 1, 1e-9);
   EXPECT_NEAR(n.dot(d), 0, 1e-9) << "the slide is tangential";
@@ -94,18 +90,18 @@ TEST_P(ForeignOrganTest, HandsPressOnTheSurfaceApartAndAwayFromTheSupportsAndSli
   Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
   ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
 
-  const runtime::Scene scene = runtime::load_scene(fitted);
+  const scene::Scene scene = scene::load_scene(fitted);
   EXPECT_EQ(scene.organs.front().file, organ);
   const Skin skin(organ);
-  for (const runtime::HandSpec& hand : scene.hands) {
+  for (const scene::HandSpec& hand : scene.hands) {
     SCOPED_TRACE(hand.tool);
     expect_hand_fits(skin, hand);
-    const Vec3 p = to_vector(hand.press_point), d = to_vector(hand.slide_direction);
+    const Vec3 p = hand.press_point, d = hand.slide_direction;
     EXPECT_GT(skin.to_support(p), 0.1 * skin.diagonal());
     for (const double part : {0.5, 1.0})
-      EXPECT_LE(skin.distance(p + part * hand.slide_m * d), kLiftShare * hand.slide_m + kOnSurfaceM);
+      EXPECT_LE(skin.distance(p + part * hand.slide_m * d), kLiftShare * hand.slide_m + kOnSurface_m);
   }
-  const Vec3 between = to_vector(scene.hands[0].press_point) - to_vector(scene.hands[1].press_point);
+  const Vec3 between = scene.hands[0].press_point - scene.hands[1].press_point;
   EXPECT_GT(between.norm(), 0.1 * skin.diagonal());
 }
 
@@ -146,26 +142,138 @@ TEST(BoxTest, AForeignOrganGivesTheSceneItsName) {
   ASSERT_EQ(build.wait(), 0) << build.messages();
   Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
   ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
-  const runtime::Scene scene = runtime::load_scene(fitted);
+  const scene::Scene scene = scene::load_scene(fitted);
   EXPECT_EQ(scene.name, "kidney pressed by a simulated hand");
   EXPECT_EQ(scene.organs.front().name, "kidney");
 }
 
+// Whoever reads the fitted scene knows what the organ is made of, whichever organ it became.
+TEST(BoxTest, AForeignOrgansMaterialsAreThoseOfTheFittedScene) {
+  const ScratchFolder folder;
+  const std::filesystem::path mesh = folder / "box.msh";
+  const std::string organ = folder / "kidney.h5", fitted = folder / "scene.toml";
+  geometry::write_mesh(make_box_mesh(4, 3, 3, {0.12, 0.09, 0.06}), mesh);
+  Process build("organ_build",
+                {mesh, "-o", organ, "--young", "9000", "--poisson", "0.4", "--density", "1000", "--scale",
+                 "1", "--fixed", "plane:z<0.01", "--region", "ball=0.06,0.04,0.03,0.02;young=45000"});
+  ASSERT_EQ(build.wait(), 0) << build.messages();
+  Process prepare("scene_prepare", {kOwnScene, "--organ", organ, "-o", fitted});
+  ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
+  const scene::Scene scene = scene::load_scene(fitted);
+  const scene::OrganSpec& spec = scene.organs.front();
+  EXPECT_EQ(spec.young_pa, 9000);
+  EXPECT_EQ(spec.poisson, 0.4);
+  EXPECT_EQ(spec.density_kg_m3, 1000);
+  ASSERT_EQ(spec.regions.size(), 1u);
+  EXPECT_EQ(spec.regions[0].label, 2) << "above the mesh's own";
+  EXPECT_EQ(spec.regions[0].young_pa, 45000);
+}
+
+TEST(OwnOrganTest, RegionsStayInTheFittedSceneAndAreToldAsOrganBuildTakesThem) {
+  const ScratchFolder folder;
+  const std::string scene = folder / "scene.toml", fitted = folder / "fitted.toml";
+  std::string text = test::read_text(kOwnScene);
+  text.insert(text.find("[[tools]]"),
+              "[[organs.regions]]\nball = [-0.05, 0, 0.01, 0.01]\nyoung_pa = 30000\n"
+              "[[organs.regions]]\nlabel = 4\npoisson = 0.3\n");
+  std::ofstream(scene) << text;
+  const scene::Scene held = scene::load_scene(held_scene());
+  Process prepare("scene_prepare",
+                  {scene, "--organ", held.organs.front().file, "-o", fitted, "--keep-points"});
+  ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
+  const auto regions = scene::load_scene(fitted).organs.front().regions;
+  ASSERT_EQ(regions.size(), 2u);
+  EXPECT_EQ(regions[0].ball, (std::vector<double>{-0.05, 0, 0.01, 0.01}));
+  EXPECT_EQ(regions[0].young_pa, 30000);
+  EXPECT_EQ(regions[1].label, 4);
+  Process describe("scene_prepare", {fitted, "--describe"});
+  EXPECT_EQ(describe.wait(), 0) << describe.messages();
+  EXPECT_EQ(nlohmann::json::parse(describe.output())["organs"][0]["regions"],
+            (nlohmann::json{"ball=-0.05,0.0,0.01,0.01; young=30000.0", "label=4; poisson=0.3"}));
+}
+
+/// Two boxes, one beside the other, and scenes/two_organs.toml, whose hands press one of its organs each.
+class TwoOrgansTest : public ::testing::Test {
+ protected:
+  std::string box(const std::string& name, double at_x) {
+    geometry::TetraMesh mesh = make_box_mesh(4, 3, 3, {0.12, 0.09, 0.06});
+    for (Vec3& p : mesh.positions) p.x() += at_x;
+    const std::string file = folder_ / (name + ".msh"), organ = folder_ / (name + ".h5");
+    geometry::write_mesh(mesh, file);
+    Process build("organ_build", {file, "-o", organ, "--young", "12000", "--poisson", "0.45", "--density",
+                                  "1060", "--scale", "1", "--fixed", "plane:z<0.01"});
+    EXPECT_EQ(build.wait(), 0) << build.messages();
+    return organ;
+  }
+  scene::Scene prepared(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", fitted_});
+    Process prepare("scene_prepare", arguments);
+    EXPECT_EQ(prepare.wait(), 0) << prepare.messages();
+    return scene::load_scene(fitted_);
+  }
+
+  const std::string scene_ = OMENTUM_SOURCE_DIR "/scenes/two_organs.toml";
+  const ScratchFolder folder_;
+  const std::string fitted_ = folder_ / "scene.toml";
+};
+
+TEST_F(TwoOrgansTest, EachHandIsProjectedOntoTheOrganThatItPresses) {
+  const std::vector<std::string> files = {box("a", -0.2), box("b", 0.2)};
+  const scene::Scene scene = prepared({scene_, "--keep-points", "--organ", files[0], "--organ", files[1]});
+  ASSERT_EQ(scene.organs.size(), 2U);
+  ASSERT_EQ(scene.hands.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(scene.organs[i].file, files[i]);
+    EXPECT_EQ(scene.hands[i].organ, scene.organs[i].name);
+    EXPECT_LE(Skin(files[i]).distance(scene.hands[i].press_point), kOnSurface_m);
+  }
+  EXPECT_EQ(scene.organs[1].look, "gallbladder");
+}
+
+TEST_F(TwoOrgansTest, AForeignOrganTakesThePlaceOfTheFirstAndItsHandAndTheOtherHandStays) {
+  const std::string foreign = box("kidney", -0.2), own = box("b", 0.2);
+  const scene::Scene scene = prepared({scene_, "--organ", foreign, "--organ", own});
+  EXPECT_EQ(scene.organs[0].name, "kidney");
+  EXPECT_EQ(scene.organs[1].name, "gallbladder");
+  EXPECT_EQ(scene.hands[0].organ, "kidney");
+  EXPECT_EQ(scene.hands[1].organ, "gallbladder");
+  expect_hand_fits(Skin(foreign), scene.hands[0]);
+  EXPECT_LE(Skin(own).distance(scene.hands[1].press_point), kOnSurface_m);
+  EXPECT_EQ(scene.hands[1].depth_m, scene::load_scene(scene_).hands[1].depth_m);
+}
+
+TEST_F(TwoOrgansTest, WrongFilesAreRefusedWithOneLineAndNothingIsWritten) {
+  const std::string organ = box("kidney", 0), named = box("gallbladder", 0);
+  for (const auto& [files, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{organ}, "two_organs.toml: organ \"gallbladder\" has no file, expected another --organ"},
+           {{organ, organ, organ}, "--organ: found 3 files, expected at most 2"},
+           {{named, organ}, "gallbladder.h5: found an organ called \"gallbladder\" as another one"}}) {
+    std::vector<std::string> arguments = {scene_, "-o", fitted_};
+    for (const std::string& file : files) arguments.insert(arguments.end(), {"--organ", file});
+    Process prepare("scene_prepare", arguments);
+    EXPECT_EQ(prepare.wait(), 2);
+    const std::string messages = prepare.messages();
+    EXPECT_NE(messages.find(says), std::string::npos) << messages;
+    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1) << messages;
+    EXPECT_FALSE(std::filesystem::exists(fitted_));
+  }
+}
+
 TEST(OwnOrganTest, PressPointsAreProjectedOntoTheSurfaceAndNothingElseMoves) {
-  const runtime::Scene held = runtime::load_scene(held_scene());
+  const scene::Scene held = scene::load_scene(held_scene());
   const ScratchFolder folder;
   const std::string fitted = folder / "scene.toml";
   Process prepare("scene_prepare",
                   {kOwnScene, "--organ", held.organs.front().file, "-o", fitted, "--keep-points"});
   ASSERT_EQ(prepare.wait(), 0) << prepare.messages();
-  const runtime::Scene before = runtime::load_scene(kOwnScene), after = runtime::load_scene(fitted);
+  const scene::Scene before = scene::load_scene(kOwnScene), after = scene::load_scene(fitted);
   const Skin skin(held.organs.front().file);
   EXPECT_EQ(after.name, before.name);
   ASSERT_EQ(after.hands.size(), before.hands.size());
   for (std::size_t i = 0; i < after.hands.size(); ++i) {
     expect_hand_fits(skin, after.hands[i]);
-    const Vec3 wanted = to_vector(before.hands[i].press_point);
-    EXPECT_NEAR((to_vector(after.hands[i].press_point) - wanted).norm(), skin.distance(wanted), kOnSurfaceM)
+    const Vec3 wanted = before.hands[i].press_point;
+    EXPECT_NEAR((after.hands[i].press_point - wanted).norm(), skin.distance(wanted), kOnSurface_m)
         << "the nearest surface point";
     EXPECT_EQ(after.hands[i].slide_m, before.hands[i].slide_m);
     EXPECT_EQ(after.hands[i].depth_m, before.hands[i].depth_m);

@@ -34,7 +34,7 @@ TEST(Bounds, AStringOverItsBoundIsFoundAtAnyDepth) {
   EXPECT_FALSE(within_bounds(scene));
 
   msg::NodeStatus status;
-  status.faults.assign(3, std::string(160, 'x'));
+  status.faults.assign(3, std::string(msg::MAX_LINE, 'x'));
   EXPECT_TRUE(within_bounds(status));
   status.faults[2] += 'x';
   EXPECT_FALSE(within_bounds(status));

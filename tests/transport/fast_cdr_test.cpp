@@ -1,6 +1,7 @@
 #include "transport/fast/cdr.h"
 
 #include "tests/transport/fill.h"
+#include "transport/topics.h"
 
 #include <gtest/gtest.h>
 
@@ -30,18 +31,37 @@ TEST(Cdr, EveryMessageComesBackAndItsSizeIsForeseen) {
 }
 
 TEST(Cdr, BytesAreThoseOfTheStandard) {
-  msg::SessionCommand command{.seq = 0x0102030405060708, .command = 3, .argument = "ab"};
-  const std::vector<char> expected = {0, 1, 0, 0,                  // plain CDR, little endian
-                                      8, 7, 6, 5, 4,   3,   2, 1,  // seq
-                                      3, 0, 0, 0,                  // command
-                                      3, 0, 0, 0, 'a', 'b', 0};    // length with the final zero, characters
+  msg::SessionCommand command{
+      .order = 0x0102030405060708, .sender = 0x1112131415161718, .command = 3, .argument = "ab"};
+  const std::vector<char> expected = {
+      0,    1,    0,    0,                             // plain CDR, little endian
+      8,    7,    6,    5,    4,    3,    2,    1,     // order
+      0x18, 0x17, 0x16, 0x15, 0x14, 0x13, 0x12, 0x11,  // sender
+      3,    0,    0,    0,                             // command
+      3,    0,    0,    0,    'a',  'b',  0};          // length with the final zero, characters
   EXPECT_EQ(bytes_of(command), expected);
 }
 
 TEST(Cdr, MembersAreAlignedToTheirOwnSize) {
-  // behind the encapsulation: tool 4 + 4, seq 8, tick 8, cause 4 + 4 + 8 + 8, organ 4 + 4, version 8, three
-  // empty sequences 4 each, grasping 1 + 3, count 8, cutting 1 + 7, count 8
-  EXPECT_EQ(bytes_of(msg::Contact{}).size(), kEncapsulationBytes + 104);
+  // behind the encapsulation: tool 4, organ 4, seq 8, tick 8, cause 4 + 4 + 8 + 8, version 8, three empty
+  // sequences 4 each, grasping 1 + 3, count 8, cutting 1 + 7, count 8, two edges 48 each
+  EXPECT_EQ(bytes_of(msg::Contact{}).size(), kEncapsulationBytes + 192);
+}
+
+// As deform_node would send it on a LAN: full, with the pose of every tool.
+TEST(Cdr, ALocalModelTakesTheDatagramsThatAreStated) {
+  constexpr std::size_t kNodes = local_model_nodes(Profile::kLan);
+  msg::LocalModel model;
+  model.echoes.resize(msg::MAX_TOOLS);
+  model.nodes.resize(kNodes);
+  model.positions.resize(kNodes);
+  model.velocities.resize(kNodes);
+  model.forces.resize(kNodes);
+  model.triangles.resize(3 * 2 * kNodes);  // a closed surface has two for each node, less four
+  model.compliance.resize(local_model_floats(kNodes));
+  constexpr std::size_t kFragment = fragment_bytes(Profile::kLan);
+  EXPECT_LE(bytes_of(model).size(), kLocalModelDatagrams * kFragment);
+  EXPECT_GT(bytes_of(model).size(), (kLocalModelDatagrams - 1) * kFragment);
 }
 
 TEST(Cdr, BytesThatEndEarlyAreRefused) {

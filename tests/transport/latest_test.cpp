@@ -38,9 +38,9 @@ TEST(SequenceTracker, DropsDuplicatesAndLateSamples) {
 TEST(SequenceTracker, ASmallerNumberAfterASilenceIsARestartedSender) {
   SequenceTracker tracker;
   tracker.accept(1000, 0);
-  EXPECT_FALSE(tracker.accept(1, SequenceTracker::kRestartSilenceNs));
-  EXPECT_TRUE(tracker.accept(2, SequenceTracker::kRestartSilenceNs + 1));
-  EXPECT_TRUE(tracker.accept(3, SequenceTracker::kRestartSilenceNs + kMs));
+  EXPECT_FALSE(tracker.accept(1, SequenceTracker::kRestartSilence_ns));
+  EXPECT_TRUE(tracker.accept(2, SequenceTracker::kRestartSilence_ns + 1));
+  EXPECT_TRUE(tracker.accept(3, SequenceTracker::kRestartSilence_ns + kMs));
   EXPECT_EQ(tracker.counters().restarts, 1U);
   EXPECT_EQ(tracker.counters().lost, 0U);
 }
@@ -48,7 +48,7 @@ TEST(SequenceTracker, ASmallerNumberAfterASilenceIsARestartedSender) {
 TEST(SequenceTracker, TheSameNumberAfterASilenceIsStillADuplicate) {
   SequenceTracker tracker;
   tracker.accept(7, 0);
-  EXPECT_FALSE(tracker.accept(7, 10 * SequenceTracker::kRestartSilenceNs));
+  EXPECT_FALSE(tracker.accept(7, 10 * SequenceTracker::kRestartSilence_ns));
   EXPECT_EQ(tracker.counters().duplicates, 1U);
 }
 

@@ -45,10 +45,8 @@ std::string milliseconds(int count) {
 }
 
 std::string general(Profile profile) {
-  // a fragment travels with headers in one message: 500 and 100 bytes of margin worked
-  const std::size_t message = max_message_bytes(profile);
-  const std::size_t fragment = message - (profile == Profile::kLoopback ? 500 : 100);
-  std::string text = element("MaxMessageSize", bytes(message)) + element("FragmentSize", bytes(fragment));
+  std::string text = element("MaxMessageSize", bytes(max_message_bytes(profile))) +
+                     element("FragmentSize", bytes(fragment_bytes(profile)));
   // lo has no MULTICAST flag, and without multicast Cyclone finds no Fast DDS process started later
   if (profile == Profile::kLoopback)
     text += element("Interfaces", R"(<NetworkInterface name="lo" multicast="true"/>)");
@@ -58,8 +56,8 @@ std::string general(Profile profile) {
 std::string discovery(const std::vector<std::string>& peers) {
   // participants of one machine that are found by address need ports that can be guessed: an index each
   constexpr int kMostParticipants = 30;
-  std::string text = element("LeaseDuration", milliseconds(kCycloneLeaseMs)) +
-                     element("SPDPInterval", milliseconds(kAnnouncementPeriodMs));
+  std::string text = element("LeaseDuration", milliseconds(kCycloneLease_ms)) +
+                     element("SPDPInterval", milliseconds(kAnnouncementPeriod_ms));
   if (!peers.empty()) {
     std::string list;
     for (const std::string& peer : peers) list += "<Peer Address=\"" + peer + "\"/>";

@@ -26,7 +26,7 @@ constexpr std::uint32_t kSharedSegmentBytes = 8 * 1024 * 1024;
 // Of 52 kB each: two of our own, and two of each process that we write to.
 constexpr std::uint32_t kSharedPortsBytes = 1024 * 1024;
 // A reader that lost a sample learns of it within this; the default of 3 s would stall durable topics.
-constexpr int kHeartbeatMs = 50;
+constexpr int kHeartbeat_ms = 50;
 // How many participants of one peer machine are looked for, by their ports.
 constexpr std::uint32_t kPeerParticipants = 16;
 // Participants that start together find each other by the first announcements: more of them than the
@@ -55,7 +55,7 @@ void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool shares
   if (shares_memory) {
     auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
     shared_memory->segment_size(kSharedSegmentBytes);
-    shared_memory->healthy_check_timeout_ms(kFastMailboxMs);
+    shared_memory->healthy_check_timeout_ms(kFastMailbox_ms);
     qos.transport().user_transports.push_back(shared_memory);
   }
 }
@@ -77,8 +77,8 @@ dds::DomainParticipantQos participant_qos(const BusOptions& options, bool shares
   dds::DomainParticipantQos qos;
   qos.name(options.name);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  discovery.leaseDuration = duration(kFastLeaseMs);
-  discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriodMs);
+  discovery.leaseDuration = duration(kFastLease_ms);
+  discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriod_ms);
   discovery.initial_announcements.count = kFirstAnnouncements;
   set_transports(qos, options.profile, shares_memory);
   if (shares_memory) {
@@ -180,7 +180,7 @@ dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_
   dds::DataWriterQos qos;
   set_common(qos, spec);
   if (spec.deadline.count() > 0) qos.deadline().period = duration(spec.deadline);
-  qos.reliable_writer_qos().times.heartbeatPeriod = duration(kHeartbeatMs);
+  qos.reliable_writer_qos().times.heartbeatPeriod = duration(kHeartbeat_ms);
   // a sample that fits no single message is sent by Fast DDS' own thread; smaller ones without that hop
   qos.publish_mode().kind =
       max_bytes > max_message_bytes(profile) ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;

@@ -27,8 +27,8 @@ WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication
 
 // A process that stood still for so long may have lost its mailbox, or been forgotten by some and not by
 // others.
-constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastMailboxMs) * 3 / 4;
-static_assert(kFastMailboxMs < kFastLeaseMs);
+constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastMailbox_ms) * 3 / 4;
+static_assert(kFastMailbox_ms < kFastLease_ms);
 
 template <class M>
 class FastWriter final : public Writer<M>, private Endpoint {

@@ -1,0 +1,63 @@
+#include "deform_node/local_publisher.h"
+
+#include <algorithm>
+
+namespace omentum::deform {
+
+namespace {
+
+bool offers_local_models(const ServedOrgan& served) {
+  return served.model->sizes().local_nodes > 0;
+}
+
+}  // namespace
+
+bool offers_local_models(const std::vector<ServedOrgan>& organs) {
+  return std::any_of(organs.begin(), organs.end(),
+                     [](const ServedOrgan& served) { return offers_local_models(served); });
+}
+
+LocalPublisher::LocalPublisher(transport::Writer<msg::LocalModel>& writer,
+                               const std::vector<ServedOrgan>& organs, const runtime::StartWork& start)
+    : writer_(writer), organs_(organs), boxes_(organs.size()) {
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    if (!offers_local_models(organs[i])) continue;
+    StampedPatch room{.organ = static_cast<std::uint32_t>(i), .echoes = {}, .patch = {}};
+    room.patch = LocalPatch(organs[i].model->sizes().local_nodes);
+    for (room.tool = 0; room.tool < msg::MAX_TOOLS; ++room.tool)
+      boxes_[i].push_back(std::make_unique<Box>(room));
+  }
+  writing_ = start([this] { write_newest(); });
+}
+
+void LocalPublisher::offer(std::span<const ToolPlace> tools, std::span<const msg::Echo> echoes,
+                           std::int64_t now_ns) noexcept {
+  bool any = false;
+  for (std::size_t i = 0; i < organs_.size(); ++i)
+    if (!boxes_[i].empty())
+      for (const ToolPlace& tool : tools) any |= offer(i, tool, echoes, now_ns);
+  if (any) writing_->wake();
+}
+
+bool LocalPublisher::offer(std::size_t organ, const ToolPlace& tool, std::span<const msg::Echo> echoes,
+                           std::int64_t now_ns) noexcept {
+  Box& box = *boxes_[organ][tool.tool];
+  StampedPatch& draft = box.newest.draft();
+  if (!organs_[organ].model->local_model(tool.around, draft.patch)) return false;
+  draft.seq = ++box.seq;
+  draft.stamp_ns = now_ns;
+  draft.echoes.take(echoes);
+  box.newest.post();
+  return true;
+}
+
+void LocalPublisher::write_newest() {
+  for (const auto& of_organ : boxes_)
+    for (const auto& box : of_organ) {
+      if (!box->newest.fetch()) continue;
+      fill_local_model(box->newest.value(), message_);
+      writer_.write(message_);
+    }
+}
+
+}  // namespace omentum::deform

@@ -1,0 +1,35 @@
+#include "deform_node/model_table.h"
+
+#include "deform_node/quasi_static_model.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace omentum::deform {
+
+namespace {
+
+std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, const scene::OrganSpec&) {
+  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface.node_count());
+}
+
+constexpr std::array kTable{
+    ModelEntry{"quasi-static", organ::Load::kWithTensors, make_quasi_static},
+};
+
+}  // namespace
+
+std::span<const ModelEntry> model_table() {
+  return kTable;
+}
+
+const ModelEntry& find_model(std::span<const ModelEntry> table, std::string_view word) {
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const ModelEntry& entry) { return entry.word == word; });
+  if (found == table.end())
+    throw std::runtime_error("model of an organ: " + std::string(word) +
+                             " is none that deform_node can make");
+  return *found;
+}
+
+}  // namespace omentum::deform

@@ -1,0 +1,37 @@
+// The organs of a scene, moved together.
+#pragma once
+
+#include "deform_node/organ_collision.h"
+#include "deform_node/served_organ.h"
+#include "runtime/faults.h"
+
+#include <vector>
+
+namespace omentum::deform {
+
+/// Steps each organ's model under what the tools do to it, then lets the organs meet one another. What a
+/// model says is wrong becomes a fault; one that diverged goes back to rest. One thread; step() and reset()
+/// allocate nothing.
+class OrganGroup {
+ public:
+  /// `faults` outlives this.
+  OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faults);
+
+  /// `book` has advanced to this moment.
+  void step(ContactBook& book, double dt_s) noexcept;
+  void reset() noexcept;
+
+  const std::vector<ServedOrgan>& organs() const { return organs_; }
+  /// Over all organs.
+  std::uint64_t steps() const;
+  std::uint32_t removed_tetrahedra() const;
+
+ private:
+  void heed(ServedOrgan& served) noexcept;
+
+  std::vector<ServedOrgan> organs_;
+  runtime::FaultList& faults_;
+  OrganCollision collision_;
+};
+
+}  // namespace omentum::deform

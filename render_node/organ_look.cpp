@@ -1,0 +1,17 @@
+#include "render_node/organ_look.h"
+
+namespace omentum::render {
+namespace {
+
+// The hue of its reflectance in clinical photographs, linear.
+const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
+// Bile through a thin wall: dull green-blue, under a smooth and wetter serosa.
+const Material kGallbladder{{0.040f, 0.086f, 0.064f}, 0.0f, 0.17f};
+
+}  // namespace
+
+Material tissue_material(const std::string& look) {
+  return look == "gallbladder" ? kGallbladder : kLiver;
+}
+
+}  // namespace omentum::render

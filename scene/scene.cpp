@@ -1,0 +1,234 @@
+#include "scene/scene.h"
+
+#include "messages/common.h"
+#include "scene/toml_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace omentum::scene {
+namespace {
+
+using enum TomlSection::Need;
+
+// What organ_phantom makes: the liver in two sizes, and its gallbladder.
+constexpr std::array<std::string_view, 3> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder"};
+constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
+constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
+
+// A scene may make force safety stricter or suit it to a device; it must not disarm it.
+// The strongest table-top devices give 40 N and some N m at the handle: more is a wrong unit.
+constexpr Range kMaxForce_n{.minimum = 0, .maximum = 50, .above = true};
+constexpr Range kMaxTorque_nm{.minimum = 0, .maximum = 5, .above = true};
+// Above 5 N in a tick of 1 ms nothing is left of a limit of 10 N that is approached gently.
+constexpr Range kSlew_n_s{.minimum = 0, .maximum = 5000, .above = true};
+// Fading in faster is a blow to a hand that engages inside an organ; slower than 10 s looks like a dead
+// device.
+constexpr Range kRamp_s{.minimum = 0.02, .maximum = 10};
+// Longer than haptic_node grants the slowest device (kLongestStale_s) a hand is driven by no measurement.
+constexpr Range kStale_s{.minimum = 0, .maximum = 0.025, .above = true};
+// Faster is a blow, slower pushes a hand that has let go, or whose device is dead.
+constexpr Range kDecay_s{.minimum = 0.002, .maximum = 0.05};
+
+// A path in a scene is meant from the scene's folder.
+std::filesystem::path beside(const std::filesystem::path& scene, const std::filesystem::path& file) {
+  return (scene.parent_path() / file).lexically_normal();
+}
+
+void read_model(TomlSection& s, OrganSpec& organ) {
+  std::vector<std::string> words;
+  for (const OrganModelWord& model : kOrganModels) words.emplace_back(model.word);
+  s.read_word("model", organ.model, kOptional, words);
+  organ.kind = std::find_if(kOrganModels.begin(), kOrganModels.end(), [&](const OrganModelWord& model) {
+                 return model.word == organ.model;
+               })->kind;
+}
+
+RegionSpec read_region(TomlSection& s) {
+  RegionSpec region;
+  s.read("label", region.label);
+  s.read("box", region.box, 6);
+  s.read("ball", region.ball, 4);
+  s.read("young_pa", region.young_pa, kPositive);
+  s.read("poisson", region.poisson, kPoisson);
+  s.read("density_kg_m3", region.density_kg_m3, kPositive);
+  s.refuse_unknown_keys();
+  if (region.label.has_value() + !region.box.empty() + !region.ball.empty() != 1)
+    s.refuse("label", "none or several of label, box and ball", "one of them");
+  if (!region.ball.empty() && !(region.ball[3] > 0))
+    s.refuse("ball", "a radius of " + std::to_string(region.ball[3]), "one above 0");
+  if (!region.young_pa && !region.poisson && !region.density_kg_m3)
+    s.refuse("young_pa", "nothing, nor poisson or density_kg_m3",
+             "what of the material differs from the organ's");
+  return region;
+}
+
+OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
+  OrganSpec organ;
+  std::string file;
+  s.read("name", organ.name, kRequired);
+  read_model(s, organ);
+  s.read("mesh", organ.mesh, kRequired);
+  s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
+  s.read("young_pa", organ.young_pa, kRequired, kPositive);
+  s.read("poisson", organ.poisson, kRequired, kPoisson);
+  s.read("density_kg_m3", organ.density_kg_m3, kRequired, kPositive);
+  s.read("fixed", organ.fixed, kRequired);
+  s.read("file", file, kOptional);
+  for (TomlSection& region : s.sections("regions")) organ.regions.push_back(read_region(region));
+  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder"});
+  s.refuse_unknown_keys();
+  if (!organ.mesh.starts_with("phantom:")) {
+    organ.mesh = beside(scene, organ.mesh).string();
+  } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
+    s.refuse("mesh", "\"" + organ.mesh + "\"",
+             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\" or a file");
+  }
+  if (!file.empty()) organ.file = beside(scene, file);
+  return organ;
+}
+
+ToolSpec read_tool(TomlSection& s) {
+  ToolSpec tool;
+  s.read("id", tool.id, kRequired, msg::MAX_TOOLS - 1);
+  s.read("name", tool.name, kRequired);
+  s.read_word("shape", tool.shape, kRequired, {"probe", "grasper"});
+  s.read("points", tool.points, kRequired);
+  s.read("shaft_radius_m", tool.shaft_radius_m, kOptional, kPositive);
+  s.read("shaft_length_m", tool.shaft_length_m, kOptional, kPositive);
+  s.read("trocar", tool.trocar);
+  s.refuse_unknown_keys();
+  return tool;
+}
+
+HandSpec read_hand(TomlSection& s) {
+  HandSpec hand;
+  s.read("tool", hand.tool, kRequired, msg::MAX_TOOLS - 1);
+  s.read("organ", hand.organ, kOptional);
+  s.read("mass_kg", hand.mass_kg, kOptional, kPositive);
+  s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
+  s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
+  s.read("press_point", hand.press_point, kRequired);
+  s.read_direction("press_normal", hand.press_normal, kRequired);
+  s.read_direction("slide_direction", hand.slide_direction, kOptional);
+  s.read("hover_m", hand.hover_m, kOptional, kPositive);
+  s.read("depth_m", hand.depth_m, kOptional, kNotNegative);
+  s.read("slide_m", hand.slide_m, kOptional, kNotNegative);
+  s.read("start_s", hand.start_s, kOptional, kNotNegative);
+  s.read("approach_s", hand.approach_s, kOptional, kPositive);
+  s.read("press_s", hand.press_s, kOptional, kPositive);
+  s.read("hold_s", hand.hold_s, kOptional, kNotNegative);
+  s.read("slide_s", hand.slide_s, kOptional, kPositive);
+  s.read("release_s", hand.release_s, kOptional, kPositive);
+  s.refuse_unknown_keys();
+  return hand;
+}
+
+HapticsSpec read_haptics(TomlSection s) {
+  HapticsSpec haptics;
+  s.read("friction", haptics.friction, kOptional, kNotNegative);
+  s.read_word("contact", haptics.contact, kOptional, {"point", "spread"});
+  s.read("max_force_n", haptics.max_force_n, kOptional, kMaxForce_n);
+  s.read("max_torque_nm", haptics.max_torque_nm, kOptional, kMaxTorque_nm);
+  s.read("max_slew_n_s", haptics.max_slew_n_s, kOptional, kSlew_n_s);
+  s.read("ramp_s", haptics.ramp_s, kOptional, kRamp_s);
+  s.read("stale_s", haptics.stale_s, kOptional, kStale_s);
+  s.read("decay_s", haptics.decay_s, kOptional, kDecay_s);
+  s.refuse_unknown_keys();
+  // the paper's spread imposes three whole displacements: what sticks there sticks without a limit, as glue
+  // does
+  if (haptics.contact == "spread" && haptics.friction > 0)
+    s.refuse("friction", "friction with contact = \"spread\"", "0, or contact = \"point\"");
+  return haptics;
+}
+
+CameraSpec read_camera(TomlSection s, bool given) {
+  CameraSpec camera;
+  s.read_word("mode", camera.mode, kOptional, {"orbit", "endoscope"});
+  s.read("eye", camera.eye, given ? kRequired : kOptional);
+  s.read("target", camera.target, given ? kRequired : kOptional);
+  s.read_direction("up", camera.up, kOptional);
+  s.read("field_of_view_deg", camera.field_of_view_deg, kOptional, kFieldOfView);
+  s.refuse_unknown_keys();
+  return camera;
+}
+
+void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {
+  for (std::size_t i = 0; i < scene.organs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene.organs[i].name != scene.organs[j].name) continue;
+      sections[i].refuse("name", "\"" + scene.organs[i].name + "\" again", "another name for each organ");
+    }
+  }
+}
+
+void refuse_repeated_tools(const Scene& scene, std::vector<TomlSection>& sections) {
+  for (std::size_t i = 0; i < scene.tools.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene.tools[i].id != scene.tools[j].id) continue;
+      sections[i].refuse("id", std::to_string(scene.tools[i].id) + " again", "another id for each tool");
+    }
+  }
+}
+
+void refuse_wrong_hands(const Scene& scene, std::vector<TomlSection>& sections) {
+  for (std::size_t i = 0; i < scene.hands.size(); ++i) {
+    const std::uint32_t id = scene.hands[i].tool;
+    const auto is_tool = [id](const ToolSpec& tool) { return tool.id == id; };
+    const auto is_hand = [id](const HandSpec& hand) { return hand.tool == id; };
+    if (std::none_of(scene.tools.begin(), scene.tools.end(), is_tool)) {
+      sections[i].refuse("tool", std::to_string(id), "the id of one of the [[tools]]");
+    }
+    if (std::any_of(scene.hands.begin(), scene.hands.begin() + static_cast<std::ptrdiff_t>(i), is_hand)) {
+      sections[i].refuse("tool", std::to_string(id) + " again", "another tool for each hand");
+    }
+  }
+}
+
+// A hand that names no organ presses the first one.
+void find_pressed_organs(Scene& scene, std::vector<TomlSection>& sections) {
+  for (std::size_t i = 0; i < scene.hands.size(); ++i) {
+    std::string& pressed = scene.hands[i].organ;
+    if (pressed.empty()) pressed = scene.organs.front().name;
+    const auto is_pressed = [&](const OrganSpec& organ) { return organ.name == pressed; };
+    if (std::ranges::none_of(scene.organs, is_pressed))
+      sections[i].refuse("organ", "\"" + pressed + "\"", "the name of one of the [[organs]]");
+  }
+}
+
+void refuse_wrong_count(const TomlSection& root, const std::string& key, std::size_t count,
+                        std::size_t most) {
+  if (count >= 1 && count <= most) return;
+  root.refuse(key, std::to_string(count), "1 to " + std::to_string(most) + " of [[" + key + "]]");
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file) {
+  TomlSection root = open_toml(file);
+  Scene scene;
+  scene.file = file;
+  root.read("name", scene.name, kRequired);
+  auto organs = root.sections("organs");
+  auto tools = root.sections("tools");
+  auto hands = root.sections("hands");
+  const bool has_camera = root.has("camera");
+  scene.haptics = read_haptics(root.section("haptics"));
+  scene.camera = read_camera(root.section("camera"), has_camera);
+  root.refuse_unknown_keys();
+
+  for (TomlSection& s : organs) scene.organs.push_back(read_organ(s, file));
+  for (TomlSection& s : tools) scene.tools.push_back(read_tool(s));
+  for (TomlSection& s : hands) scene.hands.push_back(read_hand(s));
+  refuse_wrong_count(root, "organs", organs.size(), msg::MAX_ORGANS);
+  refuse_wrong_count(root, "tools", tools.size(), msg::MAX_TOOLS);
+  refuse_repeated_organs(scene, organs);
+  refuse_repeated_tools(scene, tools);
+  refuse_wrong_hands(scene, hands);
+  find_pressed_organs(scene, hands);
+  return scene;
+}
+
+}  // namespace omentum::scene

@@ -1,0 +1,110 @@
+// A scene as data: which organ, which tools, which hands, how it is looked at. TOML files in scenes/.
+#pragma once
+
+#include "geometry/types.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace omentum::scene {
+
+using geometry::Vec3;
+
+/// What an organ consists of: how it is loaded, touched and drawn. How it moves is its model's affair.
+enum class OrganKind : std::uint8_t { kTetrahedralMesh };
+
+/// A model that a scene may choose for an organ, and the kind of organ that it moves.
+struct OrganModelWord {
+  std::string_view word;
+  OrganKind kind;
+};
+inline constexpr std::array kOrganModels{OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh}};
+
+/// A part of an organ that is of another material: at one of label, box and ball; what is absent of the
+/// material is the organ's (organ_build --region).
+struct RegionSpec {
+  std::optional<std::int32_t> label;  // that the mesh file gives tetrahedra
+  std::vector<double> box;            // x0, y0, z0, x1, y1, z1, m; or empty
+  std::vector<double> ball;           // x, y, z, radius, m; or empty
+  std::optional<double> young_pa, poisson, density_kg_m3;
+};
+
+/// An organ as the scene describes it: enough to build its file, or a built file.
+struct OrganSpec {
+  std::string name;
+  std::string model{kOrganModels.front().word};
+  OrganKind kind = kOrganModels.front().kind;  // the model's
+  std::string
+      mesh;  // a mesh or organ file (relative to the scene), or "phantom:..." (scene.cpp has the words)
+  double metres_per_unit = 1;
+  double young_pa = 0, poisson = 0, density_kg_m3 = 0;
+  std::vector<RegionSpec> regions;  // of several that overlap the last one holds
+  std::string fixed;                // as organ_build --fixed takes it
+  std::string look = "liver";       // "liver" or "gallbladder": how it is drawn
+  std::filesystem::path file;       // the organ file (.h5); the launcher fills it in, --organ overrides it
+};
+
+/// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the
+/// handle).
+struct ToolSpec {
+  std::uint32_t id = 0;
+  std::string name;
+  std::string shape;         // "probe" or "grasper": how it is drawn
+  std::vector<Vec3> points;  // [P] p_TP, m
+  double shaft_radius_m = 0.0025, shaft_length_m = 0.3;
+  std::optional<Vec3> trocar;  // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
+};
+
+/// A simulated hand: a mass on a spring and damper to a target that moves along a script.
+struct HandSpec {
+  std::uint32_t tool = 0;
+  std::string organ;  // the name of that which it presses
+  double mass_kg = 0.2, stiffness_n_m = 400, damping_n_s_m = 12;
+  Vec3 press_point = Vec3::Zero();       // on the rest surface, in W, m
+  Vec3 press_normal = Vec3::UnitZ();     // outward, unit
+  Vec3 slide_direction = Vec3::UnitX();  // along the surface, unit
+  double hover_m = 0.03;                 // start this far above
+  double depth_m = 0.01;                 // the target goes this far below the rest surface (0: hovers only)
+  double slide_m = 0.03;
+  double start_s = 1, approach_s = 2, press_s = 1.5, hold_s = 2, slide_s = 3, release_s = 1.5;  // then again
+};
+
+/// How contacts answer, and the scene's part of force safety. The limits have bounds of their own
+/// (scene.cpp): no scene disarms them.
+struct HapticsSpec {
+  double friction = 0;            // Coulomb coefficient; 0 is frictionless; needs contact = "point"
+  std::string contact = "point";  // "point" (continuous point constraint) or "spread" (Cotin 1999's alpha_v)
+  double max_force_n = 10;        // the scene's own limits, below any device's
+  double max_torque_nm = 0.5;
+  double max_slew_n_s = 2000;
+  double ramp_s = 0.2;     // fading in after engage and reconnect
+  double stale_s = 0.005;  // a pose older than this (or 2.5 intervals of a slower device) ...
+  double decay_s = 0.02;   // ... decays the force to zero within this
+};
+
+struct CameraSpec {
+  std::string mode = "orbit";  // "orbit" or "endoscope"
+  Vec3 eye = Vec3::Zero(), target = Vec3::Zero(), up = Vec3::UnitZ();
+  double field_of_view_deg = 40;
+};
+
+struct Scene {
+  std::string name;
+  std::filesystem::path file;
+  std::vector<OrganSpec> organs;
+  std::vector<ToolSpec> tools;
+  std::vector<HandSpec> hands;
+  HapticsSpec haptics;
+  CameraSpec camera;
+};
+
+/// Reads and checks a scene. Throws std::runtime_error "FILE:LINE: key: found ..., expected ..." for a
+/// missing file, a syntax error, an unknown key (named, so that a typing error does not pass), a missing or
+/// wrong value.
+Scene load_scene(const std::filesystem::path& file);
+
+}  // namespace omentum::scene

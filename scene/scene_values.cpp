@@ -1,0 +1,157 @@
+#include "scene/scene_values.h"
+
+#include "files/sha256.h"
+
+#include <charconv>
+#include <span>
+
+namespace omentum::scene {
+namespace {
+
+std::string text_of(double number) {
+  char digits[32];  // the shortest form of a double has at most 24
+  return {digits, std::to_chars(digits, digits + sizeof(digits), number).ptr};
+}
+
+std::string text_of(std::uint32_t number) {
+  return std::to_string(number);
+}
+
+std::string text_of(std::int32_t number) {
+  return std::to_string(number);
+}
+
+std::string text_of(std::span<const double> numbers) {
+  std::string text = "[";
+  for (const double number : numbers) text.append(text.size() > 1 ? ", " : "").append(text_of(number));
+  return text += ']';
+}
+
+std::string text_of(const Vec3& v) {
+  return text_of(std::span(v.data(), 3));
+}
+
+std::string text_of(const std::string& text) {
+  return printable(text);
+}
+
+template <class T>
+std::string text_of(const std::optional<T>& value) {
+  return value ? text_of(*value) : "none";
+}
+
+std::string supports_of(const OrganSpec& organ) {
+  const bool is_rule = organ.fixed.starts_with("plane:") || organ.fixed.starts_with("box:");
+  return is_rule ? organ.fixed : "a file";
+}
+
+/// The values of one table of the scene.
+class Table {
+ public:
+  Table(std::string name, std::vector<std::string>& values) : name_(std::move(name)), values_(values) {}
+  Table(const std::string& list, std::size_t index, std::vector<std::string>& values)
+      : Table(list + "[" + std::to_string(index) + "]", values) {}
+
+  template <class T>
+  void add(const std::string& key, const T& value) {
+    values_.push_back(name_ + "." + key + " = " + text_of(value));
+  }
+
+ private:
+  std::string name_;
+  std::vector<std::string>& values_;
+};
+
+void add(const OrganSpec& organ, Table table) {
+  table.add("name", organ.name);
+  table.add("model", organ.model);
+  table.add("young_pa", organ.young_pa);
+  table.add("poisson", organ.poisson);
+  table.add("density_kg_m3", organ.density_kg_m3);
+  table.add("fixed", supports_of(organ));
+  for (std::size_t i = 0; i < organ.regions.size(); ++i) {
+    const RegionSpec& region = organ.regions[i];
+    const std::string of = "regions[" + std::to_string(i) + "].";
+    table.add(of + "label", region.label);
+    table.add(of + "box", region.box);
+    table.add(of + "ball", region.ball);
+    table.add(of + "young_pa", region.young_pa);
+    table.add(of + "poisson", region.poisson);
+    table.add(of + "density_kg_m3", region.density_kg_m3);
+  }
+}
+
+void add(const ToolSpec& tool, Table table) {
+  table.add("id", tool.id);
+  table.add("name", tool.name);
+  table.add("shape", tool.shape);
+  for (std::size_t i = 0; i < tool.points.size(); ++i)
+    table.add("points[" + std::to_string(i) + "]", tool.points[i]);
+  table.add("shaft_radius_m", tool.shaft_radius_m);
+  table.add("shaft_length_m", tool.shaft_length_m);
+  table.add("trocar", tool.trocar);
+}
+
+void add(const HandSpec& hand, Table table) {
+  table.add("tool", hand.tool);
+  table.add("organ", hand.organ);
+  table.add("mass_kg", hand.mass_kg);
+  table.add("stiffness_n_m", hand.stiffness_n_m);
+  table.add("damping_n_s_m", hand.damping_n_s_m);
+  table.add("press_point", hand.press_point);
+  table.add("press_normal", hand.press_normal);
+  table.add("slide_direction", hand.slide_direction);
+  table.add("hover_m", hand.hover_m);
+  table.add("depth_m", hand.depth_m);
+  table.add("slide_m", hand.slide_m);
+  table.add("start_s", hand.start_s);
+  table.add("approach_s", hand.approach_s);
+  table.add("press_s", hand.press_s);
+  table.add("hold_s", hand.hold_s);
+  table.add("slide_s", hand.slide_s);
+  table.add("release_s", hand.release_s);
+}
+
+void add(const HapticsSpec& haptics, Table table) {
+  table.add("friction", haptics.friction);
+  table.add("contact", haptics.contact);
+  table.add("max_force_n", haptics.max_force_n);
+  table.add("max_torque_nm", haptics.max_torque_nm);
+  table.add("max_slew_n_s", haptics.max_slew_n_s);
+  table.add("ramp_s", haptics.ramp_s);
+  table.add("stale_s", haptics.stale_s);
+  table.add("decay_s", haptics.decay_s);
+}
+
+}  // namespace
+
+std::vector<std::string> scene_values(const Scene& scene) {
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < scene.organs.size(); ++i) add(scene.organs[i], {"organs", i, values});
+  for (std::size_t i = 0; i < scene.tools.size(); ++i) add(scene.tools[i], {"tools", i, values});
+  for (std::size_t i = 0; i < scene.hands.size(); ++i) add(scene.hands[i], {"hands", i, values});
+  add(scene.haptics, {"haptics", values});
+  return values;
+}
+
+std::string printable(std::string_view text) {
+  std::string line;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool control = byte < 0x20 || byte == 0x7f;
+    line += control ? std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15]
+                    : std::string(1, letter);
+  }
+  return line;
+}
+
+std::string scene_hash(const std::vector<std::string>& values) {
+  files::Sha256 sha;
+  for (const std::string& value : values) {
+    sha.add(value.data(), value.size());
+    sha.add("\n", 1);
+  }
+  return sha.hexadecimal();
+}
+
+}  // namespace omentum::scene

@@ -1,0 +1,88 @@
+// omentum_domain: claims a DDS domain on the network. Listens whether a session is there; then says "free"
+// and holds the domain until it is ended, or says "used by WHOM" and ends.
+#include "node_common/node_identity.h"
+#include "runtime/command_line.h"
+#include "runtime/rate_loop.h"
+#include "runtime/signals.h"
+#include "session_tools/domain_claim.h"
+#include "transport/bus.h"
+
+#include <cstdio>
+#include <mutex>
+
+namespace {
+
+using namespace omentum;
+
+/// How often a claim is told. A node's status is durable: whoever finds it hears it at once.
+constexpr double kRate_hz = 2;
+/// 2.5 s of listening: Cyclone finds its like within 0.1 s and a Fast participant within about one.
+constexpr int kListeningTicks = 5;
+
+/// The first one that was found with a better claim.
+class Rival {
+ public:
+  void meet(const session::DomainClaim& own, const msg::NodeStatus& other) {
+    auto better = session::better_claim(own, other);
+    const std::lock_guard lock(mutex_);
+    if (!name_) name_ = std::move(better);
+  }
+  std::optional<std::string> name() const {
+    const std::lock_guard lock(mutex_);
+    return name_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<std::string> name_;
+};
+
+void say(const std::string& line) {
+  std::puts(line.c_str());
+  std::fflush(stdout);  // whoever started this waits for it
+}
+
+void run(const transport::BusOptions& options) {
+  const msg::NodeStatus self = node::introduce(msg::NODE_LAUNCHER, kRate_hz);
+  const session::DomainClaim listening{self.instance, self.host, false};
+  session::DomainClaim claim = listening;
+  runtime::RateLoop loop(kRate_hz);
+  const runtime::StopSignal stop([&loop] { loop.stop(); });
+  Rival rival;
+  const auto bus = transport::Bus::open(options);
+  const auto writer = bus->writer<msg::NodeStatus>();
+  const auto reader =
+      bus->reader<msg::NodeStatus>([&](const msg::NodeStatus& other) { rival.meet(listening, other); });
+  writer->write(session::status_of(claim));
+  for (int tick = 0; loop.wait() != runtime::RateLoop::Cause::kStopped; ++tick) {
+    if (!claim.held) {
+      if (const auto name = rival.name()) return say("used by " + *name);
+      claim.held = tick >= kListeningTicks;
+      if (claim.held) say("free");
+    }
+    writer->write(session::status_of(claim));
+    loop.finish_tick();
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  runtime::CommandLine line("omentum_domain", "Claims a DDS domain on the network for a session.");
+  std::string dds = "cyclone", profile = "lan", keystore;
+  int domain = 0;
+  line.needs(runtime::kRoomForDds);
+  line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
+  line.option("--domain", domain, "DDS domain").between(0, 230).show_default();
+  line.option("--profile", profile, "loopback (one machine) or lan")
+      .one_of({"loopback", "lan"})
+      .show_default();
+  line.option("--secure", keystore, "DDS Security key store").type_name("KEYSTORE");
+  return line.run(argc, argv, [&] {
+    run({.vendor = transport::parse_vendor(dds),
+         .domain = domain,
+         .profile = transport::parse_profile(profile),
+         .name = "omentum_domain",
+         .keystore = keystore});
+  });
+}

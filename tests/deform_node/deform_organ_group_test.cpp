@@ -1,0 +1,180 @@
+#include "deform_node/organ_group.h"
+
+#include "organ/build_organ.h"
+#include "tests/deform_node/deform_fixtures.h"
+#include "tests/deform_node/deform_toy.h"
+#include "tests/support/heap_count.h"
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace omentum::deform {
+namespace {
+
+using deform_test::contact_on;
+using deform_test::HangingMass;
+using deform_test::kNs_per_s;
+using ::testing::HasSubstr;
+
+constexpr double kTick_s = 0.01;
+// Brings a mass 0.495 m far in a tick, of which its damping takes a fifth.
+constexpr double kMeeting_m_s =
+    0.495 / kTick_s / (1 - HangingMass::kDamping_n_s_m * kTick_s / HangingMass::kMass_kg);
+
+TEST(ModelTable, MakesEveryModelThatAScenesWordsName) {
+  std::set<std::string_view> made, words;
+  for (const ModelEntry& entry : model_table()) made.insert(entry.word);
+  for (const auto& model : scene::kOrganModels) words.insert(model.word);
+  EXPECT_EQ(made, words);
+  EXPECT_EQ(made.size(), model_table().size()) << "each once";
+}
+
+TEST(ModelTable, AWordThatNoEntryHasIsNamed) {
+  try {
+    find_model(model_table(), "jelly");
+    FAIL() << "it was found";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("jelly"));
+  }
+}
+
+/// A scene of one organ with a file, moved by whatever model.
+class SceneOfOneBlock {
+ public:
+  explicit SceneOfOneBlock(const std::string& model) {
+    const geometry::TetraMesh mesh = test::make_box_mesh(2, 2, 2, Vec3::Constant(0.1));
+    organ::FixedComponents fixed(mesh.positions.size(), 0);
+    for (std::size_t n = 0; n < fixed.size(); ++n)
+      if (mesh.positions[n].z() < 0.001) fixed[n] = 7;
+    organ::build_organ(
+        organ::make_organ("block", mesh, physics::Material{1e4, 0.45, 1000}, fixed, organ::Storage::kFloat),
+        folder_ / "block.h5", {});
+    scene::OrganSpec& spec = scene.organs.emplace_back();
+    spec.name = "block";
+    spec.model = model;
+    spec.file = folder_ / "block.h5";
+  }
+  scene::Scene scene;
+
+ private:
+  test::ScratchFolder folder_;
+};
+
+TEST(LoadOrgans, TheSceneChoosesTheModel) {
+  const SceneOfOneBlock block("quasi-static");
+  const std::vector<ServedOrgan> organs = load_organs(block.scene);
+  ASSERT_EQ(organs.size(), 1u);
+  EXPECT_EQ(organs[0].source->kind, scene::OrganKind::kTetrahedralMesh);
+  EXPECT_EQ(organs[0].model->view().values.size(), 3 * organs[0].source->rest.size());
+  EXPECT_NE(numbers_of(*organs[0].source).compliance, nullptr);
+}
+
+TEST(LoadOrgans, AToyTakesPartByAnEntryOfItsOwnWithoutTensors) {
+  const SceneOfOneBlock block("hanging mass");
+  std::vector<ModelEntry> table(model_table().begin(), model_table().end());
+  table.push_back(deform_test::kHangingMass);
+  const std::vector<ServedOrgan> organs = load_organs(block.scene, table);
+  ASSERT_EQ(organs.size(), 1u);
+  EXPECT_EQ(organs[0].model->view().kind, StateKind::kTube);
+  EXPECT_EQ(numbers_of(*organs[0].source).compliance, nullptr) << "nobody asked for the tensors";
+  EXPECT_THROW(load_organs(block.scene), std::runtime_error) << "the table without it";
+}
+
+TEST(LoadOrgans, AnOrganWithoutAFileIsRefusedNamingSceneAndOrgan) {
+  scene::Scene scene;
+  scene.file = "s.toml";
+  scene.organs.emplace_back().name = "liver";
+  try {
+    load_organs(scene);
+    FAIL() << "it was loaded";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("s.toml: organ liver has no file"));
+  }
+}
+
+class OrganGroupTest : public ::testing::Test {
+ protected:
+  static std::vector<ServedOrgan> two_masses() {
+    std::vector<ServedOrgan> organs;
+    organs.push_back(deform_test::hanging_organ("left"));
+    organs.push_back(deform_test::hanging_organ("right", Vec3(1, 0, 0)));
+    return organs;
+  }
+  HangingMass& mass(std::size_t i) { return static_cast<HangingMass&>(*group_.organs()[i].model); }
+  void press(std::uint32_t organ, const Vec3& force_n) {
+    msg::Contact contact = contact_on(0, {0}, {force_n});
+    contact.organ = organ;
+    book_.take(contact, kNs_per_s);
+    book_.advance(kNs_per_s);
+  }
+  bool has_fault(const std::string& text) const {
+    const auto faults = faults_.list();
+    return std::any_of(faults.begin(), faults.end(), [&](const auto& fault) { return fault.text == text; });
+  }
+
+  runtime::FaultList faults_;
+  OrganGroup group_{two_masses(), faults_};
+  ContactBook book_{{numbers(), numbers()}, {.tools = 1, .max_force_n = 10}, faults_};
+
+ private:
+  static OrganNumbers numbers() {
+    OrganNumbers numbers = deform_test::odd_numbers(1, 0);
+    numbers.reach_m = 1;
+    return numbers;
+  }
+};
+
+TEST_F(OrganGroupTest, AnOrganFollowsItsOwnLoads) {
+  press(1, {0, 0, -1});
+  for (int tick = 0; tick < 1000; ++tick) group_.step(book_, kTick_s);
+  EXPECT_NEAR(mass(1).position().z(), -1 / HangingMass::kSpring_n_m, 1e-9);
+  EXPECT_EQ(mass(0).position(), Vec3::Zero());
+  EXPECT_EQ(group_.steps(), 2000u);
+}
+
+TEST_F(OrganGroupTest, WhatAModelSaysIsWrongIsAFaultOfItsOrgan) {
+  press(0, {20, 0, 0});
+  for (int tick = 0; tick < 30; ++tick) group_.step(book_, kTick_s);
+  EXPECT_TRUE(has_fault("organ left: stretched far"));
+}
+
+TEST_F(OrganGroupTest, WhoDivergedIsBackAtRestBeforeAnybodySeesIt) {
+  mass(0).push(Vec3(1e9, 0, 0));
+  group_.step(book_, kTick_s);
+  EXPECT_EQ(mass(0).position(), Vec3::Zero());
+  EXPECT_FALSE(mass(0).status().diverged);
+  EXPECT_TRUE(has_fault("organ left: diverged, back to rest"));
+}
+
+TEST_F(OrganGroupTest, OrgansThatMeetPushEachOtherApart) {
+  // towards each other, so that they overlap by half after a tick
+  mass(0).push(Vec3(kMeeting_m_s, 0, 0));
+  mass(1).push(Vec3(-kMeeting_m_s, 0, 0));
+  group_.step(book_, kTick_s);
+  EXPECT_NEAR((mass(1).position() - mass(0).position()).norm(), 2 * HangingMass::kRadius_m, 1e-12);
+  EXPECT_LE((mass(0).velocity() + mass(1).velocity()).norm(), 1e-9) << "momentum is kept";
+  EXPECT_GE((mass(1).velocity() - mass(0).velocity()).x(), -1e-9) << "and they go on no farther";
+}
+
+TEST_F(OrganGroupTest, ResetBringsAllToRestAndKeepsTheCounts) {
+  press(0, {0, 0, -1});
+  group_.step(book_, kTick_s);
+  group_.reset();
+  EXPECT_EQ(mass(0).position(), Vec3::Zero());
+  EXPECT_EQ(group_.steps(), 2u);
+}
+
+TEST_F(OrganGroupTest, AStepTakesNoMemoryAlsoWhereOrgansMeetAndFail) {
+  press(0, {20, 0, 0});
+  mass(1).push(Vec3(-2 * kMeeting_m_s, 0, 0));
+  const std::size_t before = test::heap_allocations();
+  for (int tick = 0; tick < 100; ++tick) group_.step(book_, kTick_s);
+  EXPECT_EQ(test::heap_allocations(), before);
+}
+
+}  // namespace
+}  // namespace omentum::deform

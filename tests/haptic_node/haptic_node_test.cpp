@@ -1,0 +1,108 @@
+// The real haptic_node, as a device and its neighbours see it: poses in, forces and contacts out, over either
+// vendor. What it makes of them is asked of its loop (haptic_loop_test.cpp).
+#include "tests/haptic_node/haptic_bench.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace omentum {
+namespace {
+
+using geometry::Vec3;
+using haptic_test::kRelative;
+using haptic_test::NodeBench;
+using haptic_test::vector;
+
+class HapticNodeTest : public ::testing::TestWithParam<std::pair<std::string, transport::Vendor>> {
+ protected:
+  const test::BlockScene block_ = haptic_test::block_scene();
+  NodeBench bench_{block_, GetParam().first, GetParam().second};
+};
+
+TEST_P(HapticNodeTest, PressedTissueAnswersItsContactSumsUpToTheForceAndTheEndIsClean) {
+  bench_.send(block_.info());
+  // a contact and an unaltered force of the same tick
+  std::optional<msg::ToolForce> force;
+  ASSERT_TRUE(bench_.press([&] {
+    force = bench_.force();
+    const auto contact = bench_.contact();
+    if (force->state != 0 || force->force.z == 0) return false;
+    if (!contact || contact->tick != force->tick || contact->nodes.empty()) return false;
+    Vec3 sum = Vec3::Zero();
+    for (const msg::Vec3& f : contact->forces) sum += vector(f);
+    EXPECT_LE((sum + vector(force->force)).norm(), kRelative * sum.norm());
+    EXPECT_EQ(contact->cause.seq, force->echo_seq);
+    EXPECT_EQ(contact->displacements.size(), contact->nodes.size());
+    return true;
+  })) << bench_.node().messages();
+  EXPECT_GT(force->force.z, 0);
+  EXPECT_LE(force->echo_seq, bench_.seq());
+
+  EXPECT_EQ(bench_.node().terminate(), 0) << bench_.node().messages();
+  const auto report = nlohmann::json::parse(test::read_text(block_.report()));
+  EXPECT_EQ(report["dds"], GetParam().first);
+  EXPECT_EQ(report["loop"]["rate_hz"], 1000);
+  EXPECT_GT(report["contacts"]["ticks_in_contact"], 0);
+  // a busy machine delays this device's poses, and the node says so
+  const std::string slow = "tool 0: poses come less than 40 times a second";
+  for (const std::string fault : report["faults"]) EXPECT_TRUE(fault.starts_with(slow)) << fault;
+}
+
+TEST_P(HapticNodeTest, AnotherOrganFileIsRefusedWithBothHashes) {
+  bench_.send(block_.info("abc"));
+  EXPECT_EQ(bench_.node().wait(), 2);
+  EXPECT_NE(bench_.node().messages().find("abc"), std::string::npos) << bench_.node().messages();
+  EXPECT_NE(bench_.node().messages().find(block_.organ_hash()), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, HapticNodeTest,
+                         ::testing::Values(std::pair{"fast", transport::Vendor::kFast},
+                                           std::pair{"cyclone", transport::Vendor::kCyclone},
+                                           std::pair{"fast", transport::Vendor::kCyclone}),
+                         [](const auto& test) {
+                           return test.param.first +
+                                  (test.param.second == transport::Vendor::kFast ? "ToFast" : "ToCyclone");
+                         });
+
+// What no node obeys must not look as if it had been done.
+TEST(SessionProgram, RecordIsRefusedUntilItExists) {
+  test::Process command("omentum_session", {"record"});
+  EXPECT_EQ(command.wait(), 2);
+  EXPECT_TRUE(command.messages().starts_with("omentum_session: ")) << command.messages();
+  EXPECT_NE(command.messages().find("record"), std::string::npos) << command.messages();
+}
+
+TEST(HapticNodeStart, BadInputIsOneLineAndExitCodeTwo) {
+  const test::ScratchFolder folder;
+  const std::string organ =
+      "name = \"n\"\n[[organs]]\nname = \"o\"\nmesh = \"m.msh\"\nyoung_pa = 1\n"
+      "poisson = 0.3\ndensity_kg_m3 = 1\nfixed = \"plane:z<0\"\n";
+  std::ofstream(folder / "broken.toml") << "name = \n";
+  std::ofstream(folder / "no_file.toml")
+      << organ << "[[tools]]\nid = 0\nname = \"p\"\nshape = \"probe\"\npoints = [[0,0,0]]\n";
+  std::ofstream(folder / "broken.h5") << "not an organ";
+  const std::string good = folder / "no_file.toml";
+  const std::vector<std::vector<std::string>> table = {
+      {"--scene", folder / "missing.toml"},
+      {"--scene", folder / "broken.toml"},
+      {"--scene", good},
+      {"--scene", good, "--organ", folder / "missing.h5"},
+      {"--scene", good, "--organ", folder / "broken.h5"},
+      {"--scene", good, "--dds", "telepathy"},
+      {"--scene", good, "--domain", "231"},
+      {"--scene", good, "--rate-hz", "-1"},
+      {},
+  };
+  for (const auto& arguments : table) {
+    test::Process node("haptic_node", arguments);
+    EXPECT_EQ(node.wait(), 2) << (arguments.empty() ? "no arguments" : arguments.back());
+    const std::string messages = node.messages();
+    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1) << messages;
+    EXPECT_TRUE(messages.starts_with("haptic_node: ")) << messages;
+  }
+}
+
+}  // namespace
+}  // namespace omentum

@@ -1,0 +1,281 @@
+// The node's loop between a scripted bus and a scripted pace, on a renderer that only remembers, with a
+// scripted person at its window.
+#include "render_node/render_loop.h"
+
+#include "block_session.h"
+#include "panel_context.h"
+#include "recording_renderer.h"
+#include "tests/support/fake_bus.h"
+#include "tests/support/staged_loop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <nlohmann/json.hpp>
+
+namespace omentum::render {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::StartsWith;
+
+constexpr double kPace_hz = 1000;
+constexpr Size kWindow{960, 600};
+constexpr int kStatusFrames = 100;  // ten statuses in a second
+
+class RenderLoopTest : public testing::Test {
+ protected:
+  using Node = omentum::test::StagedLoop<RenderLoop>;
+
+  void SetUp() override {
+    renderer_.windowed = true;
+    renderer_.on_begin_frame = [this] { return next_input(); };
+    renderer_.on_panel = [] { ImGui::Render(); };
+    options_.node.scene = block().scene();
+    options_.fps = 2 * kPace_hz;  // each tick of the pace is a frame
+  }
+
+  static const test::BlockScene& block() {
+    static const test::BlockScene scene(3);
+    return scene;
+  }
+  static const organ::Organ& organ() {
+    static const organ::Organ organ = block().organ();
+    return organ;
+  }
+  void start() { node_ = std::make_unique<Node>(kPace_hz, options_, bus_.opener(), renderer_); }
+  void frames(int count) { node_->tick(count); }
+  void frame(const Input& input) {
+    input_ = input;
+    node_->tick();
+  }
+  nlohmann::json close() {
+    frame({.close = true});
+    EXPECT_EQ(node_->end(), "");
+    return node_->loop().report();
+  }
+  Vec3f eye() {
+    frames(1);
+    return renderer_.frames.back().view.eye;
+  }
+  void drag() { frame({.orbit_x = 50}); }
+  /// Moves the mouse over the panel until Dear ImGui says that it is over the item called `label`, then
+  /// clicks.
+  void click(const char* label) {
+    constexpr float kStep = 6;  // pixels, a third of a button's height
+    for (float x = 30; x < kWindow.width; x += 10 * kStep) {
+      for (float y = kStep; y < kWindow.height; y += kStep) {
+        mouse_ = {x, y};
+        frames(1);
+        if (!hovers(label)) continue;
+        frames(1);  // where nothing is hovered Dear ImGui names what was
+        if (hovers(label)) return press_and_release();
+      }
+    }
+    ADD_FAILURE() << "no item " << label;
+  }
+  std::vector<std::string> faults() {
+    frames(kStatusFrames);
+    return bus_.newest<msg::NodeStatus>()->faults;
+  }
+
+  PanelContext context_;
+  RenderOptions options_;
+  RecordingRenderer renderer_{kWindow};
+  omentum::test::FakeBus bus_;
+  std::unique_ptr<Node> node_;
+
+ private:
+  static bool hovers(const char* label) {
+    const ImGuiWindow* panel = ImGui::FindWindowByName("omentum");
+    return panel != nullptr && ImGui::GetHoveredID() == ImHashStr(label, 0, panel->ID);
+  }
+  void press_and_release() {
+    for (const bool down : {true, false, false}) {
+      mouse_down_ = down;
+      frames(1);
+    }
+  }
+  Input next_input() {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(kWindow.width), static_cast<float>(kWindow.height)};
+    io.MousePos = mouse_;
+    io.MouseDown[0] = mouse_down_;
+    ImGui::NewFrame();
+    return std::exchange(input_, Input{});
+  }
+
+  Input input_;
+  ImVec2 mouse_{0, 0};
+  bool mouse_down_ = false;
+};
+
+TEST_F(RenderLoopTest, ClosingTheWindowEndsItAndIsReported) {
+  start();
+  frame({.close = true});
+  EXPECT_FALSE(node_->tick());
+  EXPECT_EQ(node_->loop().report()["closed"], true);
+}
+
+TEST_F(RenderLoopTest, EndOfItsTimeIsNotAClosedWindow) {
+  options_.seconds = 0.1;
+  start();
+  EXPECT_TRUE(node_->tick(99));
+  EXPECT_FALSE(node_->tick());
+  EXPECT_EQ(node_->loop().report()["closed"], false);
+}
+
+TEST_F(RenderLoopTest, DraggingTurnsTheOrbitButNotTheEndoscope) {
+  start();
+  const Vec3f before = eye();
+  drag();
+  const Vec3f turned = eye();
+  click("endoscope");
+  drag();
+  click("endoscope");
+  EXPECT_GT((turned - before).norm(), 1e-3f);
+  EXPECT_LT((eye() - turned).norm(), 1e-6f) << "the hidden camera stayed";
+}
+
+TEST_F(RenderLoopTest, ButtonsSendTheirCommands) {
+  bus_.watch<msg::SessionCommand>();
+  start();
+  for (const auto& [label, sent] :
+       {std::pair("Pause", msg::COMMAND_PAUSE), std::pair("Start", msg::COMMAND_START),
+        std::pair("Reset", msg::COMMAND_RESET), std::pair("Clear fault", msg::COMMAND_CLEAR_FAULT)}) {
+    bus_.expect<msg::SessionCommand>(Field(&msg::SessionCommand::command, sent));
+    click(label);
+    EXPECT_THAT(bus_.left_over(), IsEmpty()) << label;
+  }
+}
+
+TEST_F(RenderLoopTest, ACommandThatCannotBeSentIsAFault) {
+  start();
+  bus_.refuse_writes<msg::SessionCommand>(true);
+  click("Pause");
+  EXPECT_THAT(faults(), ElementsAre(StartsWith("a command could not be sent")));
+}
+
+TEST_F(RenderLoopTest, DrawsAStateAndTellsThePoseThatItShows) {
+  start();
+  frames(1);
+  const int updates = renderer_.updates;
+  const msg::OrganState state = test::state_of(organ(), 7, {0, 0, -0.01});
+  bus_.post(state);
+  frames(1);
+  EXPECT_GT(renderer_.updates, updates);
+  frames(kStatusFrames);
+  const auto status = bus_.newest<msg::NodeStatus>();
+  EXPECT_EQ(status->kind, msg::NODE_RENDER);
+  EXPECT_THAT(status->echoes, ElementsAre(state.echoes[0]));
+}
+
+TEST_F(RenderLoopTest, AStateThatDoesNotFitIsAFaultAndNotDrawn) {
+  start();
+  frames(1);
+  const int updates = renderer_.updates;
+  msg::OrganState state = test::state_of(organ(), 1, {0, 0, -0.01});
+  state.values[0] = 1e30f;
+  bus_.post(state);
+  EXPECT_THAT(faults(), ElementsAre(StartsWith("organ state of another kind or size")));
+  EXPECT_EQ(renderer_.updates, updates);
+}
+
+TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {
+  start();
+  frames(1000);
+  EXPECT_THAT(bus_.take_all<msg::NodeStatus>(), SizeIs(10));
+  bus_.post(msg::SessionCommand{.order = 1, .sender = 1, .command = msg::COMMAND_PAUSE, .argument = {}});
+  frames(kStatusFrames);
+  EXPECT_TRUE(bus_.newest<msg::NodeStatus>()->paused);
+  msg::NodeStatus haptic{};
+  haptic.kind = msg::NODE_HAPTIC;
+  haptic.instance = 1;
+  bus_.post(haptic);
+  frames(kStatusFrames);
+  EXPECT_FALSE(bus_.newest<msg::NodeStatus>()->paused) << "who makes the forces knows";
+}
+
+TEST_F(RenderLoopTest, RefusesToShowAnotherOrganThanTheOneServed) {
+  bus_.post(block().info("0123abcd"));
+  start();
+  EXPECT_FALSE(node_->tick());
+  EXPECT_THAT(node_->end(), AllOf(HasSubstr("0123abcd"), HasSubstr(block().organ_hash())));
+}
+
+TEST_F(RenderLoopTest, ALateStrangersSceneIsAFaultAndNoEnd) {
+  start();
+  frames(5500);
+  bus_.post(block().info("0123abcd"));
+  EXPECT_THAT(faults(), ElementsAre(StartsWith(node::kForeignScene)));
+  close();
+}
+
+TEST_F(RenderLoopTest, DeepestDentIsTakenFromNearbyWithoutThePanel) {
+  const test::ScratchFolder folder;
+  options_.out = folder.path();
+  start();
+  const auto others = bus_.opener()();
+  test::PressingTool tool(*others, organ());
+  for (std::uint64_t seq = 1; seq < 50; ++seq) {
+    bus_.post(test::state_of(organ(), seq, {0, 0, -0.01}));
+    tool.speak();
+    frames(1);
+  }
+  ASSERT_THAT(renderer_.read_back_from, SizeIs(1));
+  const auto report = close();
+  const Frame& close_up = renderer_.frames.at(renderer_.read_back_from.front());
+  const Frame& final = renderer_.frames.at(renderer_.read_back_from.back());
+  EXPECT_FALSE(close_up.with_panel);
+  EXPECT_TRUE(final.with_panel);
+  EXPECT_TRUE(std::filesystem::exists(folder / "indent.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "final.png"));
+  EXPECT_NEAR(report["deepest_dent_m"], 0.01, 1e-6);
+}
+
+TEST_F(RenderLoopTest, OrganOfALostDeformNodeHasNoDent) {
+  const test::ScratchFolder folder;
+  options_.out = folder.path();
+  start();
+  const auto others = bus_.opener()();
+  test::PressingTool tool(*others, organ());
+  for (int k = 0; k < 300; ++k) {  // a tool that presses an organ of which nothing is known
+    tool.speak();
+    frames(1);
+  }
+  EXPECT_EQ(close()["deepest_dent_m"], 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "indent.png"));
+}
+
+TEST_F(RenderLoopTest, LogHoldsThePeriodsOfTheFramesThatWereDrawn) {
+  const test::ScratchFolder folder;
+  options_.node.log = folder / "frames.csv";
+  options_.fps = 50;  // the pace ticks twenty times as often: most of its ticks draw nothing
+  start();
+  frames(110);
+  const auto report = close();
+  node_->loop().require_written();
+  std::istringstream lines(test::read_text(folder / "frames.csv"));
+  std::string line;
+  std::getline(lines, line);  // header
+  std::vector<std::int64_t> starts, periods;
+  while (std::getline(lines, line)) {
+    long long index = 0, start = 0, period = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lld,%lld,%lld", &index, &start, &period), 3) << line;
+    starts.push_back(start);
+    periods.push_back(period);
+  }
+  ASSERT_EQ(starts.size(), report["frames"].get<std::size_t>());
+  ASSERT_GE(starts.size(), 5u);
+  for (std::size_t k = 1; k < starts.size(); ++k) EXPECT_EQ(periods[k], starts[k] - starts[k - 1]);
+}
+
+}  // namespace
+}  // namespace omentum::render
