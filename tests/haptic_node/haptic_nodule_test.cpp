@@ -25,7 +25,7 @@ class NoduleTest : public testing::Test {
   }
 
   bool make(test::Regions regions) {
-    if (!test::build_scene_organ("nodule", regions, folder_.path())) return false;
+    if (!test::build_scene_organs("nodule", regions, folder_.path())) return false;
     scene_ = scene::load_scene(folder_ / "nodule.toml");
     return true;
   }

@@ -2,6 +2,7 @@
 // not in impulses, so that it does not depend on how often it is computed; and tissue gives back what it got.
 // All answers come in time: what a hand may be given after a stall is another bound (hand_energy_test.cpp).
 #include "scene_session.h"
+#include "tests/support/scene_organ.h"
 
 #include <gtest/gtest.h>
 
@@ -102,6 +103,24 @@ TEST_P(SceneEnergy, HandsTogetherAreNeverGivenMoreThanAHundredthOfWhatTheyHadPut
     EXPECT_NEAR(session.channel(h).energy_j(), energy.given_j, rounding_j(session, energy))
         << its_own << ": what the device says itself";
     EXPECT_EQ(session.channel(h).held_back(), 0U) << "the tissue's doing, not the guard's";
+  }
+  EXPECT_TRUE(session.faults().empty()) << session.faults().front();
+}
+
+// Each on an organ of its own: nothing passes between them.
+TEST(SceneEnergyOfTwoOrgans, EachHandGetsBackAtMostWhatItPutInAndFeelsItsOwnOrgan) {
+  const test::ScratchFolder folder;
+  if (!test::build_scene_organs("two_organs", test::Regions::kNone, folder.path()))
+    GTEST_SKIP() << "organ_phantom is absent";
+  const scene::Scene scene = scene::load_scene(folder / "two_organs.toml");
+  SceneSession session(scene, 1000);
+  session.run();
+  for (std::size_t h = 0; h < session.hand_count(); ++h) {
+    const EnergyAccount& energy = session.hand(h).energy();
+    EXPECT_GT(energy.put_in_j, kFelt_j) << "hand " << h;
+    EXPECT_LE(energy.excess_j, std::numeric_limits<double>::epsilon() * static_cast<double>(session.ticks()) *
+                                   energy.turned_over_j)
+        << "hand " << h << " was given " << energy.given_j << " J for " << energy.put_in_j << " J";
   }
   EXPECT_TRUE(session.faults().empty()) << session.faults().front();
 }

@@ -18,8 +18,8 @@ class NoduleMap : public testing::Test {
   static void SetUpTestSuite() {
     organs_ = std::make_unique<test::ScratchFolder>();
     for (const char* sub : {"with", "without"}) std::filesystem::create_directories(*organs_ / sub);
-    const auto with = test::build_scene_organ("nodule", test::Regions::kOfTheScene, *organs_ / "with");
-    const auto without = test::build_scene_organ("nodule", test::Regions::kNone, *organs_ / "without");
+    const auto with = test::build_scene_organs("nodule", test::Regions::kOfTheScene, *organs_ / "with");
+    const auto without = test::build_scene_organs("nodule", test::Regions::kNone, *organs_ / "without");
     nodule = with.value_or("");
     plain = without.value_or("");
   }

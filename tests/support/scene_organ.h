@@ -1,4 +1,4 @@
-// The organ of a scene in scenes/, built as the launcher builds it.
+// The organs of a scene in scenes/, built as the launcher builds them.
 #pragma once
 
 #include "tests/support/process.h"
@@ -10,9 +10,10 @@ namespace omentum::test {
 /// Whether the organ has the regions that its scene gives it.
 enum class Regions { kOfTheScene, kNone };
 
-/// Makes NAME.h5 of scenes/NAME.toml in `folder`, and beside it NAME.toml, the scene fitted to it. Returns
-/// the organ file; nothing where organ_phantom is absent. Throws std::runtime_error with a program's words.
-std::optional<std::filesystem::path> build_scene_organ(const std::string& name, Regions regions,
-                                                       const std::filesystem::path& folder);
+/// Makes the organ files of scenes/NAME.toml in `folder`, and NAME.toml, the scene fitted to them. Returns
+/// the first one's file; nothing where organ_phantom is absent. Throws std::runtime_error with a program's
+/// words.
+std::optional<std::filesystem::path> build_scene_organs(const std::string& name, Regions regions,
+                                                        const std::filesystem::path& folder);
 
 }  // namespace omentum::test
