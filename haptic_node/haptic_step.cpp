@@ -9,7 +9,6 @@
 #include "haptic_node/point_contacts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace omentum::haptic {
