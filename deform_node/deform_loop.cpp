@@ -2,6 +2,7 @@
 
 #include "node_common/node_identity.h"
 #include "runtime/report.h"
+#include "transport/topics.h"
 
 #include <nlohmann/json.hpp>
 
@@ -51,17 +52,18 @@ DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& o
 
 void DeformLoop::open_writers() {
   const auto on_wake = [this](std::function<void()> work) { return loop_.on_wake(std::move(work)); };
+  const transport::Profile profile = transport::parse_profile(options_.node.profile);
   scene_writer_ = bus_->writer<msg::SceneInfo>();
   topology_writer_ = bus_->writer<msg::Topology>();
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   publisher_ = std::make_unique<StatePublisher>(
       StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_}, organs_.organs(),
-      nodes_per_block(transport::parse_profile(options_.node.profile)),
-      node::to_message(loaded_, scene_.name), own_, faults_, on_wake);
+      nodes_per_block(profile), node::to_message(loaded_, scene_.name), own_, faults_, on_wake);
   if (offers_local_models(organs_.organs())) {
     local_writer_ = bus_->writer<msg::LocalModel>();
-    local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(), on_wake);
+    local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(),
+                                                        transport::local_model_nodes(profile), on_wake);
   }
 }
 

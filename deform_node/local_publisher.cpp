@@ -1,6 +1,7 @@
 #include "deform_node/local_publisher.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace omentum::deform {
 
@@ -18,12 +19,18 @@ bool offers_local_models(const std::vector<ServedOrgan>& organs) {
 }
 
 LocalPublisher::LocalPublisher(transport::Writer<msg::LocalModel>& writer,
-                               const std::vector<ServedOrgan>& organs, const runtime::StartWork& start)
+                               const std::vector<ServedOrgan>& organs, std::size_t most_nodes,
+                               const runtime::StartWork& start)
     : writer_(writer), organs_(organs), boxes_(organs.size()) {
   for (std::size_t i = 0; i < organs.size(); ++i) {
     if (!offers_local_models(organs[i])) continue;
     StampedPatch room{.organ = static_cast<std::uint32_t>(i), .echoes = {}, .patch = {}};
-    room.patch = LocalPatch(organs[i].model->sizes().local_nodes);
+    const std::size_t nodes = organs[i].model->sizes().local_nodes;
+    if (nodes > most_nodes)
+      throw std::runtime_error("organ " + organs[i].source->organ.name +
+                               ": its model offers local models of " + std::to_string(nodes) +
+                               " nodes, expected at most " + std::to_string(most_nodes) + " on this profile");
+    room.patch = LocalPatch(nodes);
     for (room.tool = 0; room.tool < msg::MAX_TOOLS; ++room.tool)
       boxes_[i].push_back(std::make_unique<Box>(room));
   }

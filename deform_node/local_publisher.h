@@ -20,9 +20,10 @@ bool offers_local_models(const std::vector<ServedOrgan>& organs);
 /// Publishes the newest local model of each organ and tool. Destruction writes what is left.
 class LocalPublisher {
  public:
-  /// Writer and organs outlive this. `start`: how the publishing thread is made.
+  /// Writer and organs outlive this. `start`: how the publishing thread is made. Throws std::runtime_error
+  /// where a model offers patches of more than `most_nodes` (transport::local_model_nodes).
   LocalPublisher(transport::Writer<msg::LocalModel>& writer, const std::vector<ServedOrgan>& organs,
-                 const runtime::StartWork& start);
+                 std::size_t most_nodes, const runtime::StartWork& start);
 
   /// The loop's thread, after a step: what the organs offer around the tools. `echoes`: the newest poses in
   /// that step. Neither waits nor allocates.

@@ -1,12 +1,14 @@
 #include "deform_node/tick_snapshot.h"
 
+#include "geometry/precondition.h"
+
 #include <algorithm>
-#include <cassert>
 
 namespace omentum::deform {
 
 void OrganSnapshot::take(const OrganView& view) noexcept {
-  assert(view.values.size() <= values.size() && view.removed_bits.size() <= removed_bits.size());
+  geometry::require(view.values.size() <= values.size() && view.removed_bits.size() <= removed_bits.size(),
+                    "a view no larger than the model said");
   kind = view.kind;
   value_count = std::min(view.values.size(), values.size());
   std::copy_n(view.values.begin(), value_count, values.begin());

@@ -15,7 +15,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <atomic>
 #include <memory>
 #include <vector>
 

@@ -8,7 +8,6 @@
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -66,7 +66,7 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   runtime::CommandLine line(
       "virtual_device",
-      "A simulated hand that presses the scene's organ and feels its force, or a recorded hand");
+      "A simulated hand that presses an organ of the scene and feels its force, or a recorded hand");
   Options options;
   runtime::add_node_options(line, options.bridge.node);
   line.option("--trace", options.trace, "play this recorded hand instead of the scene's script")

@@ -3,7 +3,6 @@
 #include "geometry/closest_points.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

@@ -119,7 +119,13 @@ class Body : public NodeCompliance {
 
   /// The closest material point to p that is reached from `from` without leaving the surface, always nearer.
   virtual SurfacePoint slide(const SurfacePoint& from, const Vec3& p) noexcept = 0;
-  virtual Place place_of(const SurfacePoint& point) noexcept = 0;
+  /// Fills all of `place`.
+  virtual void find_place(const SurfacePoint& point, Place& place) noexcept = 0;
+  Place place_of(const SurfacePoint& point) noexcept {
+    Place place;
+    find_place(point, place);
+    return place;
+  }
   /// Its position alone.
   virtual Vec3 position(const SurfacePoint& point) noexcept = 0;
   /// How much tissue something at p that presses a material point in has before it, as a share of what there

@@ -4,20 +4,43 @@
 #include "haptic_node/node_forces.h"
 #include "haptic_node/other_tools.h"
 
+#include <algorithm>
+
 namespace omentum::haptic {
 namespace {
 
-// Contacts at `place` go over to `body`; without one, or where it has no such point, they end.
+// Contacts at `place` go over to `body`; without one, or where it has no such point, they end, and where
+// their points are is asked a tick later, as in leave_astray.
 void move_contacts(BodyId place, Body* body, HapticState& state) {
-  drop_contacts(state, [&](ToolContact& contact) {
-    if (contact.body != place) return false;
+  std::array<bool, physics::kMaxContacts> ended{};
+  for (std::size_t i = 0; i < state.active().size(); ++i) {
+    ToolContact& contact = state.contacts[i];
+    if (contact.body != place) continue;
     const auto same = body ? body->nearest_at_rest(contact.place.rest, Body::kReach_m) : std::nullopt;
-    if (same)
+    ended[i] = !same;
+    if (same) {
       hold(*same, contact, *body);
-    else
-      state.tools[contact.tool].let_go |= contact.touches();
-    return !same;
-  });
+      continue;
+    }
+    ToolState& tool = state.tools[contact.tool];
+    PointMemory& memory = tool.memory(place, static_cast<std::size_t>(contact.point));
+    memory.ask_in = 2;
+    memory.ask_m = kDeepestAppearance_m;
+    memory.way_out = contact.place.normal;
+    tool.let_go |= contact.touches();
+  }
+  std::size_t i = 0;
+  drop_contacts(state, [&](const ToolContact&) { return ended[i++]; });
+}
+
+// Jaws that hold nothing any more.
+void end_empty_grasps(HapticState& state) {
+  for (std::size_t t = 0; t < state.tools.size(); ++t) {
+    const auto holds = [t](const ToolContact& contact) {
+      return contact.grasped && contact.tool == static_cast<std::int32_t>(t);
+    };
+    state.tools[t].grasping &= std::ranges::any_of(state.active(), holds);
+  }
 }
 
 // The body takes over the forces of its contacts.
@@ -35,14 +58,27 @@ void forget_node_forces(BodyId place, HapticState& state) {
   state.node_force_count = static_cast<int>(left - begin);
 }
 
-// Points outside of what stood there are outside of what replaces it, nobody knows how far; of a body that
-// was not there nothing is known.
+bool holds_contact(const HapticState& state, BodyId place, std::size_t tool, std::size_t point) {
+  return std::ranges::any_of(state.active(), [&](const ToolContact& contact) {
+    return contact.body == place && contact.tool == static_cast<std::int32_t>(tool) &&
+           contact.point == static_cast<std::int32_t>(point);
+  });
+}
+
+// Of a body that was not there nothing is known. Points outside of what stood there are outside of what
+// replaces it, or a little inside, as the two differ.
 void forget_distances(BodyId place, bool replaced, HapticState& state) {
-  for (ToolState& tool : state.tools) {
+  for (std::size_t t = 0; t < state.tools.size(); ++t) {
+    ToolState& tool = state.tools[t];
     for (std::size_t p = 0; p < tool.now.size(); ++p) {
       PointMemory& memory = tool.memory(place, p);
       memory.clearance_m = 0;
-      if (!replaced) memory = {.adrift = true, .ask_in = 1};
+      if (!replaced) {
+        memory = {.adrift = true, .ask_in = 1};
+      } else if (!memory.adrift && memory.ask_in == 0 && !holds_contact(state, place, t, p)) {
+        memory.ask_in = 1;
+        memory.ask_m = Body::kReach_m;
+      }
     }
   }
 }
@@ -54,7 +90,9 @@ void take_in(BodyId place, std::unique_ptr<Body>& handed, HapticState& state, Bo
   move_contacts(place, body, state);
   forget_node_forces(place, state);
   forget_distances(place, replaced, state);
-  if (body) load(place, *body, state);
+  if (!body) return;
+  load(place, *body, state);
+  measure_other_tools(place, *body, state);
 }
 
 }  // namespace
@@ -67,7 +105,7 @@ void take_in_bodies(HapticState& state, HapticWorkspace& work) noexcept {
     take_in(BodyId(i), door.value(), state, work.bodies);
     any = true;
   }
-  if (any) measure_other_tools(state, work.bodies);
+  if (any) end_empty_grasps(state);
 }
 
 }  // namespace omentum::haptic

@@ -15,12 +15,19 @@ void drop_contacts(HapticState& state, Predicate&& gone) {
   state.contact_count = static_cast<int>(end - active.begin());
 }
 
+/// How deep the tool's point is below its material point, along the normal, m.
+inline double depth_of(const HapticState& state, const ToolContact& contact) {
+  const Vec3 p = state.tools[contact.tool].now[contact.point] + contact.other_dents;
+  return (contact.place.position - p).dot(contact.place.normal);
+}
+
 /// There is room for every point of every tool (require_solvable), but not on each of several bodies: then
-/// one that only lies near makes room, to be found again. Nothing where all are needed.
+/// one that only lies near makes room, to be found again. Nothing where all are needed. `place`s are this
+/// tick's.
 inline ToolContact* add_contact(HapticState& state, std::int32_t tool, std::int32_t point, BodyId body) {
   if (state.contact_count == physics::kMaxContacts) {
-    const auto idle = std::ranges::find_if(state.active(), [](const ToolContact& contact) {
-      return !contact.touches() && !contact.grasped && contact.sunken_m == 0;
+    const auto idle = std::ranges::find_if(state.active(), [&](const ToolContact& contact) {
+      return !contact.touches() && !contact.grasped && contact.sunken_m == 0 && depth_of(state, contact) <= 0;
     });
     if (idle == state.active().end()) return nullptr;
     *idle = {.tool = tool, .point = point, .body = body};
@@ -34,7 +41,7 @@ inline ToolContact* add_contact(HapticState& state, std::int32_t tool, std::int3
 /// The contact holds another material point, or the same one where it is by now.
 inline void hold(const SurfacePoint& point, ToolContact& contact, Body& body) {
   contact.held = point;
-  contact.place = body.place_of(point);
+  body.find_place(point, contact.place);
 }
 
 /// A tool's point as the contact sees it: less the depth that is no press.
@@ -45,12 +52,6 @@ inline Vec3 at_the_surface(const ToolContact& contact, std::span<const Vec3> poi
 /// The same where the surface that bears all tools' forces is met.
 inline Vec3 with_the_others(const ToolContact& contact, std::span<const Vec3> points) {
   return at_the_surface(contact, points) + contact.other_dents;
-}
-
-/// How deep the tool's point is below its material point, along the normal, m.
-inline double depth_of(const HapticState& state, const ToolContact& contact) {
-  const Vec3 p = state.tools[contact.tool].now[contact.point] + contact.other_dents;
-  return (contact.place.position - p).dot(contact.place.normal);
 }
 
 }  // namespace omentum::haptic

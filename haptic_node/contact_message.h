@@ -10,7 +10,8 @@ namespace omentum::haptic {
 msg::Contact make_contact_message(std::uint32_t tool_id, std::uint32_t organ);
 
 /// This tool's forces on one organ (message.organ), and what all tools together move its nodes by: u_A = C_AA
-/// f_A. Pinned nodes, which nothing moves, are left out. No allocation on a message from
+/// f_A. Pinned nodes, which nothing moves, are left out. `grasping` says whether the jaws hold this organ;
+/// `grasp_count` counts the tool's grasps, of any organ. No allocation on a message from
 /// make_contact_message.
 void fill_contact_message(std::int32_t tool, const ToolOutput& output, const HapticState& state,
                           Bodies& bodies, msg::Contact& message) noexcept;

@@ -113,6 +113,7 @@ void DeformedSurface::restore_rest() noexcept {
 void DeformedSurface::propose(std::span<const SurfaceId> nodes, std::span<const Vec3> forces) noexcept {
   geometry::require(nodes.size() == forces.size() && nodes.size() <= kMaxForces,
                     "a force for each of at most kMaxForces nodes");
+  geometry::require(std::ranges::all_of(nodes, [this](SurfaceId n) { return is_mobile(n); }), "mobile nodes");
   proposed_nodes_.assign(nodes.begin(), nodes.end());
   proposed_forces_.assign(forces.begin(), forces.end());
   change_.count = 0;

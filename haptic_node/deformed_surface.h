@@ -53,9 +53,7 @@ class DeformedSurface : public Body {
     const Vec3& k = point.barycentric;
     return k[0] * position(t[0]) + k[1] * position(t[1]) + k[2] * position(t[2]);
   }
-  Place place_of(const SurfacePoint& point) noexcept final {
-    return {position(point), rest_position(point), normal(point), nodes_at(point)};
-  }
+  void find_place(const SurfacePoint& point, Place& place) noexcept final;
   Vec3 rest_position(const SurfacePoint& point) const noexcept {
     const geometry::Triangle& t = surface_.triangles[point.triangle];
     const Vec3& k = point.barycentric;
@@ -113,6 +111,7 @@ class DeformedSurface : public Body {
 
   void index_clusters();
   void size_bounds();
+  bool is_mobile(SurfaceId node) const noexcept { return node >= 0 && node < surface_.mobile_count; }
   bool fresh(std::int32_t cluster) const noexcept {
     return cluster >= clusters_ || cluster_version_[cluster] == version_;
   }
@@ -132,7 +131,6 @@ class DeformedSurface : public Body {
   void bin_pending() noexcept;
   template <class Visit>
   void visit_near(const Vec3& p, const Vec3& q, double radius_m, Visit&& visit) noexcept;
-  PointNodes nodes_at(const SurfacePoint& point) const noexcept;
   Corners stored_corners(TriangleId triangle) const noexcept;
   void find_normals();
   void find_longest_edges();

@@ -163,15 +163,17 @@ Vec3 DeformedSurface::normal(const SurfacePoint& point) const noexcept {
                     : area_normal(rest_[t[0]], rest_[t[1]], rest_[t[2]]).normalized();
 }
 
-PointNodes DeformedSurface::nodes_at(const SurfacePoint& point) const noexcept {
+void DeformedSurface::find_place(const SurfacePoint& point, Place& place) noexcept {
   const geometry::Triangle& t = surface_.triangles[point.triangle];
-  PointNodes nodes;
+  place.position = position(point);
+  place.rest = rest_position(point);
+  place.normal = normal(point);
+  place.nodes.count = 0;
   for (int v = 0; v < 3; ++v) {
     if (t[v] >= surface_.mobile_count) continue;
-    nodes.node[nodes.count] = t[v];
-    nodes.weight[nodes.count++] = point.barycentric[v];
+    place.nodes.node[place.nodes.count] = t[v];
+    place.nodes.weight[place.nodes.count++] = point.barycentric[v];
   }
-  return nodes;
 }
 
 std::optional<SurfacePoint> DeformedSurface::nearest_at_rest(const Vec3& p, double reach_m) noexcept {

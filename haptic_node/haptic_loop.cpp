@@ -220,6 +220,7 @@ void HapticLoop::publish_contacts(std::int64_t now_ns) noexcept {
   std::ranges::for_each(contacts_, [](TouchedOrgan& touched) { touched.now = false; });
   for (const NodeForce& entry : state_.forces()) {
     const std::uint32_t organ = work_.bodies[entry.body].origin().organ;
+    if (organ >= organs) continue;
     contacts_[static_cast<std::size_t>(entry.tool) * organs + organ].now = true;
   }
   for (const TouchedOrgan& touched : contacts_) changed |= touched.now != touched.told;

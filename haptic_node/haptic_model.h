@@ -74,13 +74,17 @@ struct NodeForce {
   Vec3 dent = Vec3::Zero();  // the tool's own, by the model (see other_tools.h), m
 };
 
+/// A point may appear this deep, m: half a liver.
+inline constexpr double kDeepestAppearance_m = 0.06;
+
 /// What is known of a tool's point that holds no contact with a body.
 struct PointMemory {
   double clearance_m = 0;  // how far it is from the surface at least
   // inside the body without having come in: it feels nothing until it was outside
   bool adrift = false;
-  std::uint8_t ask_in = 0;      // ticks until it is asked where the point is; 0: nobody asks
-  Vec3 way_out = Vec3::Zero();  // the normal of the contact that it lost; zero: any way
+  std::uint8_t ask_in = 0;              // ticks until it is asked where the point is; 0: nobody asks
+  double ask_m = kDeepestAppearance_m;  // how deep it is looked for then
+  Vec3 way_out = Vec3::Zero();          // the normal of the contact that it lost; zero: any way
 };
 
 struct ToolState {

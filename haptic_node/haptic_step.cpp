@@ -9,7 +9,6 @@
 #include "haptic_node/point_contacts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace omentum::haptic {
@@ -150,7 +149,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
     const physics::ContactSolution solution = solve_point_contacts(model, inputs, near, state, work);
     result.status = solution.status;
     result.residual_m = solution.residual_m;
-    measure_other_tools(state, bodies);
+    bodies.for_each([&](BodyId id, Body& body) { measure_other_tools(id, body, state); });
   } else {
     solve_spread_contacts(model, state, work);
   }

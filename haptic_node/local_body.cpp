@@ -1,6 +1,9 @@
 #include "haptic_node/local_body.h"
 
 #include "physics/compliance_tiles.h"
+#include "transport/messages.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 
@@ -48,11 +51,11 @@ physics::SurfaceCompliance compliance_of(const LocalPatch& patch, const geometry
   return {tiles.mobile_count, tiles.values, memory->bounds.data(), memory};
 }
 
-// Where the nodes would be without forces: positions - C load.
+// Where the nodes would be without forces: positions - C forces.
 std::vector<Vec3> rest_of(const LocalPatch& patch, const physics::SurfaceCompliance& compliance) {
   std::vector<Vec3> rest = patch.positions;
   for (SurfaceId k(0); k < compliance.mobile_count(); k = SurfaceId(k + 1)) {
-    const Vec3& load = patch.load[static_cast<std::size_t>(k)];
+    const Vec3& load = patch.forces[static_cast<std::size_t>(k)];
     if (load.isZero(0)) continue;
     for (SurfaceId n(0); n < compliance.mobile_count(); n = SurfaceId(n + 1))
       rest[static_cast<std::size_t>(n)] -= compliance.block(n, k) * load;
@@ -65,7 +68,7 @@ ElasticSurface elastic_surface(const LocalPatch& patch) {
       geometry::surface_of_triangles(static_cast<std::int32_t>(patch.positions.size()), patch.triangles);
   physics::SurfaceCompliance compliance = compliance_of(patch, surface);
   std::vector<Vec3> rest = rest_of(patch, compliance);
-  return {std::move(surface), std::move(rest), std::move(compliance), patch.file_node};
+  return {std::move(surface), std::move(rest), std::move(compliance), patch.nodes};
 }
 
 // Made before the surface that refers to it.
@@ -81,51 +84,73 @@ class LocalBody final : private OwnedSurface, public DeformedSurface {
                         {patch.organ, patch.topology_version, elastic.file_node}) {}
 };
 
+bool in_a_scene(const Vec3& position) {
+  constexpr double kFarthest_m = 1000;
+  return position.allFinite() && position.cwiseAbs().maxCoeff() <= kFarthest_m;
+}
+
 bool all_finite(const LocalPatch& patch) {
-  const auto finite = [](const Vec3& v) { return v.allFinite(); };
-  return std::ranges::all_of(patch.positions, finite) && std::ranges::all_of(patch.load, finite) &&
+  return std::ranges::all_of(patch.positions, in_a_scene) &&
+         std::ranges::all_of(patch.forces, [](const Vec3& f) { return f.allFinite(); }) &&
          std::ranges::all_of(patch.compliance, [](float c) { return std::isfinite(c); });
 }
 
-// Whether every triangle's corners are nodes, and every node is a corner.
+bool spans_an_area(const LocalPatch& patch, const geometry::Triangle& t) {
+  constexpr double kLeastArea_m2 = 1e-12;
+  const auto x = [&](int v) { return patch.positions[static_cast<std::size_t>(t[v])]; };
+  return 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm() > kLeastArea_m2;
+}
+
+// Whether every triangle's corners are nodes, apart from each other, and every node is a corner.
 bool nodes_are_corners(const LocalPatch& patch) {
+  const auto count = static_cast<std::int32_t>(patch.positions.size());
   std::vector<bool> corner(patch.positions.size(), false);
   for (const geometry::Triangle& t : patch.triangles) {
-    for (const SurfaceId n : t) {
-      if (n < 0 || static_cast<std::size_t>(n) >= corner.size()) return false;
-      corner[static_cast<std::size_t>(n)] = true;
-    }
+    if (std::ranges::any_of(t, [count](SurfaceId n) { return n < 0 || n >= count; })) return false;
+    if (!spans_an_area(patch, t)) return false;
+    for (const SurfaceId n : t) corner[static_cast<std::size_t>(n)] = true;
   }
   return std::ranges::all_of(corner, std::identity{});
 }
 
-// C_ii > 0 and |C_ij| <= sqrt(C_ii C_jj): what every compliance keeps, and what an energy cannot do without.
+// Positive definite but for the rounding of floats.
 bool is_passive(const LocalPatch& patch) {
-  const std::size_t size = 3 * patch.positions.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    const double own = entry(patch, i, i);
-    if (!(own > 0)) return false;
-    for (std::size_t j = 0; j < i; ++j) {
-      const double c = entry(patch, i, j);
-      if (c * c > own * entry(patch, j, j)) return false;
-    }
+  constexpr double kRounding = 1e-5;
+  const auto size = static_cast<Eigen::Index>(3 * patch.positions.size());
+  Eigen::MatrixXd C(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j)
+      C(i, j) = entry(patch, static_cast<std::size_t>(i), static_cast<std::size_t>(j));
   }
-  return true;
+  if (!(C.diagonal().minCoeff() > 0)) return false;
+  C.diagonal().array() += kRounding * C.diagonal().maxCoeff();
+  return Eigen::LLT<Eigen::MatrixXd>(C).info() == Eigen::Success;
+}
+
+std::optional<std::string> wrong_size(const LocalPatch& patch) {
+  constexpr std::size_t kMostTriangles = msg::MAX_LOCAL_CORNERS / 3;
+  const std::size_t n = patch.positions.size(), floats = 3 * n * (3 * n + 1) / 2;
+  if (n < 3 || n > msg::MAX_LOCAL_NODES)
+    return std::to_string(n) + " nodes, expected 3 to " + std::to_string(msg::MAX_LOCAL_NODES);
+  if (patch.triangles.size() > kMostTriangles)
+    return std::to_string(patch.triangles.size()) + " triangles, expected at most " +
+           std::to_string(kMostTriangles);
+  if (patch.forces.size() != n || patch.nodes.size() != n || patch.compliance.size() != floats)
+    return "forces, node numbers or compliance are not of " + std::to_string(n) + " nodes";
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<std::string> reason_against(const LocalPatch& patch) {
-  const std::size_t n = patch.positions.size();
-  if (n < 3 || n > kMaxPatchNodes)
-    return std::to_string(n) + " nodes, expected 3 to " + std::to_string(kMaxPatchNodes);
-  if (patch.load.size() != n || patch.file_node.size() != n ||
-      patch.compliance.size() != 3 * n * (3 * n + 1) / 2)
-    return "load, node numbers or compliance are not of " + std::to_string(n) + " nodes";
-  if (!nodes_are_corners(patch)) return "its triangles do not have its nodes as corners";
-  if (!all_finite(patch)) return "a number that is not finite";
-  if (!is_passive(patch))
-    return "a compliance that no tissue has (not positive, or larger beside than at a node)";
+std::optional<std::string> reason_against(const LocalPatch& patch, std::size_t organ_count) {
+  if (patch.organ >= organ_count)
+    return "organ " + std::to_string(patch.organ) + ", which the scene does not have";
+  if (auto why = wrong_size(patch)) return why;
+  if (!all_finite(patch)) return "a number that is not finite, or a position outside of any scene";
+  if (!nodes_are_corners(patch)) return "its triangles do not have its nodes as corners, or have no area";
+  if (!is_passive(patch)) return "a compliance that is not positive definite";
+  if (!std::ranges::all_of(elastic_surface(patch).rest, in_a_scene))
+    return "forces that would move it out of any scene";
   return std::nullopt;
 }
 

@@ -6,24 +6,23 @@
 
 namespace omentum::haptic {
 
-/// The surface around a place and how it yields: x = positions + C (f - load).
+/// The surface around a place and how it yields, x = positions + C (f - forces): a LocalModel
+/// (idl/contact.idl) whose velocities are left out.
 struct LocalPatch {
   std::uint32_t organ = 0;
   std::uint64_t topology_version = 0;
-  std::vector<Vec3> positions;                // [n] m, in W, under `load`
-  std::vector<Vec3> load;                     // [n] forces by tools, N
+  std::vector<std::uint32_t> nodes;           // [n] places in the mesh file
+  std::vector<Vec3> positions;                // [n] m, in W, under `forces`
+  std::vector<Vec3> forces;                   // [n] by tools, N
   std::vector<geometry::Triangle> triangles;  // outward; an open surface
-  std::vector<float> compliance;         // upper triangle of the symmetric C, [3n (3n + 1) / 2], by rows, m/N
-  std::vector<std::uint32_t> file_node;  // [n] place in the mesh file
+  std::vector<float> compliance;              // upper triangle of the symmetric C, by rows, m/N
 };
 
-/// More nodes than this are no small model: its compliance would take 9 MB.
-inline constexpr std::size_t kMaxPatchNodes = 512;
-
-/// Why a patch is none: lengths that do not fit, a node that is in no triangle, a number that is not finite,
-/// a node that a force on it would draw the other way; nothing when it is one. What is refused here never
-/// reaches a hand.
-std::optional<std::string> reason_against(const LocalPatch& patch);
+/// Why a patch is none in a session with so many organs: an organ that is not there, too many nodes or
+/// triangles, lengths that do not fit, corners that are no nodes or fall together, a number that is not
+/// finite or farther away than any scene, a compliance that is not positive definite: with it pressing would
+/// give energy. Nothing when it is one.
+std::optional<std::string> reason_against(const LocalPatch& patch, std::size_t organ_count);
 
 /// The body that a patch is. Not for the loop's thread: it allocates. The patch must be one.
 std::unique_ptr<Body> make_local_body(const LocalPatch& patch);

@@ -9,8 +9,6 @@
 namespace omentum::haptic {
 namespace {
 
-// A point may appear this deep, m: half a liver.
-constexpr double kDeepestAppearance_m = 0.06;
 constexpr double kUnknownDepth_m = std::numeric_limits<double>::infinity();
 // How far along the surface a contact that presses may be from its tool's point, m: a quarter of what the
 // place was moved (tissue under a deep press also moves sideways), between these. The upper bound is what a
@@ -109,7 +107,7 @@ void meet_appeared_in(BodyId id, std::size_t tool_index, HapticState& state, Bod
   for (std::size_t p = 0; p < tool.now.size(); ++p) {
     PointMemory& memory = tool.memory(id, p);
     if (memory.ask_in == 0 || --memory.ask_in > 0) continue;
-    const auto inside = body.immersion(tool.now[p], kDeepestAppearance_m);
+    const auto inside = body.immersion(tool.now[p], memory.ask_m);
     memory.adrift = inside.has_value();
     if (!inside || body.place_of(inside->nearest).normal.dot(memory.way_out) < 0) continue;
     // what finds no room in the list stays adrift
@@ -142,6 +140,7 @@ void leave_astray(HapticState& state, Bodies& bodies) noexcept {
     left[i] = true;
     PointMemory& memory = tool.memory(contact.body, static_cast<std::size_t>(contact.point));
     memory.adrift = through;
+    memory.ask_m = kDeepestAppearance_m;
     memory.ask_in = !through && (contact.touches() || contact.sunken_m > 0) ? 2 : 0;
     memory.way_out = contact.place.normal;
     tool.let_go |= contact.touches();

@@ -10,7 +10,7 @@
 int main(int argc, char** argv) {
   using namespace omentum;
   runtime::CommandLine line(
-      "haptic_node", "Feels the scene's organ with the tools' points and answers each pose with a force.");
+      "haptic_node", "Feels the scene's organs with the tools' points and answers each pose with a force.");
   haptic::HapticOptions options;
   runtime::add_node_options(line, options.node);
   line.option("--rate-hz", options.rate_hz, "rate without a device; a miss is counted against its period")

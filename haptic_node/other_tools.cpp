@@ -51,16 +51,15 @@ bool any_near_others(const HapticState& state) noexcept {
                              [](const ToolState& tool) { return tool.engaged && tool.near_others; });
 }
 
-void measure_other_tools(HapticState& state, Bodies& bodies) noexcept {
+void measure_other_tools(BodyId id, Body& body, HapticState& state) noexcept {
   const bool near = any_near_others(state);
-  if (near) {
-    for (NodeForce& entry : node_forces(state)) {
-      ContactNodes& nodes = bodies[entry.body].contact_nodes();
-      entry.dent = nodes.own_compliance(nodes.slot_of(entry.node)) * entry.force;
-    }
+  ContactNodes& nodes = body.contact_nodes();
+  for (NodeForce& entry : node_forces(state)) {
+    if (near && entry.body == id) entry.dent = nodes.own_compliance(nodes.slot_of(entry.node)) * entry.force;
   }
-  for (ToolContact& contact : state.active())
-    contact.other_dents = near ? dents_of_others(state, contact) : Vec3::Zero();
+  for (ToolContact& contact : state.active()) {
+    if (contact.body == id) contact.other_dents = near ? dents_of_others(state, contact) : Vec3::Zero();
+  }
 }
 
 }  // namespace omentum::haptic

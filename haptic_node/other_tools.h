@@ -16,6 +16,6 @@ bool any_near_others(const HapticState& state) noexcept;
 /// After a solve whose forces the contacts and nodes carry: each tool's own dents (NodeForce::dent), and what
 /// the others' are at a contact's material point, which its tool does not meet (ToolContact::other_dents). No
 /// allocation.
-void measure_other_tools(HapticState& state, Bodies& bodies) noexcept;
+void measure_other_tools(BodyId id, Body& body, HapticState& state) noexcept;
 
 }  // namespace omentum::haptic

@@ -98,12 +98,18 @@ std::array<ToolContact*, physics::kMaxContacts> contacts_of(HapticState& state, 
   return contacts;
 }
 
+// How far at most the last forces moved what was near the tools before, and what was not, m.
+struct SurfaceMotion {
+  double known, entered;
+};
+
 // The surface point that tool point p met on its way, if any. Whoever has more room than tool and surface
 // moved together met nothing.
-std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, PointMemory& memory, Body& body) {
+std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, const SurfaceMotion& motion,
+                                        PointMemory& memory, Body& body) {
   double& room = memory.clearance_m;
   const double before = room, way = (tool.now[p] - tool.before[p]).norm() + kHair_m;
-  room = std::min(room - way - body.known_motion(), Body::kReach_m - way - body.entered_motion());
+  room = std::min(room - way - motion.known, Body::kReach_m - way - motion.entered);
   if (room > tool.others_m) return std::nullopt;
   const double near = kNear_m + tool.others_m;
   const double arm = std::clamp(kArmGrowth * before, near, Body::kReach_m + tool.others_m);
@@ -140,6 +146,7 @@ void begin_contact(const SurfacePoint& met, const HapticState& state, ToolContac
 void find_contacts_with(BodyId id, Body& body, std::size_t tool_index, HapticState& state) {
   ToolState& tool = state.tools[tool_index];
   const auto contacts = contacts_of(state, tool_index, id);
+  const SurfaceMotion motion{body.known_motion(), body.entered_motion()};
   for (std::size_t p = 0; p < tool.now.size(); ++p) {
     PointMemory& memory = tool.memory(id, p);
     if (memory.ask_in > 0) continue;  // meet_appeared looks for it
@@ -151,13 +158,17 @@ void find_contacts_with(BodyId id, Body& body, std::size_t tool_index, HapticSta
       memory.clearance_m = 0;
       continue;
     }
-    const auto found = look_around(tool, p, memory, body);
+    const auto found = look_around(tool, p, motion, memory, body);
     if (!found) continue;
     if (known) {
       const bool alone = known->other_dents.isZero(0);
       hold(alone ? *found : body.slide(*found, with_the_others(*known, tool.now)), *known, body);
     } else if (ToolContact* contact = add_contact(state, of_tool, point, id)) {
       begin_contact(*found, state, *contact, body);
+    } else {
+      // who finds no room in the list and is inside feels nothing until it was outside
+      const Place met = body.place_of(*found);
+      memory.adrift = (met.position - tool.now[p]).dot(met.normal) > 0;
     }
   }
 }

@@ -40,7 +40,7 @@ std::string first_difference(const Values& theirs, const Values& ours) {
   if (t != theirs.end() && !has(ours, split(*t).key)) return differs(split(*t).key, split(*t).text, kAbsent);
   if (o != ours.end() && !has(theirs, split(*o).key)) return differs(split(*o).key, kAbsent, split(*o).text);
   if (t == theirs.end() || o == ours.end() || split(*t).key != split(*o).key)
-    return "scene: deform_node tells its values in another order or with another hash than this node";
+    return "scene: deform_node is another version of Omentum, whose scene values are listed otherwise";
   return differs(split(*t).key, split(*t).text, split(*o).text);
 }
 
@@ -93,13 +93,14 @@ std::optional<std::string> contradicts(const LoadedScene& loaded, const msg::Sce
   if (announced.hash != loaded.hash) return first_difference(announced.values, loaded.values);
   if (announced.organs.size() != loaded.organ_count) {
     return "deform_node serves " + std::to_string(announced.organs.size()) + " organs of scene " +
-           announced.scene + ", this node's scene has " + std::to_string(loaded.organ_count);
+           scene::printable(announced.scene) + ", this node's scene has " +
+           std::to_string(loaded.organ_count);
   }
   for (std::size_t i = 0; i < loaded.organs.size(); ++i) {
     const std::string& theirs = announced.organs[i].hash;
     if (theirs == loaded.organs[i].hash) continue;
     return "organ " + loaded.organs[i].name + ": deform_node loaded another organ file, its hash is " +
-           theirs + ", this node's is " + loaded.organs[i].hash;
+           scene::printable(theirs) + ", this node's is " + loaded.organs[i].hash;
   }
   return std::nullopt;
 }

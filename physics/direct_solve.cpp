@@ -1,7 +1,5 @@
 #include "physics/direct_solve.h"
 
-#include <cassert>
-
 namespace omentum::physics {
 
 namespace {

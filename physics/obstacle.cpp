@@ -13,6 +13,9 @@ constexpr double kRounding = 1e-10;
 // Whole blocks are exchanged that often without getting nearer before Murty's rule, one at a time, takes
 // over.
 constexpr int kBlockTries = 5;
+// Rounds for each place: Murty's rule seldom takes more than two, but rounding of a nearly singular matrix
+// may send a place to and fro for ever.
+constexpr std::size_t kRoundsPerPlace = 50;
 
 class Pivoting {
  public:
@@ -24,7 +27,7 @@ class Pivoting {
   std::optional<Eigen::VectorXd> solve() {
     std::size_t fewest = touches_.size() + 1;
     int tries = kBlockTries;
-    while (push()) {
+    for (std::size_t round = 0; round < kRoundsPerPlace * touches_.size() && push(); ++round) {
       std::vector<std::size_t> wrong = wrong_places();
       if (wrong.empty()) return force_;
       if (wrong.size() < fewest) {

@@ -72,6 +72,9 @@ void superpose_cluster(const SurfaceCompliance& compliance, std::int32_t cluster
 void superpose_surface(const SurfaceCompliance& compliance, std::span<const SurfaceId> nodes,
                        std::span<const Vec3> forces, std::span<float> u) noexcept {
   const auto clusters = static_cast<std::size_t>(compliance.cluster_count());
+  geometry::require(
+      std::ranges::all_of(nodes, [&](SurfaceId n) { return n >= 0 && n < compliance.mobile_count(); }),
+      "mobile nodes");
   geometry::require(u.size() >= 3 * SurfaceCompliance::kLanes * clusters, "room for every cluster");
   superpose(compliance, 0, clusters, nodes, forces, u.data());
 }

@@ -68,7 +68,7 @@ void Inbox::take_contact(const msg::Contact& contact) {
   if (contact.tool >= msg::MAX_TOOLS) return;
   if (contact.organ >= organs_.size())
     return faults_.raise("contact with an organ that the scene does not have");
-  organs_[contact.organ]->contacts[contact.tool].post(contact);
+  organs_[contact.organ]->contacts[contact.tool].post({contact, clock_.now_ns()});
 }
 
 void Inbox::take_state(const msg::OrganState& block) {
@@ -96,7 +96,7 @@ void Inbox::take_status(const msg::NodeStatus& status) {
   statuses_.post(heard_);
 }
 
-const msg::Contact& Inbox::contact(std::size_t organ, std::uint32_t tool) {
+const HeardContact& Inbox::contact(std::size_t organ, std::uint32_t tool) {
   auto& newest = organs_[organ]->contacts[tool];
   newest.fetch();
   return newest.value();

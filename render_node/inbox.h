@@ -22,6 +22,12 @@ struct LoadedOrgan {
   std::uint32_t state_kind = msg::KIND_SURFACE;
 };
 
+/// A contact and when it came (the inbox's clock).
+struct HeardContact {
+  msg::Contact contact;
+  std::int64_t arrived_ns = 0;
+};
+
 /// A node's newest status and when it came (the inbox's clock).
 struct HeardStatus {
   msg::NodeStatus status;
@@ -55,7 +61,7 @@ class Inbox {
     return tool < arrivals_.size() ? arrivals_[tool].find(seq) : std::nullopt;
   }
   /// The newest contact of a tool with an organ; without nodes before one came.
-  const msg::Contact& contact(std::size_t organ, std::uint32_t tool);
+  const HeardContact& contact(std::size_t organ, std::uint32_t tool);
   /// The newest state of an organ if one came since the last call.
   const AssembledState* fetch_state(std::size_t organ);
   const std::vector<HeardStatus>& statuses();
@@ -72,7 +78,7 @@ class Inbox {
     StateAssembly assembly;
     runtime::Mailbox<AssembledState> newest;
     runtime::Mailbox<msg::Topology> topology;
-    std::array<runtime::Mailbox<msg::Contact>, msg::MAX_TOOLS> contacts;
+    std::array<runtime::Mailbox<HeardContact>, msg::MAX_TOOLS> contacts;
   };
   void take_contact(const msg::Contact& contact);
   void take_state(const msg::OrganState& block);

@@ -2,6 +2,7 @@
 
 #include "node_common/contact_bounds.h"
 #include "node_common/rivals.h"
+#include "node_common/vectors.h"
 #include "render_node/plausible.h"
 
 #include <algorithm>
@@ -17,17 +18,13 @@ constexpr std::int64_t kForceGone_ns = 250'000'000;  // a force this old is nobo
 std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
   std::vector<msg::OrganInfo> infos;
   for (const LoadedOrgan& organ : organs)
-    infos.push_back({.name = organ.name, .hash = organ.hash, .kind = msg::KIND_SURFACE});
+    infos.push_back({.name = organ.name, .hash = organ.hash, .kind = organ.state_kind});
   return infos;
 }
 
 bool is_cut(const msg::Topology& topology) {
   return std::any_of(topology.removed_bits.begin(), topology.removed_bits.end(),
                      [](std::uint8_t byte) { return byte != 0; });
-}
-
-Vec3 to_eigen(const msg::Vec3& v) {
-  return {v.x, v.y, v.z};
 }
 
 }  // namespace
@@ -93,14 +90,14 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
              is_plausible(pose.sample);
   if (now.seen) {
     const auto& q = pose.sample.orientation;
-    now.p_WT = to_eigen(pose.sample.position);
+    now.p_WT = node::to_vector(pose.sample.position);
     now.q_WT = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
     now.grip_rad = pose.sample.grip;
   }
   transport::Arrived<msg::ToolForce> force;
   const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGone_ns &&
                     is_plausible(force.sample, max_force_n_);
-  now.force_n = felt ? to_eigen(force.sample.force) : Vec3::Zero();
+  now.force_n = felt ? node::to_vector(force.sample.force) : Vec3::Zero();
   now.contact_nodes.clear();
   now.contact_forces_n.clear();
   rows_[tool].present = now.seen;
@@ -119,7 +116,9 @@ void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_
   // a tool is drawn with the organ that it presses hardest
   double most_n = -1;
   for (std::size_t organ = 0; organ < loaded_.organ_count; ++organ) {
-    const msg::Contact& contact = inbox.contact(organ, ids_[tool]);
+    const auto& [contact, arrived_ns] = inbox.contact(organ, ids_[tool]);
+    if (now_ns - arrived_ns > kForceGone_ns)
+      continue;  // haptic_node tells an organ that was left for a while only
     const double total_n = node::total_force_n(contact);
     if (contact.nodes.empty() || !is_plausible(contact, max_force_n_) || total_n <= most_n) continue;
     most_n = total_n;
@@ -132,7 +131,7 @@ void SessionWatch::draw_contact(const msg::Contact& contact, ToolNow& now) {
   now.contact_nodes = contact.nodes;
   now.contact_forces_n.clear();
   for (const msg::Vec3& on_node : contact.forces) {
-    now.contact_forces_n.push_back(static_cast<float>(to_eigen(on_node).norm()));
+    now.contact_forces_n.push_back(static_cast<float>(node::to_vector(on_node).norm()));
   }
 }
 

@@ -21,9 +21,4 @@ class Clock {
   virtual std::int64_t now_ns() const noexcept = 0;
 };
 
-class SteadyClock final : public Clock {
- public:
-  std::int64_t now_ns() const noexcept override { return steady_now_ns(); }
-};
-
 }  // namespace omentum::runtime

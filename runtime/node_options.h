@@ -10,7 +10,7 @@ namespace omentum::runtime {
 
 struct NodeOptions {
   std::filesystem::path scene;       // --scene
-  std::filesystem::path organ;       // --organ: overrides the scene's organ file
+  std::filesystem::path organ;       // --organ: organ file instead of the scene's first one
   std::string dds = "fast";          // --dds fast|cyclone
   int domain = 0;                    // --domain 0..230
   std::string profile = "loopback";  // --profile loopback|lan

@@ -82,7 +82,7 @@ void RateLoop::stop() noexcept {
 }
 
 std::unique_ptr<WokenWork> RateLoop::on_wake(std::function<void()> work) {
-  return std::make_unique<WokenThread>(std::move(work));
+  return on_own_thread(std::move(work));
 }
 
 std::unique_ptr<SideWork> RateLoop::beside(std::chrono::milliseconds pause, std::function<void()> work) {

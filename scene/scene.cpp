@@ -4,7 +4,6 @@
 #include "scene/toml_section.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
 

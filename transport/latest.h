@@ -5,18 +5,10 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstring>
 #include <type_traits>
 
 namespace omentum::transport {
-
-/// CLOCK_MONOTONIC in ns, the clock of arrival times. Any thread.
-inline std::int64_t arrival_clock_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 /// Holds the newest value of T. One thread writes, any number read; nobody waits or allocates.
 ///
@@ -134,10 +126,9 @@ struct Arrived {
 template <class M>
 class LatestByTool {
  public:
-  /// on_arrival (optional) is called on the vendor's thread, after the sample can be loaded; neither it nor
-  /// the clock (ns, steady) may block.
-  explicit LatestByTool(Bus& bus, std::function<void(const M&)> on_arrival = {},
-                        std::function<std::int64_t()> clock = arrival_clock_ns)
+  /// on_arrival (may be empty) is called on the vendor's thread, after the sample can be loaded; neither it
+  /// nor the clock (ns, steady) may block.
+  LatestByTool(Bus& bus, std::function<void(const M&)> on_arrival, std::function<std::int64_t()> clock)
       : on_arrival_(std::move(on_arrival)),
         clock_(std::move(clock)),
         reader_(bus.reader<M>([this](const M& sample) { take(sample); })) {}

@@ -41,7 +41,9 @@ class Presser {
     }
     const auto forces = physics::clear_obstacle(compliance, depth);
     if (!forces)
-      throw geometry::InputError(organ_.name + ": its tensors are damaged: they are not positive definite");
+      throw geometry::InputError(organ_.name +
+                                 ": its tensors are damaged: they are not positive definite, or too badly "
+                                 "conditioned for this indenter");
     map.force_n[s] = forces->sum();
     map.touching[s] = static_cast<std::int32_t>((forces->array() > 0).count());
   }

@@ -19,6 +19,7 @@ using ::testing::ElementsAre;
 
 constexpr std::int32_t kManyNodes = 1000;  // to a block
 constexpr double kTick_s = 0.01;
+constexpr std::size_t kMostNodes = 24;
 
 class PublisherTest : public ::testing::Test {
  protected:
@@ -183,9 +184,13 @@ class LocalPublisherTest : public PublisherTest {
   WrittenMessages<msg::LocalModel> models_{"local", &journal_};
 };
 
+TEST_F(LocalPublisherTest, LargerModelsThanTheProfileCarriesAreRefusedAtTheStart) {
+  EXPECT_THROW(LocalPublisher(models_, organs_, 0, runtime::on_own_thread), std::runtime_error);
+}
+
 TEST_F(LocalPublisherTest, AroundAToolLeavesWhatTheModelOffers) {
   ASSERT_TRUE(offers_local_models(organs_));
-  LocalPublisher publisher(models_, organs_, runtime::on_own_thread);
+  LocalPublisher publisher(models_, organs_, kMostNodes, runtime::on_own_thread);
   mass().push(Vec3(0, 0, 0.1));
   mass().step({}, kTick_s);
   offer(publisher, Vec3::Zero(), 77);
@@ -202,7 +207,7 @@ TEST_F(LocalPublisherTest, AroundAToolLeavesWhatTheModelOffers) {
 
 TEST_F(LocalPublisherTest, WithoutAToolNearNothingLeaves) {
   {
-    LocalPublisher publisher(models_, organs_, runtime::on_own_thread);
+    LocalPublisher publisher(models_, organs_, kMostNodes, runtime::on_own_thread);
     publisher.offer({}, {}, 1);
     offer(publisher, Vec3(1, 0, 0), 2);
   }
@@ -211,7 +216,7 @@ TEST_F(LocalPublisherTest, WithoutAToolNearNothingLeaves) {
 
 TEST_F(LocalPublisherTest, AStuckStateDelaysNoLocalModel) {
   StatePublisher states = make_publisher();
-  LocalPublisher locals(models_, organs_, runtime::on_own_thread);
+  LocalPublisher locals(models_, organs_, kMostNodes, runtime::on_own_thread);
   states_.get_stuck();
   publish(states, 1);
   states_.await_begun(1);
@@ -224,7 +229,7 @@ TEST_F(LocalPublisherTest, AStuckStateDelaysNoLocalModel) {
 }
 
 TEST_F(LocalPublisherTest, OfferingTakesNoMemory) {
-  LocalPublisher publisher(models_, organs_, runtime::on_own_thread);
+  LocalPublisher publisher(models_, organs_, kMostNodes, runtime::on_own_thread);
   const std::size_t before = test::heap_allocations();
   for (int i = 0; i < 50; ++i) offer(publisher, Vec3::Zero(), i);
   EXPECT_EQ(test::heap_allocations(), before);

@@ -1,7 +1,6 @@
 // Several bodies, bodies that come and go, and a body of another kind than any the product knows.
 #include "haptic_fixtures.h"
 #include "haptic_node/body_change.h"
-#include "haptic_node/local_body.h"
 
 #include <algorithm>
 #include <numbers>
@@ -16,11 +15,6 @@ using haptic::SurfacePoint;
 // Of sums in another order, relative.
 constexpr double kSameForce = 1e-6;
 constexpr double kTop_m = 0.04;  // of the block
-
-haptic::HapticModel with_spare_place(haptic::HapticModel model) {
-  model.spare_places = 1;
-  return model;
-}
 
 // ---- a toy: a bed of springs that fills z <= height, without a mesh; its one node bears what all points
 // bear
@@ -65,9 +59,9 @@ class SpringBed final : public Body {
   double entered_motion() const noexcept override { return 0; }
 
   SurfacePoint slide(const SurfacePoint&, const Vec3& p) noexcept override { return point_below(p); }
-  haptic::Place place_of(const SurfacePoint& point) noexcept override {
+  void find_place(const SurfacePoint& point, haptic::Place& place) noexcept override {
     const Vec3 rest(point.barycentric.x(), point.barycentric.y(), height_m_);
-    return {rest + compliance_ * force_, rest, Vec3::UnitZ(), {{SurfaceId(0)}, Vec3(1, 0, 0), 1}};
+    place = {rest + compliance_ * force_, rest, Vec3::UnitZ(), {{SurfaceId(0)}, Vec3(1, 0, 0), 1}};
   }
   Vec3 position(const SurfacePoint& point) noexcept override { return place_of(point).position; }
   double tissue_ahead(const SurfacePoint&, const Vec3&) noexcept override { return 1; }
@@ -224,6 +218,44 @@ TEST_F(Exchange, AToolInsideOfABodyThatComesIsHeldWhereItIs) {
   EXPECT_GT(bench_.move_to(pressed_ - Vec3(0, 0, 0.002), 100).z(), 0.05) << "it is pressed from there";
 }
 
+TEST_F(Exchange, WhatGrewOverATipHoldsItWhereItIs) {
+  bench_.step_to(over_);
+  haptic::ElasticSurface grown = bench_.model().organs[0];
+  for (Vec3& x : grown.rest) x.z() += 0.004;  // a millimetre above the tip
+  bench_.work().doors[0].post(body_of(grown));
+  for (int i = 0; i < 5; ++i) EXPECT_LE(bench_.step_to(over_).norm(), 1e-6);
+  EXPECT_GT(bench_.move_to(over_ - Vec3(0, 0, 0.003), 150).z(), 0.05) << "it is pressed from there";
+  bench_.work().doors[0].post(nullptr);
+  bench_.step();
+}
+
+TEST_F(Exchange, ATipThatLosesItsTissueIsHeldWhenTissueComesBack) {
+  bench_.step_to(over_);
+  ASSERT_GT(bench_.move_to(pressed_, 200).norm(), 0.1);
+  haptic::ElasticSurface elsewhere = bench_.model().organs[0];
+  for (Vec3& x : elsewhere.rest) x.x() += 0.3;
+  bench_.work().doors[0].post(body_of(elsewhere));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(bench_.step_to(pressed_), Vec3(0, 0, 0));
+  bench_.work().doors[0].post(nullptr);
+  bench_.step();
+  bench_.work().doors[0].post(body_of(bench_.model().organs[0]));
+  for (int i = 0; i < 5; ++i) EXPECT_LE(bench_.step_to(pressed_).norm(), 1e-6);
+  EXPECT_GT(bench_.move_to(pressed_ - Vec3(0, 0, 0.002), 100).z(), 0.05);
+}
+
+TEST_F(Exchange, JawsDoNotHoldWhatIsGone) {
+  haptic::ToolModel grasper = round_tool();
+  grasper.grasps = true;
+  Bench bench(make_model(block(), {grasper}));
+  bench.place(0, over_, 0.3).step();
+  for (int i = 1; i <= 200; ++i) bench.place(0, over_ + (pressed_ - over_) * i / 200, 0.3).step();
+  bench.place(0, pressed_, 0.05).step();
+  ASSERT_TRUE(bench.output().grasping);
+  bench.work().doors[0].post(nullptr);
+  bench.place(0, pressed_, 0.05).step();
+  EXPECT_FALSE(bench.output().grasping);
+}
+
 TEST_F(Exchange, WhatStoodThereIsFreedByWhoHandsOver) {
   struct Counted final : haptic::DeformedSurface {
     Counted(const haptic::ElasticSurface& organ, int& alive_)
@@ -241,94 +273,6 @@ TEST_F(Exchange, WhatStoodThereIsFreedByWhoHandsOver) {
     EXPECT_EQ(alive, before) << "the loop freed one";
     EXPECT_LE(alive, 4);
   }
-}
-
-// ---- local models
-
-// What deform_node would tell of the block around a place, under the forces that press it.
-haptic::LocalPatch patch_around(const Vec3& place, double radius_m, Bench& bench) {
-  haptic::LocalPatch patch;
-  const haptic::ElasticSurface& organ = bench.model().organs[0];
-  std::vector<SurfaceId> nodes;
-  std::vector<std::int32_t> local(organ.rest.size(), -1);
-  const auto add = [&](SurfaceId n) {
-    if (local[n] < 0) local[n] = static_cast<std::int32_t>(nodes.size()), nodes.push_back(n);
-    return SurfaceId(local[n]);
-  };
-  for (const geometry::Triangle& t : organ.surface.triangles) {
-    const bool near = std::ranges::all_of(t, [&](SurfaceId n) {
-      return n < organ.surface.mobile_count && (organ.rest[n] - place).norm() < radius_m;
-    });
-    if (near) patch.triangles.push_back({add(t[0]), add(t[1]), add(t[2])});
-  }
-  patch.load.assign(nodes.size(), Vec3::Zero());
-  for (const haptic::NodeForce& entry : bench.state().forces())
-    if (local[entry.node] >= 0) patch.load[static_cast<std::size_t>(local[entry.node])] += entry.force;
-  for (const SurfaceId n : nodes) {
-    Vec3 x = organ.rest[n];
-    for (const haptic::NodeForce& entry : bench.state().forces())
-      x += organ.compliance.block(n, entry.node) * entry.force;
-    patch.positions.push_back(x);
-    patch.file_node.push_back(organ.file_node[n]);
-  }
-  for (std::size_t i = 0; i < 3 * nodes.size(); ++i) {
-    for (std::size_t j = i; j < 3 * nodes.size(); ++j)
-      patch.compliance.push_back(
-          static_cast<float>(organ.compliance.block(nodes[i / 3], nodes[j / 3])(i % 3, j % 3)));
-  }
-  return patch;
-}
-
-TEST(LocalBody, APatchIsFeltLikeTheOrganThatItWasTakenFrom) {
-  Bench whole(make_model(block(), {round_tool()})),
-      local(with_spare_place(make_model(block(), {round_tool()})));
-  const Vec3 over(0.05, 0.05, kTop_m + 0.003), down(0, 0, -0.008);
-  local.work().doors[0].post(haptic::make_local_body(patch_around({0.05, 0.05, kTop_m}, 0.035, local)));
-  for (int i = 0; i <= 400; ++i) {
-    // down, and along once it presses
-    const Vec3 tip = over + down * std::min(i, 200) / 200 + Vec3(0.01, 0, 0) * std::max(0, i - 200) / 200;
-    const Vec3 expected = whole.step_to(tip), felt = local.step_to(tip);
-    EXPECT_LE((felt - expected).norm(), 1e-3 * (0.1 + expected.norm())) << "tick " << i;
-  }
-  EXPECT_GT(local.output().force.z(), 0.1);
-}
-
-TEST(LocalBody, OneThatComesUnderAPressHoldsTheSameForce) {
-  Bench bench(make_model(block(), {round_tool()}));
-  bench.step_to({0.05, 0.05, kTop_m + 0.003});
-  const Vec3 pressed(0.05, 0.05, kTop_m - 0.004);
-  const Vec3 before = bench.move_to(pressed, 200);
-  bench.work().doors[0].post(haptic::make_local_body(patch_around({0.05, 0.05, kTop_m}, 0.035, bench)));
-  for (int i = 0; i < 20; ++i) EXPECT_LE((bench.step_to(pressed) - before).norm(), 2e-3 * before.norm());
-}
-
-TEST(LocalBody, NobodyIsInsideBeyondItsBorder) {
-  Bench bench(make_model(block(), {needle()}));
-  bench.work().doors[0].post(haptic::make_local_body(patch_around({0.05, 0.05, kTop_m}, 0.025, bench)));
-  // beside the patch, deep below its plane
-  bench.step_to({0.085, 0.05, kTop_m - 0.01});
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(bench.step_to({0.085, 0.05, kTop_m - 0.01}), Vec3(0, 0, 0));
-  EXPECT_EQ(bench.state().contact_count, 0);
-}
-
-TEST(LocalBody, WhatIsNoPatchIsRefused) {
-  Bench bench(make_model(block(), {needle()}));
-  const haptic::LocalPatch good = patch_around({0.05, 0.05, kTop_m}, 0.025, bench);
-  ASSERT_EQ(haptic::reason_against(good), std::nullopt);
-  const auto refused = [&](auto&& spoil) {
-    haptic::LocalPatch patch = good;
-    spoil(patch);
-    return haptic::reason_against(patch).has_value();
-  };
-  EXPECT_TRUE(refused([](auto& p) { p.load.pop_back(); }));
-  EXPECT_TRUE(refused([](auto& p) { p.compliance.pop_back(); }));
-  EXPECT_TRUE(refused([](auto& p) { p.compliance[0] = -1; })) << "a node that comes towards its push";
-  EXPECT_TRUE(refused([](auto& p) { p.compliance[5] *= 1e4f; })) << "a neighbour that goes farther";
-  EXPECT_TRUE(refused([](auto& p) { p.positions[3].x() = std::nan(""); }));
-  EXPECT_TRUE(refused([](auto& p) { p.triangles[0][1] = SurfaceId(4000); }));
-  EXPECT_TRUE(refused([](auto& p) { p.triangles[0][1] = SurfaceId(-1); }));
-  EXPECT_TRUE(refused([](auto& p) { p.triangles.clear(); }));
-  EXPECT_TRUE(refused([](auto& p) { p = {}; }));
 }
 
 }  // namespace

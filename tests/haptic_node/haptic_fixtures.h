@@ -108,6 +108,12 @@ inline haptic::HapticModel make_model(const TestOrgan& organ, std::vector<haptic
   return model;
 }
 
+/// For one body more than the model's organs.
+inline haptic::HapticModel with_spare_place(haptic::HapticModel model) {
+  model.spare_places = 1;
+  return model;
+}
+
 /// A step with its model, state and scratch, driven by tip positions (tools upright: shaft along +z).
 class Bench {
  public:

@@ -84,6 +84,25 @@ TEST_F(LoadedSceneTest, AnotherOrganFileIsRefusedWithBothHashes) {
   for (const char* part : {"aaaa", "bbbb", "liver"}) EXPECT_NE(why->find(part), std::string::npos) << *why;
 }
 
+TEST_F(LoadedSceneTest, WhatAStrangerWritesIsToldInOneLine) {
+  msg::SceneInfo more = announced_;
+  more.scene = "a\nb";
+  more.organs.push_back({.name = "spleen", .hash = "cccc"});
+  announced_.organs[0].hash = "b\x1b[2J\n";
+  for (const msg::SceneInfo& info : {more, announced_}) {
+    const auto why = contradicts(loaded_, info);
+    ASSERT_TRUE(why);
+    EXPECT_EQ(why->find_first_of("\n\x1b"), std::string::npos) << *why;
+  }
+}
+
+TEST_F(LoadedSceneTest, ValuesInAnotherOrderAreAnotherVersions) {
+  announced_.hash = "0";
+  announced_.values = {loaded_.values.rbegin(), loaded_.values.rend()};
+  EXPECT_EQ(contradicts(loaded_, announced_),
+            "scene: deform_node is another version of Omentum, whose scene values are listed otherwise");
+}
+
 TEST_F(LoadedSceneTest, AnotherProtocolAndAnotherNumberOfOrgansAreRefused) {
   msg::SceneInfo newer = announced_;
   ++newer.protocol;

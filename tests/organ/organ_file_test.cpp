@@ -1,73 +1,10 @@
-#include "organ/build_organ.h"
-#include "organ/organ_hash.h"
-#include "organ/organ_layout.h"
 #include "organ/organ_writer.h"
 #include "organ/stored_tensors.h"
+#include "organ_file_fixture.h"
 #include "physics/direct_solve.h"
-#include "tests/support/meshes.h"
-#include "tests/support/process.h"
-
-#include <gmock/gmock.h>
-#include <hdf5.h>
-
-#include <functional>
 
 namespace omentum::organ {
 namespace {
-
-using testing::HasSubstr;
-
-const physics::Material kTissue{3000, 0.45, 1050};
-
-Organ small_organ(const physics::Material& material = kTissue, Storage storage = Storage::kFloat,
-                  const geometry::Vec3& size = {0.06, 0.04, 0.04}) {
-  geometry::TetraMesh mesh = test::make_box_mesh(3, 2, 2, size);
-  FixedComponents fixed(mesh.positions.size(), 0);
-  for (std::size_t n = 0; n < fixed.size(); ++n) {
-    if (mesh.positions[n].x() < 1e-9) fixed[n] = physics::kPinned;
-  }
-  return make_organ("box", std::move(mesh), material, std::move(fixed), storage);
-}
-
-// Its outer half five times as stiff, and a region that is heavier alone.
-Organ two_materials(Storage storage = Storage::kFloat) {
-  Organ organ = small_organ();
-  organ.mesh.regions.assign(organ.mesh.tetrahedra.size(), 0);
-  for (std::size_t t = organ.mesh.tetrahedra.size() / 2; t < organ.mesh.regions.size(); ++t)
-    organ.mesh.regions[t] = t % 5 == 0 ? 2 : 7;
-  const physics::MaterialMap material{kTissue, {{2, {3000, 0.45, 2000}}, {7, {15000, 0.4, 1050}}}};
-  return make_organ("box", std::move(organ.mesh), material, organ.fixed, storage);
-}
-
-class OrganFileTest : public testing::Test {
- protected:
-  Organ build(const Organ& organ) {
-    build_organ(organ, file, {});
-    return load_organ(file, Load::kWithTensors);
-  }
-
-  std::string refusal() const {
-    try {
-      load_organ(file, Load::kWithTensors);
-    } catch (const geometry::InputError& e) {
-      EXPECT_THAT(e.what(), HasSubstr(file.string()));
-      EXPECT_THAT(e.what(), testing::Not(HasSubstr("\n")));
-      return e.what();
-    }
-    return "accepted";
-  }
-
-  // Changes a finished file from within.
-  void damage(const std::function<void(hid_t)>& change) const {
-    const hid_t hdf5 = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    ASSERT_GE(hdf5, 0);
-    change(hdf5);
-    H5Fclose(hdf5);
-  }
-
-  test::ScratchFolder folder;
-  const std::filesystem::path file = folder / "box.h5";
-};
 
 TEST_F(OrganFileTest, RoundTripKeepsEverything) {
   const Organ made = small_organ();
@@ -232,76 +169,6 @@ TEST_F(OrganFileTest, UpToDateFileIsLeftAndAChangedOrganIsNot) {
   BuildOptions force;
   force.force = true;
   EXPECT_FALSE(build_organ(small_organ({2000, 0.4, 1000}), file, force).up_to_date);
-}
-
-TEST_F(OrganFileTest, MissingFileIsRefused) {
-  EXPECT_THAT(refusal(), HasSubstr("no such file"));
-}
-
-TEST_F(OrganFileTest, GarbageAndEmptyFilesAreRefused) {
-  std::ofstream(file) << "node,ux,uy,uz\n";
-  EXPECT_THAT(refusal(), HasSubstr("HDF5"));
-  std::ofstream(file, std::ios::trunc).flush();
-  EXPECT_THAT(refusal(), HasSubstr("HDF5"));
-}
-
-TEST_F(OrganFileTest, AnyTruncationIsRefused) {
-  build(small_organ());
-  const auto whole = std::filesystem::file_size(file);
-  for (const double part : {0.99, 0.7, 0.3, 0.01}) {
-    std::filesystem::resize_file(file, static_cast<std::uintmax_t>(part * static_cast<double>(whole)));
-    EXPECT_NE(refusal(), "accepted") << part;
-  }
-}
-
-TEST_F(OrganFileTest, UnfinishedFileIsRefused) {
-  build(small_organ());
-  damage([](hid_t hdf5) { H5Adelete(hdf5, layout::kFinished); });
-  EXPECT_THAT(refusal(), HasSubstr("unfinished"));
-}
-
-TEST_F(OrganFileTest, OtherVersionIsRefused) {
-  build(small_organ());
-  damage([](hid_t hdf5) {
-    const double other = kFormatVersion + 1;
-    const hid_t version = H5Aopen(hdf5, layout::kVersion, H5P_DEFAULT);
-    H5Awrite(version, H5T_NATIVE_DOUBLE, &other);
-    H5Aclose(version);
-  });
-  EXPECT_THAT(refusal(), HasSubstr("version " + std::to_string(kFormatVersion + 1) + "; expected " +
-                                   std::to_string(kFormatVersion)));
-}
-
-TEST_F(OrganFileTest, ChangedMaterialIsNotServedFromOldTensors) {
-  build(small_organ());
-  damage([](hid_t hdf5) {
-    const double other = 9999;
-    const hid_t young = H5Aopen(hdf5, layout::kYoung, H5P_DEFAULT);
-    H5Awrite(young, H5T_NATIVE_DOUBLE, &other);
-    H5Aclose(young);
-  });
-  EXPECT_THAT(refusal(), HasSubstr("hash"));
-}
-
-TEST_F(OrganFileTest, AShapeLargerThanTheFileIsRefusedAndBuiltAnew) {
-  build(small_organ());
-  damage([](hid_t hdf5) {
-    H5Ldelete(hdf5, layout::kPositions, H5P_DEFAULT);
-    const hsize_t shape[] = {hsize_t{1} << 40, 3};
-    const hid_t space = H5Screate_simple(2, shape, nullptr), storage = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_alloc_time(storage, H5D_ALLOC_TIME_LATE);  // claimed, not there
-    H5Dclose(
-        H5Dcreate2(hdf5, layout::kPositions, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, storage, H5P_DEFAULT));
-    H5Pclose(storage);
-    H5Sclose(space);
-  });
-  EXPECT_THAT(refusal(), HasSubstr("more than the file holds"));
-  EXPECT_FALSE(is_up_to_date(file, small_organ()));
-}
-
-TEST_F(OrganFileTest, AnotherKindOfHdf5FileIsRefused) {
-  H5Fclose(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  EXPECT_THAT(refusal(), HasSubstr("no organ file"));
 }
 
 TEST_F(OrganFileTest, AbandonedWriterLeavesNothing) {

@@ -46,5 +46,11 @@ TEST(ObstacleTest, WhatIsNoComplianceIsNotSolved) {
   EXPECT_FALSE(clear_obstacle(-Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Ones(3)));
 }
 
+// The factor reads the lower half, the gaps the whole: halves that disagree send the first place to and fro.
+TEST(ObstacleTest, WhatNeverSettlesIsGivenUp) {
+  const Eigen::Matrix2d A{{1, -10}, {0.9, 1}};
+  EXPECT_FALSE(clear_obstacle(A, Eigen::Vector2d(1, 2)));
+}
+
 }  // namespace
 }  // namespace omentum::physics

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Who may include what (docs/architecture.md, "The floors"), and that documents which are cited are there: prints FILE:LINE
-for every breach.
+"""Who may include what (docs/architecture.md, "The floors"), that documents which are cited are there, and that clang-tidy
+looks at every room: prints FILE:LINE for every breach.
 
 Usage: house_rules.py ROOT      exit code 0: none; 1: breaches, one a line
 """
@@ -42,6 +42,11 @@ CITING = SOURCES | {".idl", ".py", ".toml", ".md"}  # what may cite a document, 
 TELLING = {"docs", "launch_scripts", "scenes"}
 DOCUMENT = re.compile(r'([\w./-]+\.md)\b(?:, "([^"]+)")?')  # with a section's name, where one is given
 NODES = ("haptic_node", "deform_node", "render_node", "device_bridge")
+# (file that lists the rooms which clang-tidy looks at, its line, the sources that it takes)
+LINT_LISTS = [
+    ("launch_scripts/lint", re.compile(r"rooms='([\w|]*)'"), ".cpp"),
+    (".clang-tidy", re.compile(r"HeaderFilterRegex:.*?/\(([\w|]*)\)/"), ".h"),
+]
 MAIN_LINES = 60  # a node's main parses, builds, runs and gives the exit code; no more
 
 
@@ -112,12 +117,25 @@ def breaches(root):
     return found
 
 
+def unlinted_rooms(root):
+    """Rooms with sources that clang-tidy would pass over in silence, and names in its lists that are no room's."""
+    found = []
+    for path, pattern, suffix in LINT_LISTS:
+        rooms = {file.relative_to(root).parts[0] for file in sources(root, {suffix})} & (ROOMS - FREE)
+        lines = (root / path).read_text(encoding="utf-8").splitlines() if (root / path).is_file() else []
+        listed = [(number, match) for number, line in enumerate(lines, 1) if (match := pattern.match(line))]
+        number, names = (listed[0][0], set(listed[0][1].group(1).split("|"))) if listed else (1, set())
+        found += [f"{path}:{number}: leaves out {room}, which has {suffix} files" for room in sorted(rooms - names)]
+        found += [f"{path}:{number}: names {name}, which is no room" for name in sorted(names - ROOMS)]
+    return found
+
+
 def main():
     if len(sys.argv) != 2:
         print("usage: house_rules.py ROOT", file=sys.stderr)
         return 2
     root = pathlib.Path(sys.argv[1])
-    found = breaches(root) + wrong_citations(root)
+    found = breaches(root) + wrong_citations(root) + unlinted_rooms(root)
     print("\n".join(found) if found else "no breach")
     return 1 if found else 0
 

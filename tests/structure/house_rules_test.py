@@ -79,6 +79,22 @@ class HouseRules(unittest.TestCase):
                                                                "physics/law.cpp": f"int x;\n// see {cited}.\n"}))
                 self.assertEqual([line.split(" ")[0] for line in found], [] if right else ["physics/law.cpp:2:"])
 
+    def test_rooms_that_clang_tidy_passes_over_are_caught(self):
+        rooms = {"files/a.cpp": "", "scene/b.cpp": "", "scene/c.h": "", "tests/d.cpp": "", "idl/e.py": ""}
+        lint, header_filter = "rooms='files|{}'\n", "Checks: >\nHeaderFilterRegex: '^.*/(files|{})/[^/]+\\.h$'\n"
+        for lint_names, tidy_names, expected in (
+                ("scene", "scene", []),
+                ("organ", "scene", ["launch_scripts/lint:1: leaves out scene, which has .cpp files"]),
+                ("scene", "organ", [".clang-tidy:2: leaves out scene, which has .h files"]),
+                ("scene|node", "scene", ["launch_scripts/lint:1: names node, which is no room"])):
+            with self.subTest(lint=lint_names, tidy=tidy_names):
+                self.assertEqual(house_rules.unlinted_rooms(self.tree({
+                    **rooms, "launch_scripts/lint": lint.format(lint_names),
+                    ".clang-tidy": header_filter.format(tidy_names)})), expected)
+
+    def test_without_its_lists_clang_tidy_looks_at_no_room(self):
+        self.assertEqual(len(house_rules.unlinted_rooms(self.tree({"files/a.cpp": "", "files/a.h": ""}))), 2)
+
     def test_a_long_main_of_a_node_is_caught(self):
         found = house_rules.breaches(self.tree({"deform_node/main.cpp": "int x;\n" * 61}))
         self.assertEqual(len(found), 1)

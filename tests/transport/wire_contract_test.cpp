@@ -1,4 +1,5 @@
 // What holds between two processes, whichever vendor each of them uses.
+#include "runtime/clock.h"
 #include "tests/transport/fill.h"
 #include "tests/transport/peer_process.h"
 #include "transport/latest.h"
@@ -142,7 +143,7 @@ TEST_P(WireContract, AnOrganStateOfOneAndAHalfMegabytesArrives) {
 TEST_P(WireContract, EachToolKeepsItsOwnNewestSampleAndItsOwnGaps) {
   const auto sender = peer("poses");
   const auto bus = open();
-  const LatestByTool<msg::ToolPose> poses(*bus);
+  const LatestByTool<msg::ToolPose> poses(*bus, {}, runtime::steady_now_ns);
   constexpr std::uint64_t kEnough = 300;  // at least two numbers were left out meanwhile
   ASSERT_TRUE(eventually(
       [&] { return poses.counters(0).received > kEnough && poses.counters(1).received > kEnough; }));
@@ -162,7 +163,7 @@ TEST_P(WireContract, EachToolKeepsItsOwnNewestSampleAndItsOwnGaps) {
 TEST_P(WireContract, AKilledWriterIsNoticed) {
   const auto sender = peer("poses");
   const auto bus = open();
-  const LatestByTool<msg::ToolPose> poses(*bus);
+  const LatestByTool<msg::ToolPose> poses(*bus, {}, runtime::steady_now_ns);
   ASSERT_TRUE(eventually([&] { return poses.counters(0).received > 0; }));
   EXPECT_EQ(poses.status().matched, 1);
   const EndpointStatus before = poses.status();
@@ -175,7 +176,7 @@ TEST_P(WireContract, AKilledWriterIsNoticed) {
 TEST_P(WireContract, ARestartedWriterIsHeardAgain) {
   auto sender = peer("poses");
   const auto bus = open();
-  const LatestByTool<msg::ToolPose> poses(*bus);
+  const LatestByTool<msg::ToolPose> poses(*bus, {}, runtime::steady_now_ns);
   ASSERT_TRUE(eventually([&] { return poses.counters(0).received > 0; }));
   sender->kill_it();
   // what was under way when it died has arrived once its liveliness ended
@@ -206,7 +207,7 @@ TEST_P(WireContract, AReaderCanEndWhileSamplesArrive) {
 TEST_P(LanContract, PosesArriveForEachTool) {
   const auto sender = peer("poses");
   const auto bus = open();
-  const LatestByTool<msg::ToolPose> poses(*bus);
+  const LatestByTool<msg::ToolPose> poses(*bus, {}, runtime::steady_now_ns);
   EXPECT_TRUE(
       eventually([&] { return poses.counters(0).received > 100 && poses.counters(1).received > 100; }));
   Arrived<msg::ToolPose> newest;
