@@ -32,6 +32,13 @@ msg::Contact make_contact_message(std::uint32_t tool_id, std::uint32_t organ) {
   return message;
 }
 
+bool touches(std::int32_t tool, std::uint32_t organ, const HapticState& state, Bodies& bodies) noexcept {
+  const auto presses = [&](const NodeForce& entry) {
+    return entry.tool == tool && belongs_to(organ, bodies[entry.body].origin());
+  };
+  return std::ranges::any_of(state.forces(), presses) || holds(tool, organ, state, bodies);
+}
+
 void fill_contact_message(std::int32_t tool, const ToolOutput& output, const HapticState& state,
                           Bodies& bodies, msg::Contact& message) noexcept {
   static_assert(msg::MAX_CONTACT_NODES >= Body::kMaxForces);

@@ -217,13 +217,11 @@ void HapticLoop::note(std::size_t line, const msg::ToolForce& force) noexcept {
 void HapticLoop::publish_contacts(std::int64_t now_ns) noexcept {
   const std::size_t organs = setup_.model.organs.size();
   bool changed = false;
-  std::ranges::for_each(contacts_, [](TouchedOrgan& touched) { touched.now = false; });
-  for (const NodeForce& entry : state_.forces()) {
-    const std::uint32_t organ = work_.bodies[entry.body].origin().organ;
-    if (organ >= organs) continue;
-    contacts_[static_cast<std::size_t>(entry.tool) * organs + organ].now = true;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    TouchedOrgan& touched = contacts_[i];
+    touched.now = touches(static_cast<std::int32_t>(i / organs), touched.message.organ, state_, work_.bodies);
+    changed |= touched.now != touched.told;
   }
-  for (const TouchedOrgan& touched : contacts_) changed |= touched.now != touched.told;
   for (std::size_t i = 0; i < outputs_.size(); ++i) changed |= grasped_[i] != outputs_[i].grasping;
   if (!changed && now_ns < contacts_due_ns_) return;
   contacts_due_ns_ = now_ns + kContactPeriod_ns;

@@ -98,6 +98,8 @@ std::optional<std::string> contradicts(const LoadedScene& loaded, const msg::Sce
   }
   for (std::size_t i = 0; i < loaded.organs.size(); ++i) {
     const std::string& theirs = announced.organs[i].hash;
+    if (announced.organs[i].kind != loaded.organs[i].kind)
+      return "organ " + loaded.organs[i].name + ": deform_node takes it for an organ of another kind";
     if (theirs == loaded.organs[i].hash) continue;
     return "organ " + loaded.organs[i].name + ": deform_node loaded another organ file, its hash is " +
            scene::printable(theirs) + ", this node's is " + loaded.organs[i].hash;

@@ -52,6 +52,8 @@ TEST_F(HeldBlock, OnlyTheOrganBetweenTheJawsIsGrasped) {
   EXPECT_EQ(told(0, 1).grasp_count, 1u) << "a count of the tool's grasps";
   EXPECT_FALSE(told(1, 0).grasping) << "another tool's jaws are open";
   EXPECT_FALSE(told(1, 1).grasping);
+  EXPECT_TRUE(haptic::touches(0, 0, bench_.state(), bench_.work().bodies));
+  EXPECT_FALSE(haptic::touches(0, 1, bench_.state(), bench_.work().bodies));
 }
 
 TEST_F(HeldBlock, OpenJawsHoldNothing) {

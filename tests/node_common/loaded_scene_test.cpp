@@ -37,6 +37,12 @@ class LoadedSceneTest : public testing::Test {
   msg::SceneInfo announced_ = to_message(loaded_, "s");
 };
 
+TEST_F(LoadedSceneTest, AnOrganOfAnotherKindIsNamed) {
+  announced_.organs[0].kind = msg::KIND_TUBE;
+  EXPECT_EQ(contradicts(loaded_, announced_),
+            "organ liver: deform_node takes it for an organ of another kind");
+}
+
 TEST_F(LoadedSceneTest, AgreesWithItsOwn) {
   EXPECT_FALSE(contradicts(loaded_, announced_));
   LoadedScene first_of_two = loaded_;
