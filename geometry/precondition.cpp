@@ -5,9 +5,8 @@
 
 namespace omentum::geometry {
 
-void broken_precondition(const char* what, const std::source_location& where) noexcept {
-  std::fprintf(stderr, "%s:%u: %s: expected %s\n", where.file_name(), static_cast<unsigned>(where.line()),
-               where.function_name(), what);
+void broken_precondition(const char* what, const char* file, int line) noexcept {
+  std::fprintf(stderr, "%s:%d: expected %s\n", file, line, what);
   std::abort();
 }
 

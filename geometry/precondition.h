@@ -1,19 +1,18 @@
 // What a caller owes a function, also in release builds: where breaking it would write or read past memory.
 #pragma once
 
-#include <source_location>
-
 namespace omentum::geometry {
 
-/// Ends the process with file, line and `what` was expected. A node that ends takes its force away (a device
-/// lets it decay); one that goes on with foreign memory may exert anything.
-[[noreturn]] void broken_precondition(const char* what, const std::source_location& where) noexcept;
+/// Ends the process with the place and what was expected there. A node that ends takes its force away (a
+/// device lets it decay); one that goes on with foreign memory may exert anything.
+[[noreturn]] void broken_precondition(const char* what, const char* file, int line) noexcept;
 
-/// For programming errors only; wrong input is refused with an exception. Costs a comparison.
-inline void require(bool holds, const char* what,
-                    const std::source_location& where = std::source_location::current()) noexcept {
+/// For programming errors only; wrong input is refused with an exception. Costs a comparison. `file` and
+/// `line` are the caller's (std::source_location, which clang 14 lacks).
+inline void require(bool holds, const char* what, const char* file = __builtin_FILE(),
+                    int line = __builtin_LINE()) noexcept {
   if (!holds) [[unlikely]]
-    broken_precondition(what, where);
+    broken_precondition(what, file, line);
 }
 
 }  // namespace omentum::geometry
