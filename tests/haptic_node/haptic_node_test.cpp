@@ -1,6 +1,7 @@
 // The real haptic_node, as a device and its neighbours see it: poses in, forces and contacts out, over either
 // vendor. What it makes of them is asked of its loop (haptic_loop_test.cpp).
 #include "tests/haptic_node/haptic_bench.h"
+#include "tests/support/bad_starts.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -75,33 +76,7 @@ TEST(SessionProgram, RecordIsRefusedUntilItExists) {
 }
 
 TEST(HapticNodeStart, BadInputIsOneLineAndExitCodeTwo) {
-  const test::ScratchFolder folder;
-  const std::string organ =
-      "name = \"n\"\n[[organs]]\nname = \"o\"\nmesh = \"m.msh\"\nyoung_pa = 1\n"
-      "poisson = 0.3\ndensity_kg_m3 = 1\nfixed = \"plane:z<0\"\n";
-  std::ofstream(folder / "broken.toml") << "name = \n";
-  std::ofstream(folder / "no_file.toml")
-      << organ << "[[tools]]\nid = 0\nname = \"p\"\nshape = \"probe\"\npoints = [[0,0,0]]\n";
-  std::ofstream(folder / "broken.h5") << "not an organ";
-  const std::string good = folder / "no_file.toml";
-  const std::vector<std::vector<std::string>> table = {
-      {"--scene", folder / "missing.toml"},
-      {"--scene", folder / "broken.toml"},
-      {"--scene", good},
-      {"--scene", good, "--organ", folder / "missing.h5"},
-      {"--scene", good, "--organ", folder / "broken.h5"},
-      {"--scene", good, "--dds", "telepathy"},
-      {"--scene", good, "--domain", "231"},
-      {"--scene", good, "--rate-hz", "-1"},
-      {},
-  };
-  for (const auto& arguments : table) {
-    test::Process node("haptic_node", arguments);
-    EXPECT_EQ(node.wait(), 2) << (arguments.empty() ? "no arguments" : arguments.back());
-    const std::string messages = node.messages();
-    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1) << messages;
-    EXPECT_TRUE(messages.starts_with("haptic_node: ")) << messages;
-  }
+  test::expect_bad_starts_refused("haptic_node");
 }
 
 }  // namespace
