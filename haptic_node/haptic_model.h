@@ -6,7 +6,7 @@
 #include "haptic_node/deformed_surface.h"
 #include "haptic_node/spread_contact.h"
 #include "haptic_node/tool_kinematics.h"
-#include "physics/contact_problem.h"
+#include "physics/contact_solver.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "physics/contact_problem.h"
+#include "physics/contact_solver.h"
 
 #include <gtest/gtest.h>
 

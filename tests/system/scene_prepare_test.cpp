@@ -242,6 +242,43 @@ TEST_F(TwoOrgansTest, AForeignOrganTakesThePlaceOfTheFirstAndItsHandAndTheOtherH
   EXPECT_EQ(scene.hands[1].depth_m, scene::load_scene(scene_).hands[1].depth_m);
 }
 
+// An organ file as the scene's mesh has its tensors: another stiffness in the scene would change nothing.
+TEST_F(TwoOrgansTest, ABuiltOrganIsOfTheMaterialThatItWasBuiltOf) {
+  const std::string first = box("a", -0.2), second = box("b", 0.2), scene = folder_ / "built.toml";
+  const std::string built =
+      "name = \"x\"\nmesh = \"b.h5\"\nyoung_pa = 12000\npoisson = 0.45\n"
+      "density_kg_m3 = 1060\nfixed = \"plane:z<0.01\"\n# end\n";
+  const auto write = [&](const std::string& from, const std::string& to) {
+    std::string text = read_text(scene_);
+    const std::size_t begin = text.find("name = \"gallbladder\""), end = text.find("[[tools]]");
+    std::string organ = built;
+    organ.replace(organ.find(from), from.size(), to);
+    text.replace(begin, end - begin, organ);
+    text.replace(text.find("organ = \"gallbladder\""), 21, "organ = \"x\"");
+    std::ofstream(scene) << text;
+    const auto line =
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(to, begin)), '\n') + 1;
+    return scene + ":" + std::to_string(line) + ": organs[1].";
+  };
+  write("12000", "12000");
+  prepared({scene, "--keep-points", "--organ", first, "--organ", second});
+  std::filesystem::remove(fitted_);
+  for (const auto& [from, to, says] : std::vector<std::array<std::string, 3>>{
+           {"young_pa = 12000", "young_pa = 6000", "young_pa: found 6000, expected 12000: the organ file is"},
+           {"poisson = 0.45", "poisson = 0.3", "poisson: found 0.3, expected 0.45"},
+           {"# end", "[[organs.regions]]\nlabel = 2\nyoung_pa = 1",
+            "regions[0]: found another material, expected one of those that organ_check lists"}}) {
+    const std::string place = write(from, to);
+    Process prepare("scene_prepare",
+                    {scene, "--keep-points", "--organ", first, "--organ", second, "-o", fitted_});
+    EXPECT_EQ(prepare.wait(), 2);
+    const std::string messages = prepare.messages();
+    EXPECT_NE(messages.find(place + says), std::string::npos) << messages << place;
+    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1) << messages;
+    EXPECT_FALSE(std::filesystem::exists(fitted_));
+  }
+}
+
 TEST_F(TwoOrgansTest, WrongFilesAreRefusedWithOneLineAndNothingIsWritten) {
   const std::string organ = box("kidney", 0), named = box("gallbladder", 0);
   for (const auto& [files, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
