@@ -15,6 +15,7 @@ constexpr std::array<double, 4> kWeights{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 constexpr std::array<double, 3> kReach{0.5, 0.5, 1.0};
 
 Values inverse_masses(const Inertia& inertia) {
+  geometry::require(inertia.fixed.size() == inertia.mass.size(), "supports of each node");
   Values inverse(3 * inertia.mass.size());
   for (std::size_t i = 0; i < inverse.size(); ++i) {
     const bool held = is_fixed(inertia.fixed[i / 3], static_cast<int>(i % 3));
