@@ -89,7 +89,8 @@ double ExplicitStep::forward_euler(ForceLaw& law, std::span<const double> extern
 double ExplicitStep::symplectic_euler(ForceLaw& law, std::span<const double> external_n, double dt,
                                       BodyState& state) noexcept {
   accelerate(law, external_n, state.u, state.v, 0);
-  all(state.v) = (all(state.v) + dt * all(a_)) / (1 + dt * inertia_.mass_damping_per_s);
+  const double slowed = 1 / (1 + dt * inertia_.mass_damping_per_s);
+  all(state.v) = slowed * all(state.v) + slowed * dt * all(a_);
   all(state.u) += dt * all(state.v);
   return dt * dot(external_n, state.v);
 }
