@@ -27,7 +27,7 @@ inline Node& node(float* p) {
 // As many lanes as a register holds. Of each lane (x, y, z, 0): (y, z, x, 0), and (z, x, y, 0).
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 
-constexpr int kLanes = 4;
+inline constexpr int kLanes = 4;
 typedef float Lanes __attribute__((vector_size(kLanes * kNodeFloats * sizeof(float)), may_alias));
 
 inline Lanes rotated(Lanes v) {
@@ -53,7 +53,7 @@ inline void scatter(Lanes v, float* nodes, const Offset* at) {
 
 #elif defined(__AVX2__)
 
-constexpr int kLanes = 2;
+inline constexpr int kLanes = 2;
 typedef float Lanes __attribute__((vector_size(kLanes * kNodeFloats * sizeof(float)), may_alias));
 
 inline Lanes rotated(Lanes v) {
@@ -74,7 +74,7 @@ inline void scatter(Lanes v, float* nodes, const Offset* at) {
 
 #else
 
-constexpr int kLanes = 1;
+inline constexpr int kLanes = 1;
 typedef Node Lanes;
 
 inline Lanes rotated(Lanes v) {
