@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "messages/common.h"
+#include "scene/dynamics_keys.h"
 #include "scene/toml_section.h"
 
 #include <algorithm>
@@ -12,8 +13,9 @@ namespace {
 
 using enum TomlSection::Need;
 
-// What organ_phantom makes: the liver in two sizes, and its gallbladder.
-constexpr std::array<std::string_view, 3> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder"};
+// What organ_phantom makes: the liver in two sizes, its gallbladder, and two pieces of tissue.
+constexpr std::array<std::string_view, 5> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder",
+                                                    "phantom:plate", "phantom:cylinder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
@@ -40,12 +42,12 @@ void read_model(TomlSection& s, OrganSpec& organ) {
   std::vector<std::string> words;
   for (const OrganModelWord& model : kOrganModels) words.emplace_back(model.word);
   s.read_word("model", organ.model, kOptional, words);
-  organ.kind = std::find_if(kOrganModels.begin(), kOrganModels.end(), [&](const OrganModelWord& model) {
-                 return model.word == organ.model;
-               })->kind;
+  const OrganModelWord& chosen = *std::ranges::find(kOrganModels, organ.model, &OrganModelWord::word);
+  organ.kind = chosen.kind;
+  if (chosen.feel == Feel::kLocalModels) organ.dynamics = read_dynamics(s);
 }
 
-RegionSpec read_region(TomlSection& s) {
+RegionSpec read_region(TomlSection& s, bool tears) {
   RegionSpec region;
   s.read("label", region.label);
   s.read("box", region.box, 6);
@@ -53,6 +55,7 @@ RegionSpec read_region(TomlSection& s) {
   s.read("young_pa", region.young_pa, kPositive);
   s.read("poisson", region.poisson, kPoisson);
   s.read("density_kg_m3", region.density_kg_m3, kPositive);
+  if (tears) region.tears = read_tears(s);
   s.refuse_unknown_keys();
   if (region.label.has_value() + !region.box.empty() + !region.ball.empty() != 1)
     s.refuse("label", "none or several of label, box and ball", "one of them");
@@ -76,14 +79,16 @@ OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   s.read("density_kg_m3", organ.density_kg_m3, kRequired, kPositive);
   s.read("fixed", organ.fixed, kRequired);
   s.read("file", file, kOptional);
-  for (TomlSection& region : s.sections("regions")) organ.regions.push_back(read_region(region));
+  for (TomlSection& region : s.sections("regions"))
+    organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
   s.read_word("look", organ.look, kOptional, {"liver", "gallbladder"});
   s.refuse_unknown_keys();
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();
   } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
     s.refuse("mesh", "\"" + organ.mesh + "\"",
-             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\" or a file");
+             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:plate\", "
+             "\"phantom:cylinder\" or a file");
   }
   if (!file.empty()) organ.file = beside(scene, file);
   return organ;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/types.h"
+#include "scene/dynamics_spec.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,12 +18,24 @@ using geometry::Vec3;
 /// What an organ consists of: how it is loaded, touched and drawn. How it moves is its model's affair.
 enum class OrganKind : std::uint8_t { kTetrahedralMesh };
 
-/// A model that a scene may choose for an organ, and the kind of organ that it moves.
+/// How a hand knows what an organ answers.
+enum class Feel : std::uint8_t {
+  kTensors,      // haptic_node has its precomputed tensors
+  kLocalModels,  // deform_node tells of the surface around each tool, again and again
+};
+
+/// A model that a scene may choose for an organ, the kind of organ that it moves, and how that is felt.
 struct OrganModelWord {
   std::string_view word;
   OrganKind kind;
+  Feel feel = Feel::kTensors;
 };
-inline constexpr std::array kOrganModels{OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh}};
+inline constexpr std::array kOrganModels{
+    OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh},
+    OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+    OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+    OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+};
 
 /// A part of an organ that is of another material: at one of label, box and ball; what is absent of the
 /// material is the organ's (organ_build --region).
@@ -31,6 +44,7 @@ struct RegionSpec {
   std::vector<double> box;            // x0, y0, z0, x1, y1, z1, m; or empty
   std::vector<double> ball;           // x, y, z, radius, m; or empty
   std::optional<double> young_pa, poisson, density_kg_m3;
+  TearSpec tears;
 };
 
 /// An organ as the scene describes it: enough to build its file, or a built file.
@@ -42,10 +56,11 @@ struct OrganSpec {
       mesh;  // a mesh or organ file (relative to the scene), or "phantom:..." (scene.cpp has the words)
   double metres_per_unit = 1;
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
-  std::vector<RegionSpec> regions;  // of several that overlap the last one holds
-  std::string fixed;                // as organ_build --fixed takes it
-  std::string look = "liver";       // "liver" or "gallbladder": how it is drawn
-  std::filesystem::path file;       // the organ file (.h5); the launcher fills it in, --organ overrides it
+  std::vector<RegionSpec> regions;       // of several that overlap the last one holds
+  std::string fixed;                     // as organ_build --fixed takes it
+  std::string look = "liver";            // "liver" or "gallbladder": how it is drawn
+  std::optional<DynamicsSpec> dynamics;  // of a model that moves by itself
+  std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
 
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the

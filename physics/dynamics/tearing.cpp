@@ -41,18 +41,8 @@ bool TearLimits::ever() const {
   return std::min({volume_change, mean_elongation, edge_elongation, stress_pa}) < kNever;
 }
 
-bool TearMap::ever() const {
-  return common.ever() ||
-         std::ranges::any_of(regions, [](const Region& region) { return region.limits.ever(); });
-}
-
-const TearLimits& TearMap::of(const geometry::TetraMesh& mesh, TetId t) const {
-  if (mesh.regions.empty()) return common;
-  const auto own = std::ranges::find(regions, mesh.regions[t], &Region::label);
-  return own == regions.end() ? common : own->limits;
-}
-
-Tearing::Tearing(const geometry::TetraMesh& mesh, const MaterialMap& material, const TearMap& limits)
+Tearing::Tearing(const geometry::TetraMesh& mesh, const MaterialMap& material,
+                 std::span<const TearLimits> limits)
     : mesh_(mesh), is_shared_(mesh.positions.size()) {
   rest_.reserve(mesh.tetrahedra.size());
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
@@ -60,7 +50,7 @@ Tearing::Tearing(const geometry::TetraMesh& mesh, const MaterialMap& material, c
     Places x;
     for (std::size_t c = 0; c < 4; ++c) x[c] = mesh.positions[mesh.tetrahedra[i][c]];
     const Material& of_t = material.of(mesh, t);
-    rest_.push_back({edges_from_first(x).inverse(), of_t.lambda(), of_t.mu(), limits.of(mesh, t)});
+    rest_.push_back({edges_from_first(x).inverse(), of_t.lambda(), of_t.mu(), limits[i]});
   }
   loaded_.reserve(mesh.tetrahedra.size());
   chosen_.reserve(mesh.tetrahedra.size());

@@ -22,19 +22,6 @@ struct TearLimits {
   bool ever() const;
 };
 
-/// The limits of a whole mesh and, of some of its regions, their own.
-struct TearMap {
-  struct Region {
-    std::int32_t label;
-    TearLimits limits;
-  };
-  TearLimits common;
-  std::vector<Region> regions;
-
-  bool ever() const;
-  const TearLimits& of(const geometry::TetraMesh& mesh, geometry::TetId t) const;
-};
-
 /// How deformed a tetrahedron is, in the terms of TearLimits. None of it changes with a rigid motion: the
 /// stress is S = lambda tr(E) I + 2 mu E with E = (F^T F - I) / 2, which is the linear model's where
 /// displacements are small.
@@ -47,8 +34,8 @@ struct TetStrain {
 /// check, since that one's end may be its relief. No allocation after construction; one thread at a time.
 class Tearing {
  public:
-  /// `mesh` must outlive this; `material` where it has regions too needs its labels.
-  Tearing(const geometry::TetraMesh& mesh, const MaterialMap& material, const TearMap& limits);
+  /// `mesh` must outlive this. `limits`: [T].
+  Tearing(const geometry::TetraMesh& mesh, const MaterialMap& material, std::span<const TearLimits> limits);
 
   /// `displacements`: [3N], from rest, m; bit t % 8 of byte t / 8 of `removed`: tetrahedron t is gone (empty:
   /// none is). At most `most`, most loaded first; valid until the next call.

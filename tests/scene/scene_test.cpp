@@ -146,11 +146,12 @@ target = [4, 5, 6]
 }
 
 TEST(Scene, AnOrgansModelSaysItsKind) {
-  for (const auto& [word, kind] : kOrganModels) {
+  for (const auto& [word, kind, feel] : kOrganModels) {
     const Scene scene = load_scene(
         write_scene(with("name = \"liver\"", "name = \"liver\"\nmodel = \"" + std::string(word) + "\"")));
     EXPECT_EQ(scene.organs[0].model, word);
     EXPECT_EQ(scene.organs[0].kind, kind);
+    EXPECT_EQ(scene.organs[0].dynamics.has_value(), feel == Feel::kLocalModels);
   }
 }
 

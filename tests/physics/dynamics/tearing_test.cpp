@@ -32,7 +32,9 @@ class TearingTest : public testing::Test {
     for (const Vec3& x : mesh_.positions) u.insert(u.end(), {per_m * x.x() * x.x(), 0, 0});
     return u;
   }
-  Tearing limited(const TearLimits& limits) const { return {mesh_, MaterialMap(kTissue), {limits, {}}}; }
+  Tearing limited(const TearLimits& limits) const {
+    return {mesh_, MaterialMap(kTissue), std::vector(mesh_.tetrahedra.size(), limits)};
+  }
 
   geometry::TetraMesh mesh_ = test::make_box_mesh(8, 2, 2, Vec3(kLength_m, 0.03, 0.03));
 };
@@ -121,10 +123,10 @@ TEST_F(TearingTest, WhatIsGoneDoesNotTearAgain) {
   }
 }
 
-TEST_F(TearingTest, ARegionHasLimitsOfItsOwn) {
-  mesh_.regions.assign(mesh_.tetrahedra.size(), 1);
-  mesh_.regions[5] = 2;
-  Tearing tearing(mesh_, MaterialMap(kTissue), {{}, {{2, {.volume_change = 0.1}}}});
+TEST_F(TearingTest, EachTetrahedronHasLimitsOfItsOwn) {
+  std::vector<TearLimits> limits(mesh_.tetrahedra.size());
+  limits[5] = {.volume_change = 0.1};
+  Tearing tearing(mesh_, MaterialMap(kTissue), limits);
   const auto torn = tearing.check(deformed(1.2 * Eigen::Matrix3d::Identity()), {}, 100);
   ASSERT_EQ(torn.size(), 1u);
   EXPECT_EQ(torn[0], TetId(5));
