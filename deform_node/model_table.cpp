@@ -10,7 +10,7 @@ namespace omentum::deform {
 namespace {
 
 std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, const scene::OrganSpec&) {
-  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface.node_count());
+  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface);
 }
 
 constexpr std::array kTable{

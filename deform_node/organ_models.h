@@ -12,13 +12,16 @@
 
 namespace omentum::deform {
 
+using geometry::NodeId;
 using geometry::SurfaceId;
 using geometry::Vec3;
 
-/// What one tool does to one organ at this moment. Equal lengths; every node is a mobile surface node.
+/// What one tool does to one organ at this moment. Equal lengths; the nodes are the mesh's, the same whatever
+/// is cut, and none is held in all directions. A model that can be cut leaves out what is not attached any
+/// more; for one that cannot, all are of its surface.
 struct ToolLoad {
   std::uint32_t tool = 0;
-  std::span<const SurfaceId> nodes;
+  std::span<const NodeId> nodes;
   std::span<const Vec3> displacements;  // imposed u of each node, in W, m
   std::span<const Vec3> forces;         // on the tissue, in W, N
 };
