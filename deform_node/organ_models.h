@@ -56,8 +56,10 @@ struct OrganView {
 /// What a model says of itself. Counters count since the start, over resets.
 struct ModelStatus {
   std::uint64_t steps = 0;
-  std::uint32_t removed_tetrahedra = 0;  // now
-  bool diverged = false;                 // its state is beyond help: it must be reset, and not be published
+  double simulated_s = 0;                 // how far it was moved on
+  std::uint32_t removed_tetrahedra = 0;   // now
+  std::uint32_t repaired_tetrahedra = 0;  // of them, what hung on one node or edge and nobody cut
+  bool diverged = false;                  // its state is beyond help: it must be reset, and not be published
   std::string_view fault{};  // of this step, a text that lives as long as the program; empty: none
 };
 
