@@ -11,6 +11,11 @@ using kernels::kTileRows;
 
 constexpr int kTileRanks = kRank * kTileRows;
 
+// Whether a removal's rows in one tile are zero: then it leaves the columns there as they are.
+bool is_zero(const double* w) {
+  return std::all_of(w, w + kTileRanks, [](double value) { return value == 0; });
+}
+
 // What must be left of a rank's alpha: with 48 bits in an entry, six digits of A are still right there.
 constexpr double kLeastAlpha = 1e-8;
 
@@ -104,18 +109,22 @@ double FactorDowndate::downdate_strip(FactorPanels& factor, const FactorPanels::
                                       std::int32_t strip, std::span<const int> removals) noexcept {
   const FactorPanels::Strip& columns = factor.strips(s)[strip];
   const kernels::SplitColumns diagonal = factor.columns(columns);
+  std::array<double*, kMost> w{};
+  std::size_t count = 0;
   double least = 1;
   for (const int r : removals) {
-    double* w = local_.data() + local_size_ * r + static_cast<std::ptrdiff_t>(kTileRanks) * strip;
+    double* rows = local_.data() + local_size_ * r + static_cast<std::ptrdiff_t>(kTileRanks) * strip;
+    if (is_zero(rows)) continue;
     least = std::min(
         least, kernels::downdate_diagonal(diagonal, columns.width, factor.pivots(s.first + kTileRows * strip),
-                                          w, alpha_[r].data(), rotations_[r]));
+                                          rows, alpha_[r].data(), rotations_[count]));
+    w[count++] = rows;
   }
   for (std::int32_t t = 1; t < columns.tiles; ++t) {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(t) * columns.width * kTileRows;
-    for (const int r : removals) {
-      double* w = local_.data() + local_size_ * r + static_cast<std::ptrdiff_t>(kTileRanks) * (strip + t);
-      kernels::rotate_tile({diagonal.high + at, diagonal.low + at}, columns.width, rotations_[r], w);
+    for (std::size_t r = 0; r < count; ++r) {
+      kernels::rotate_tile({diagonal.high + at, diagonal.low + at}, columns.width, rotations_[r],
+                           w[r] + static_cast<std::ptrdiff_t>(kTileRanks) * t);
     }
   }
   return least;

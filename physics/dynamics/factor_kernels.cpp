@@ -13,6 +13,8 @@ typedef float Lanes __attribute__((vector_size(kTileRows * sizeof(float))));
 typedef float HalfLanes __attribute__((vector_size(kHalf * sizeof(float))));
 typedef double WideHalf __attribute__((vector_size(kHalf * sizeof(double))));
 
+typedef double Quad __attribute__((vector_size(4 * sizeof(double))));
+
 // The same at any address.
 struct __attribute__((packed, may_alias)) LooseLanes {
   Lanes lanes;
@@ -24,6 +26,13 @@ struct __attribute__((packed, may_alias)) LooseWide {
   WideHalf lanes;
 };
 
+struct __attribute__((packed, may_alias)) LooseQuad {
+  Quad lanes;
+};
+
+inline Quad quad_at(const double* p) {
+  return reinterpret_cast<const LooseQuad*>(p)->lanes;
+}
 inline Lanes lanes_at(const float* p) {
   return reinterpret_cast<const LooseLanes*>(p)->lanes;
 }
@@ -41,6 +50,16 @@ inline void put(double* p, const WideHalf& lanes) {
 inline WideHalf joined(const float* high, const float* low) {
   return __builtin_convertvector(reinterpret_cast<const LooseHalf*>(high)->lanes, WideHalf) +
          __builtin_convertvector(reinterpret_cast<const LooseHalf*>(low)->lanes, WideHalf);
+}
+
+inline double joined(float high, float low) {
+  return static_cast<double>(high) + low;
+}
+
+// a -= scale b, [16].
+inline void subtract(double* a, double scale, const double* b) {
+  for (int half = 0; half < kTileRows; half += kHalf)
+    put(a + half, wide_at(a + half) - scale * wide_at(b + half));
 }
 
 inline void put_split(float* high, float* low, const WideHalf& value) {
@@ -125,6 +144,30 @@ inline void rotate(WideHalf& column, WideHalf* w, const double* pivot, const dou
   }
 }
 
+inline double smaller(double a, double b) {
+  return a < b ? a : b;
+}
+
+// A column's pivot d under the ranks in turn: d' = d - p^2 / alpha, alpha' = alpha d' / d. Divisions wait for
+// none but each rank's own. Returns the least alpha.
+inline double turn_pivot(double& d, const double* w, double* alpha, double* pivot, double* gain) {
+  double parts[kRank], before[kRank + 1];
+  for (int k = 0; k < kRank; ++k) {
+    pivot[k] = w[k * kTileRows];
+    parts[k] = pivot[k] * pivot[k] / alpha[k];
+  }
+  before[0] = d;
+  for (int k = 0; k < kRank; ++k) before[k + 1] = before[k] - parts[k];
+  d = before[kRank];
+  double least = 1;
+  for (int k = 0; k < kRank; ++k) {
+    gain[k] = -pivot[k] / (alpha[k] * before[k + 1]);
+    alpha[k] *= before[k + 1] / before[k];
+    least = smaller(least, alpha[k]);
+  }
+  return least;
+}
+
 // A column of the diagonal tile, rows below `j`.
 void rotate_below(double* column, double* w, int j, const double* pivot, const double* gain) {
   for (int half = j + 1 < kHalf ? 0 : kHalf; half < kTileRows; half += kHalf) {
@@ -152,20 +195,21 @@ void backward_strip(const float* high, const float* inverse_transposed, int widt
 
 void invert_diagonal(const float* high, const float* low, int width, float* inverse,
                      float* inverse_transposed) noexcept {
-  double rows[kTileRows][kTileRows] = {};
-  for (int i = 0; i < kTileRows; ++i) rows[i][i] = 1;
+  double unit[2][kTileRows][kTileRows] = {};
+  double(*columns)[kTileRows] = unit[0];
+  double(*rows)[kTileRows] = unit[1];
+  for (int i = 0; i < kTileRows; ++i) columns[i][i] = rows[i][i] = 1;
   for (int j = 0; j < width; ++j) {
-    for (int i = j + 1; i < kTileRows; ++i) {
-      const double L_ij = static_cast<double>(high[j * kTileRows + i]) + low[j * kTileRows + i];
-      for (int k = 0; k < kTileRows; ++k) rows[i][k] -= L_ij * rows[j][k];
-    }
+    for (int i = j + 1; i < kTileRows; ++i)
+      subtract(rows[i], joined(high[j * kTileRows + i], low[j * kTileRows + i]), rows[j]);
   }
-  for (int i = 0; i < kTileRows; ++i) {
-    for (int k = 0; k < kTileRows; ++k) {
-      const auto value = static_cast<float>(rows[i][k]);
-      inverse_transposed[i * kTileRows + k] = value;
-      inverse[k * kTileRows + i] = value;
-    }
+  for (int j = width - 1; j >= 0; --j) {
+    for (int i = j + 1; i < kTileRows; ++i)
+      subtract(columns[j], joined(high[j * kTileRows + i], low[j * kTileRows + i]), columns[i]);
+  }
+  for (int i = 0; i < kSquare; ++i) {
+    inverse[i] = static_cast<float>(columns[i / kTileRows][i % kTileRows]);
+    inverse_transposed[i] = static_cast<float>(rows[i / kTileRows][i % kTileRows]);
   }
 }
 
@@ -182,23 +226,14 @@ double downdate_diagonal(SplitColumns tile, int width, double* pivots, double* w
   for (int j = 0; j < width; ++j) {
     double* pivot = rotations.pivot[j];
     double* gain = rotations.gain[j];
-    for (int k = 0; k < kRank; ++k) {
-      // this rank as the ranks before it left this row
-      double p = w[k * kTileRows + j];
-      const double part = p * p / pivots[j];
-      const double left = alpha[k] - part;
-      pivot[k] = p;
-      gain[k] = -p / (pivots[j] * left);
-      pivots[j] *= left / alpha[k];
-      alpha[k] = left;
-      least = left < least ? left : least;
-    }
+    least = smaller(least, turn_pivot(pivots[j], w + j, alpha, pivot, gain));
     double column[kTileRows];
-    for (int half = 0; half < kTileRows; half += kHalf)
-      put(column + half, joined(tile.high + j * kTileRows + half, tile.low + j * kTileRows + half));
+    float* high = tile.high + j * kTileRows;
+    float* low = tile.low + j * kTileRows;
+    for (int half = 0; half < kTileRows; half += kHalf) put(column + half, joined(high + half, low + half));
     rotate_below(column, w, j, pivot, gain);
     for (int half = 0; half < kTileRows; half += kHalf)
-      put_split(tile.high + j * kTileRows + half, tile.low + j * kTileRows + half, wide_at(column + half));
+      put_split(high + half, low + half, wide_at(column + half));
   }
   return least;
 }
@@ -230,17 +265,18 @@ float column_dot(const float* a, const float* b, int count) noexcept {
 
 void multiply_block_rows(const int* start, const int* neighbour, const double* block, int rows,
                          const double* u, double* f) noexcept {
-  constexpr int kBlock = 9;
+  constexpr int kBlock = 9, kLastFour = kBlock - 4;
   for (int n = 0; n < rows; ++n) {
-    double sum[kBlock] = {};
+    Quad x{}, y{}, z{};
     for (int b = start[n]; b < start[n + 1]; ++b) {
       const double* K = block + static_cast<long>(b) * kBlock;
-      const double* x = u + 3 * static_cast<long>(neighbour[b]);
-      for (int c = 0; c < 3; ++c) {
-        for (int i = 0; i < 3; ++i) sum[3 * c + i] += K[3 * c + i] * x[c];
-      }
+      const double* u_b = u + 3 * static_cast<long>(neighbour[b]);
+      // four at a time: the first two columns and a value each of the next, the last with one before it
+      x += quad_at(K) * u_b[0];
+      y += quad_at(K + 3) * u_b[1];
+      z += quad_at(K + kLastFour) * u_b[2];
     }
-    for (int i = 0; i < 3; ++i) f[3 * static_cast<long>(n) + i] = sum[i] + sum[3 + i] + sum[6 + i];
+    for (int i = 0; i < 3; ++i) f[3 * static_cast<long>(n) + i] = x[i] + y[i] + z[i + 1];
   }
 }
 
