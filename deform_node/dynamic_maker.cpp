@@ -2,7 +2,12 @@
 
 #include "deform_node/dynamic_model.h"
 #include "deform_node/tear_limits.h"
+#include "physics/dynamics/corotational.h"
+#include "physics/dynamics/spring_mesh.h"
+#include "physics/dynamics/stable_step.h"
+#include "physics/dynamics/tensor_mass.h"
 
+#include <cstdio>
 #include <utility>
 
 namespace omentum::deform {
@@ -11,32 +16,78 @@ namespace {
 
 // Half of what a picture of 100 Hz shows: an implicit step damps what is faster than itself.
 constexpr double kImplicitStep_s = 0.005;
+// Of the largest step that is stable: contacts and cuts come between.
+constexpr double kShareOfStable = 0.5;
 
+std::optional<physics::ExplicitScheme> scheme_of(const std::string& integrator) {
+  if (integrator == "euler") return physics::ExplicitScheme::kForwardEuler;
+  if (integrator == "symplectic") return physics::ExplicitScheme::kSymplecticEuler;
+  if (integrator == "rk4") return physics::ExplicitScheme::kRungeKutta4;
+  return {};
+}
+
+physics::Inertia inertia_of(const organ::Organ& organ, const scene::DynamicsSpec& dynamics) {
+  return {.mass = physics::lumped_masses(organ.mesh, organ.material),
+          .fixed = organ.fixed,
+          .mass_damping_per_s = dynamics.mass_damping_per_s,
+          .stiffness_damping_s = dynamics.stiffness_damping_s};
+}
+
+// The scene's own, or a share of what the mesh allows.
+double explicit_step_s(const scene::DynamicsSpec& dynamics, physics::ExplicitScheme scheme,
+                       physics::ForceLaw& law, const physics::Inertia& inertia) {
+  const double highest_rad_s = physics::highest_frequency(law, inertia).rad_s;
+  const double stable_s = physics::stable_step_s(scheme, inertia, highest_rad_s);
+  const double step_s = dynamics.step_s.value_or(kShareOfStable * stable_s);
+  if (step_s > 0 && step_s <= stable_s) return step_s;
+  char line[160];
+  std::snprintf(line, sizeof line,
+                ": step_s: found %g, expected at most %.3g, what \"%s\" is stable with on this mesh", step_s,
+                stable_s, dynamics.integrator.c_str());
+  throw std::runtime_error(dynamics.where + line);
+}
+
+// `law`: of an explicit scheme also where the kept factor knows the same forces.
 std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
                                  std::unique_ptr<physics::ForceLaw> law) {
   const organ::Organ& organ = source.organ;
   const scene::DynamicsSpec& dynamics = *spec.dynamics;
-  return std::make_unique<DynamicModel>(
-      DynamicParts{.mesh = organ.mesh,
-                   .material = organ.material,
-                   .uncut_surface = organ.surface.node,
-                   .inertia = {.mass = physics::lumped_masses(organ.mesh, organ.material),
-                               .fixed = organ.fixed,
-                               .mass_damping_per_s = dynamics.mass_damping_per_s,
-                               .stiffness_damping_s = dynamics.stiffness_damping_s},
-                   .stepper = {.law = std::move(law), .step_s = dynamics.step_s.value_or(kImplicitStep_s)},
-                   .gravity_m_s2 = dynamics.gravity_m_s2,
-                   .tears = tear_limits_of(organ, spec),
-                   .cut_delay_s = dynamics.cut_delay_s,
-                   .cut_rate_per_s = dynamics.cut_rate_per_s,
-                   .smallest_piece_m3 = dynamics.smallest_piece_m3};
+  const auto scheme = scheme_of(dynamics.integrator);
+  physics::Inertia inertia = inertia_of(organ, dynamics);
+  const double step_s =
+      scheme ? explicit_step_s(dynamics, *scheme, *law, inertia) : dynamics.step_s.value_or(kImplicitStep_s);
+  DynamicParts parts{.mesh = organ.mesh, .material = organ.material, .uncut_surface = organ.surface.node};
+  parts.inertia = std::move(inertia);
+  parts.stepper.law = std::move(law);
+  parts.stepper.scheme = scheme;
+  parts.stepper.step_s = step_s;
+  parts.gravity_m_s2 = dynamics.gravity_m_s2;
+  parts.tears = tear_limits_of(organ, spec);
+  parts.cut_delay_s = dynamics.cut_delay_s;
+  parts.cut_rate_per_s = dynamics.cut_rate_per_s;
+  parts.smallest_piece_m3 = dynamics.smallest_piece_m3;
   return std::make_unique<DynamicModel>(std::move(parts));
+}
+
+template <class Law>
+std::unique_ptr<physics::ForceLaw> law_of(const organ::Organ& organ) {
+  return std::make_unique<Law>(organ.mesh, organ.material);
 }
 
 }  // namespace
 
 std::unique_ptr<OrganModel> make_tensor_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
-  return make(source, spec, nullptr);
+  // an implicit step has the same stiffness in its factor
+  const bool needs_law = scheme_of(spec.dynamics->integrator).has_value();
+  return make(source, spec, needs_law ? law_of<physics::TensorMass>(source.organ) : nullptr);
+}
+
+std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, const scene::OrganSpec& spec) {
+  return make(source, spec, law_of<physics::Corotational>(source.organ));
+}
+
+std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
+  return make(source, spec, law_of<physics::SpringMesh>(source.organ));
 }
 
 }  // namespace omentum::deform

@@ -16,7 +16,7 @@ constexpr std::size_t kMostTorn = 4;
 // What fell so many lengths of the organ is out of everybody's sight.
 constexpr double kReach = 2;
 // A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
-constexpr double kNearlyAll = 1 - 1e-9;
+constexpr double kRounding = 1e-9;
 
 double length_of(const geometry::TetraMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -36,6 +36,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
       loads_(mesh_, parts.material, parts.gravity_m_s2),
       state_(physics::state_at_rest(mesh_.positions.size())),
+      before_(state_),
       swept_(mesh_),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.material, parts.tears),
@@ -57,6 +58,7 @@ ModelSizes DynamicModel::sizes() const {
 }
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
+  status_.fault = {};
   loads_.press(loads.presses, editor_);
   cut(loads.cuts, dt_s);
   check(dt_s);
@@ -106,16 +108,30 @@ void DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
 
 void DynamicModel::advance(double dt_s) noexcept {
   ahead_s_ += dt_s;
-  while (!status_.diverged && ahead_s_ >= kNearlyAll * stepper_->step_s()) {
-    ahead_s_ -= stepper_->step_s();
-    const auto work_j = stepper_->step(state_, loads_.external());
-    status_.diverged = !work_j;
-    ledger_.add_work(work_j.value_or(0));
-    status_.simulated_s += stepper_->step_s();
-    ++status_.steps;
+  const auto steps = static_cast<int>(ahead_s_ / stepper_->step_s() + kRounding);
+  if (status_.diverged || steps == 0) return;
+  ahead_s_ -= steps * stepper_->step_s();
+  std::ranges::copy(state_.u, before_.u.begin());
+  std::ranges::copy(state_.v, before_.v.begin());
+  const EnergyLedger ledger = ledger_;
+  status_.diverged = !run(steps, &BodyStepper::step);
+  if (status_.diverged && stepper_->can_shorten()) {
+    status_.fault = "would diverge, goes on in shorter steps";
+    std::swap(state_, before_);
+    ledger_ = ledger;
+    status_.diverged = !run(steps, &BodyStepper::step_shorter);
   }
-  const double energy_j = stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v);
-  if (!ledger_.allows(energy_j)) status_.diverged = true;
+  status_.simulated_s += steps * stepper_->step_s();
+  status_.steps += static_cast<std::uint64_t>(steps);
+}
+
+bool DynamicModel::run(int steps, Step step) noexcept {
+  for (int i = 0; i < steps; ++i) {
+    const auto work_j = (stepper_.get()->*step)(state_, loads_.external());
+    if (!work_j) return false;
+    ledger_.add_work(*work_j);
+  }
+  return ledger_.allows(stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v));
 }
 
 void DynamicModel::reset() noexcept {

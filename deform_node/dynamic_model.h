@@ -17,10 +17,10 @@ struct DynamicParts {
   const geometry::TetraMesh& mesh;
   const physics::MaterialMap& material;
   std::span<const NodeId> uncut_surface;  // in the organ file's order; read at construction alone
-  physics::Inertia inertia;
-  StepperParts stepper;
+  physics::Inertia inertia{};
+  StepperParts stepper{};
   Vec3 gravity_m_s2 = Vec3::Zero();
-  std::vector<physics::TearLimits> tears;  // [T]
+  std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
 };
@@ -49,13 +49,16 @@ class DynamicModel final : public OrganModel {
   void drop_what_fell() noexcept;
   void remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   void advance(double dt_s) noexcept;
+  using Step = decltype(&BodyStepper::step);
+  /// False: the energy cannot be.
+  bool run(int steps, Step step) noexcept;
   void show() noexcept;
 
   const geometry::TetraMesh& mesh_;
   physics::Inertia inertia_;
   geometry::MeshEditor editor_;
   BodyLoads loads_;
-  physics::BodyState state_;
+  physics::BodyState state_, before_;  // now, and when this tick began
   std::unique_ptr<BodyStepper> stepper_;
   EnergyLedger ledger_;
   physics::SweptCut swept_;
