@@ -43,7 +43,7 @@ int lane_of(std::size_t t) {
 void place(TetPack& pack, int lane, const geometry::Tetrahedron& nodes, const Corners& corners,
            double volume) {
   const std::array<Vec3, 4> M = area_normals(corners);
-  for (int c = 0; c < 4; ++c) pack.first[c][lane] = 3 * nodes[c];
+  for (int c = 0; c < 4; ++c) pack.node[c][lane] = nodes[c];
   for (int c = 0; c < 3; ++c) {
     for (int axis = 0; axis < 3; ++axis) pack.gradient[c][axis][lane] = -M[c + 1][axis] / (6 * volume);
   }
@@ -52,7 +52,10 @@ void place(TetPack& pack, int lane, const geometry::Tetrahedron& nodes, const Co
 }  // namespace
 
 Corotational::Corotational(const geometry::TetraMesh& mesh, const MaterialMap& material)
-    : packs_((mesh.tetrahedra.size() + kTetLanes - 1) / kTetLanes), tangents_(packs_.size()) {
+    : packs_((mesh.tetrahedra.size() + kTetLanes - 1) / kTetLanes),
+      tangents_(packs_.size()),
+      in_(mesh.positions.size()),
+      out_(mesh.positions.size()) {
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const geometry::TetId id(t);
     const Corners corners = corners_of(mesh, id);
@@ -66,12 +69,15 @@ Corotational::Corotational(const geometry::TetraMesh& mesh, const MaterialMap& m
 }
 
 void Corotational::forces(std::span<const double> u, std::span<double> f) noexcept {
-  std::ranges::fill(f, 0.0);
-  kernels::add_corotational_forces(packs_.data(), static_cast<int>(packs_.size()), u.data(), f.data());
+  kernels::pad(u, in_.data());
+  std::ranges::fill(out_, kernels::PaddedNode{});
+  kernels::add_corotational_forces(packs_.data(), pack_count(), in_.data(), out_.data());
+  kernels::unpad(out_.data(), f);
 }
 
 double Corotational::energy(std::span<const double> u) const noexcept {
-  return kernels::corotational_energy(packs_.data(), static_cast<int>(packs_.size()), u.data());
+  kernels::pad(u, in_.data());
+  return kernels::corotational_energy(packs_.data(), pack_count(), in_.data());
 }
 
 void Corotational::remove(geometry::TetId t) noexcept {
@@ -90,14 +96,16 @@ void Corotational::add(geometry::TetId t) noexcept {
 }
 
 void Corotational::linearize(std::span<const double> u, Tangent tangent) noexcept {
-  kernels::linearize_corotational(packs_.data(), static_cast<int>(packs_.size()), u.data(),
-                                  tangent == Tangent::kExact, tangents_.data());
+  kernels::pad(u, in_.data());
+  kernels::linearize_corotational(packs_.data(), pack_count(), in_.data(), tangent == Tangent::kExact,
+                                  tangents_.data());
 }
 
 void Corotational::product(std::span<const double> v, std::span<double> f) const noexcept {
-  std::ranges::fill(f, 0.0);
-  kernels::add_corotational_product(packs_.data(), tangents_.data(), static_cast<int>(packs_.size()),
-                                    v.data(), f.data());
+  kernels::pad(v, in_.data());
+  std::ranges::fill(out_, kernels::PaddedNode{});
+  kernels::add_corotational_product(packs_.data(), tangents_.data(), pack_count(), in_.data(), out_.data());
+  kernels::unpad(out_.data(), f);
 }
 
 Eigen::Matrix3d Corotational::rotation(geometry::TetId t) const noexcept {

@@ -49,9 +49,12 @@ class Corotational final : public ForceLaw {
   Eigen::Matrix3d rotation(geometry::TetId t) const noexcept;
 
  private:
+  int pack_count() const noexcept { return static_cast<int>(packs_.size()); }
+
   std::vector<kernels::TetPack> packs_;
   std::vector<kernels::TetTangent> tangents_;
   std::vector<double> two_mu_volume_, lambda_volume_;  // [T], N m: what add() brings back
+  mutable std::vector<kernels::PaddedNode> in_, out_;  // [N], scratch of one call
 };
 
 }  // namespace omentum::physics

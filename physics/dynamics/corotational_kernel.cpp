@@ -31,14 +31,14 @@ struct Polar {
 };
 
 // sum_c (w_c - w_0) gradient_c^T
-OMENTUM_LANES_INLINE void gradient_of(const TetPack& pack, const double* w, Matrix& G) {
-  for (int a = 0; a < 3; ++a) {
-    const Lanes origin = gather(w + a, pack.first[0]);
-    Lanes along[3];
-    for (int c = 0; c < 3; ++c) along[c] = gather(w + a, pack.first[c + 1]) - origin;
-    for (int b = 0; b < 3; ++b) {
-      G.m[a][b] = along[0] * lanes_at(pack.gradient[0][b]) + along[1] * lanes_at(pack.gradient[1][b]) +
-                  along[2] * lanes_at(pack.gradient[2][b]);
+OMENTUM_LANES_INLINE void gradient_of(const TetPack& pack, const PaddedNode* w, Matrix& G) {
+  const LaneVectors origin = gather(w, pack.node[0]);
+  for (auto& row : G.m) row[0] = row[1] = row[2] = Lanes{};
+  for (int c = 0; c < 3; ++c) {
+    const LaneVectors end = gather(w, pack.node[c + 1]);
+    const Lanes along[3] = {end.x - origin.x, end.y - origin.y, end.z - origin.z};
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) G.m[a][b] += along[a] * lanes_at(pack.gradient[c][b]);
     }
   }
 }
@@ -125,7 +125,7 @@ void resolve_ambiguous(Polar& p) noexcept {
 
 // R is the trace's derivative by F, by the polynomial above: no inverse, so that a flat element has one as
 // well.
-OMENTUM_LANES_INLINE void decompose(const TetPack& pack, const double* u, Polar& p) {
+OMENTUM_LANES_INLINE void decompose(const TetPack& pack, const PaddedNode* u, Polar& p) {
   gradient_of(pack, u, p.F);
   for (int a = 0; a < 3; ++a) p.F.m[a][a] += 1.0;
   Matrix cof, FFt, FFtF;
@@ -144,27 +144,26 @@ OMENTUM_LANES_INLINE void decompose(const TetPack& pack, const double* u, Polar&
   if (any(p.ambiguous)) resolve_ambiguous(p);
 }
 
-// f[corner] += sign * (P gradient_corner), of stiff lanes; the corners' shares add up to zero.
-OMENTUM_LANES_INLINE void scatter(const TetPack& pack, const Matrix& P, double sign, double* f) {
+// P gradient_corner, of stiff lanes
+OMENTUM_LANES_INLINE LaneVectors share_of(const TetPack& pack, const Matrix& P, int c) {
   const LaneMask stiff = lanes_at(pack.two_mu_volume) > 0;
-  alignas(64) double share[4][3][kPack];
+  Lanes share[3];
   for (int a = 0; a < 3; ++a) {
-    Lanes origin{};
-    for (int c = 0; c < 3; ++c) {
-      const Lanes all = P.m[a][0] * lanes_at(pack.gradient[c][0]) +
-                        P.m[a][1] * lanes_at(pack.gradient[c][1]) + P.m[a][2] * lanes_at(pack.gradient[c][2]);
-      const Lanes part = stiff ? sign * all : Lanes{};
-      origin -= part;
-      lanes_at(share[c + 1][a]) = part;
-    }
-    lanes_at(share[0][a]) = origin;
+    const Lanes all = P.m[a][0] * lanes_at(pack.gradient[c][0]) + P.m[a][1] * lanes_at(pack.gradient[c][1]) +
+                      P.m[a][2] * lanes_at(pack.gradient[c][2]);
+    share[a] = stiff ? all : Lanes{};
   }
+  return {share[0], share[1], share[2]};
+}
+
+// f[corner] += P gradient_corner; the corners' shares add up to zero.
+OMENTUM_LANES_INLINE void scatter(const TetPack& pack, const Matrix& P, PaddedNode* f) {
+  NodeLanes share[3][kPack];
+  for (int c = 0; c < 3; ++c) lane_by_lane(share_of(pack, P, c), share[c]);
   // lane after lane: two of them may share a node
   for (int l = 0; l < kPack; ++l) {
-    for (int c = 0; c < 4; ++c) {
-      double* at = f + pack.first[c][l];
-      for (int a = 0; a < 3; ++a) at[a] += share[c][a][l];
-    }
+    lanes_of(f[pack.node[0][l]]) -= share[0][l] + share[1][l] + share[2][l];
+    for (int c = 0; c < 3; ++c) lanes_of(f[pack.node[c + 1][l]]) += share[c][l];
   }
 }
 
@@ -189,7 +188,8 @@ OMENTUM_LANES_INLINE void exact_skew(const TetPack& pack, const Polar& p, double
   }
 }
 
-OMENTUM_LANES_INLINE void linearize(const TetPack& pack, const double* u, bool exact, TetTangent& tangent) {
+OMENTUM_LANES_INLINE void linearize(const TetPack& pack, const PaddedNode* u, bool exact,
+                                    TetTangent& tangent) {
   Polar p;
   decompose(pack, u, p);
   for (int a = 0; a < 3; ++a) {
@@ -200,7 +200,7 @@ OMENTUM_LANES_INLINE void linearize(const TetPack& pack, const double* u, bool e
 }
 
 // P = R (2 mu V sym(W) + lambda V tr(W) I + [A V a]x), W = R^T dF, [a]x = W - W^T
-OMENTUM_LANES_INLINE void tangent_stress(const TetPack& pack, const TetTangent& tangent, const double* v,
+OMENTUM_LANES_INLINE void tangent_stress(const TetPack& pack, const TetTangent& tangent, const PaddedNode* v,
                                          Matrix& P) {
   Matrix R, dF, W, Q;
   for (int a = 0; a < 3; ++a) {
@@ -227,7 +227,7 @@ OMENTUM_LANES_INLINE void tangent_stress(const TetPack& pack, const TetTangent& 
 
 }  // namespace
 
-void add_corotational_forces(const TetPack* packs, int count, const double* u, double* f) noexcept {
+void add_corotational_forces(const TetPack* packs, int count, const PaddedNode* u, PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
     const TetPack& pack = packs[i];
     if (pack.stiff_count == 0) continue;
@@ -237,13 +237,13 @@ void add_corotational_forces(const TetPack* packs, int count, const double* u, d
     const Lanes of_R = lanes_at(pack.lambda_volume) * (p.trace - 3.0);
     Matrix P;
     for (int a = 0; a < 3; ++a) {
-      for (int b = 0; b < 3; ++b) P.m[a][b] = two_mu * (p.F.m[a][b] - p.R.m[a][b]) + of_R * p.R.m[a][b];
+      for (int b = 0; b < 3; ++b) P.m[a][b] = two_mu * (p.R.m[a][b] - p.F.m[a][b]) - of_R * p.R.m[a][b];
     }
-    scatter(pack, P, -1, f);
+    scatter(pack, P, f);
   }
 }
 
-double corotational_energy(const TetPack* packs, int count, const double* u) noexcept {
+double corotational_energy(const TetPack* packs, int count, const PaddedNode* u) noexcept {
   Lanes sum{};
   for (int i = 0; i < count; ++i) {
     const TetPack& pack = packs[i];
@@ -263,18 +263,18 @@ double corotational_energy(const TetPack* packs, int count, const double* u) noe
   return total;
 }
 
-void linearize_corotational(const TetPack* packs, int count, const double* u, bool exact,
+void linearize_corotational(const TetPack* packs, int count, const PaddedNode* u, bool exact,
                             TetTangent* tangents) noexcept {
   for (int i = 0; i < count; ++i) linearize(packs[i], u, exact, tangents[i]);
 }
 
-void add_corotational_product(const TetPack* packs, const TetTangent* tangents, int count, const double* v,
-                              double* f) noexcept {
+void add_corotational_product(const TetPack* packs, const TetTangent* tangents, int count,
+                              const PaddedNode* v, PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
     if (packs[i].stiff_count == 0) continue;
     Matrix P;
     tangent_stress(packs[i], tangents[i], v, P);
-    scatter(packs[i], P, 1, f);
+    scatter(packs[i], P, f);
   }
 }
 

@@ -1,6 +1,8 @@
 // The innermost loops of the co-rotational law, on raw pointers: compiled for this machine's vector unit.
 #pragma once
 
+#include "physics/dynamics/padded_nodes.h"
+
 #include <cstdint>
 
 namespace omentum::physics::kernels {
@@ -13,7 +15,7 @@ struct alignas(64) TetPack {
   double gradient[3][3][kTetLanes];  // [corner 1..3][axis] of its shape function, 1/m
   double two_mu_volume[kTetLanes];   // N m; 0: not stiff
   double lambda_volume[kTetLanes];   // N m
-  std::int32_t first[4][kTetLanes];  // [corner] where its node's x stands in u and f
+  std::int32_t node[4][kTetLanes];   // [corner]
   std::int32_t stiff_count;          // lanes that are stiff
 };
 
@@ -28,17 +30,17 @@ struct alignas(64) TetTangent {
 void nearest_rotation(const double* F, double* R) noexcept;
 
 /// f -= dE/du of `count` packs.
-void add_corotational_forces(const TetPack* packs, int count, const double* u, double* f) noexcept;
+void add_corotational_forces(const TetPack* packs, int count, const PaddedNode* u, PaddedNode* f) noexcept;
 
 /// E of `count` packs, J.
-double corotational_energy(const TetPack* packs, int count, const double* u) noexcept;
+double corotational_energy(const TetPack* packs, int count, const PaddedNode* u) noexcept;
 
 /// tangents[count] at u; with `exact` the second derivative of E, else the warped linear stiffness.
-void linearize_corotational(const TetPack* packs, int count, const double* u, bool exact,
+void linearize_corotational(const TetPack* packs, int count, const PaddedNode* u, bool exact,
                             TetTangent* tangents) noexcept;
 
 /// f += K v of `count` packs.
-void add_corotational_product(const TetPack* packs, const TetTangent* tangents, int count, const double* v,
-                              double* f) noexcept;
+void add_corotational_product(const TetPack* packs, const TetTangent* tangents, int count,
+                              const PaddedNode* v, PaddedNode* f) noexcept;
 
 }  // namespace omentum::physics::kernels

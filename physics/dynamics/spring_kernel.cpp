@@ -15,15 +15,17 @@ struct Stretched {
   Lanes length;
 };
 
-OMENTUM_LANES_INLINE void stretch(const SpringPack& pack, const double* u, Stretched& s) {
-  for (int a = 0; a < 3; ++a)
-    s.along[a] = lanes_at(pack.rest[a]) + (gather(u + a, pack.first[1]) - gather(u + a, pack.first[0]));
+OMENTUM_LANES_INLINE void stretch(const SpringPack& pack, const PaddedNode* u, Stretched& s) {
+  const LaneVectors from = gather(u, pack.node[0]), to = gather(u, pack.node[1]);
+  s.along[0] = lanes_at(pack.rest[0]) + (to.x - from.x);
+  s.along[1] = lanes_at(pack.rest[1]) + (to.y - from.y);
+  s.along[2] = lanes_at(pack.rest[2]) + (to.z - from.z);
   s.length = square_root(s.along[0] * s.along[0] + s.along[1] * s.along[1] + s.along[2] * s.along[2]);
 }
 
 }  // namespace
 
-void add_spring_forces(const SpringPack* packs, int count, const double* u, double* f) noexcept {
+void add_spring_forces(const SpringPack* packs, int count, const PaddedNode* u, PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
     const SpringPack& pack = packs[i];
     Stretched s;
@@ -32,21 +34,19 @@ void add_spring_forces(const SpringPack* packs, int count, const double* u, doub
     const LaneMask pulls = (lanes_at(pack.stiffness) > 0) & (s.length > 0);
     const Lanes tension =
         pulls ? lanes_at(pack.stiffness) * (s.length - lanes_at(pack.length)) / s.length : Lanes{};
-    alignas(64) double force[3][kPack];
-    for (int a = 0; a < 3; ++a) lanes_at(force[a]) = pulls ? tension * s.along[a] : Lanes{};
+    const LaneVectors pull{pulls ? tension * s.along[0] : Lanes{}, pulls ? tension * s.along[1] : Lanes{},
+                           pulls ? tension * s.along[2] : Lanes{}};
+    NodeLanes force[kPack];
+    lane_by_lane(pull, force);
     // lane after lane: two of them may share a node
     for (int l = 0; l < kPack; ++l) {
-      double* from = f + pack.first[0][l];
-      double* to = f + pack.first[1][l];
-      for (int a = 0; a < 3; ++a) {
-        from[a] += force[a][l];
-        to[a] -= force[a][l];
-      }
+      lanes_of(f[pack.node[0][l]]) += force[l];
+      lanes_of(f[pack.node[1][l]]) -= force[l];
     }
   }
 }
 
-double spring_energy(const SpringPack* packs, int count, const double* u) noexcept {
+double spring_energy(const SpringPack* packs, int count, const PaddedNode* u) noexcept {
   Lanes sum{};
   for (int i = 0; i < count; ++i) {
     const Lanes stiffness = lanes_at(packs[i].stiffness);

@@ -39,16 +39,18 @@ std::vector<Side> sides_of(const geometry::TetraMesh& mesh, const MaterialMap& m
 void place(SpringPack& pack, std::size_t lane, const Side& side, const geometry::TetraMesh& mesh) {
   const Vec3 along = mesh.positions[side.to] - mesh.positions[side.from];
   for (int axis = 0; axis < 3; ++axis) pack.rest[axis][lane] = along[axis];
-  // as the kernel takes it, so that what was not moved has no force at all
   pack.length[lane] = along.norm();
-  pack.first[0][lane] = 3 * side.from;
-  pack.first[1][lane] = 3 * side.to;
+  pack.node[0][lane] = side.from;
+  pack.node[1][lane] = side.to;
 }
 
 }  // namespace
 
 SpringMesh::SpringMesh(const geometry::TetraMesh& mesh, const MaterialMap& material, SpringFit fit)
-    : edges_of_(mesh.tetrahedra.size()), left_(mesh.tetrahedra.size(), 1) {
+    : edges_of_(mesh.tetrahedra.size()),
+      left_(mesh.tetrahedra.size(), 1),
+      u_(mesh.positions.size()),
+      f_(mesh.positions.size()) {
   const std::vector<Side> sides = sides_of(mesh, material, fit);
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (s == 0 || sides[s].ends() != sides[s - 1].ends()) {
@@ -66,12 +68,15 @@ SpringMesh::SpringMesh(const geometry::TetraMesh& mesh, const MaterialMap& mater
 }
 
 void SpringMesh::forces(std::span<const double> u, std::span<double> f) noexcept {
-  std::ranges::fill(f, 0.0);
-  kernels::add_spring_forces(packs_.data(), static_cast<int>(packs_.size()), u.data(), f.data());
+  kernels::pad(u, u_.data());
+  std::ranges::fill(f_, kernels::PaddedNode{});
+  kernels::add_spring_forces(packs_.data(), static_cast<int>(packs_.size()), u_.data(), f_.data());
+  kernels::unpad(f_.data(), f);
 }
 
 double SpringMesh::energy(std::span<const double> u) const noexcept {
-  return kernels::spring_energy(packs_.data(), static_cast<int>(packs_.size()), u.data());
+  kernels::pad(u, u_.data());
+  return kernels::spring_energy(packs_.data(), static_cast<int>(packs_.size()), u_.data());
 }
 
 void SpringMesh::remove(geometry::TetId t) noexcept {

@@ -41,6 +41,8 @@ class SpringMesh final : public ForceLaw {
   std::vector<std::int32_t> start_;                    // [edges+1] into `shares_`
   std::vector<Share> shares_;                          // of each edge, by tetrahedron
   std::vector<std::uint8_t> left_;                     // [T] 1: there, 0: removed
+  mutable std::vector<kernels::PaddedNode> u_;         // [N], scratch of one call
+  std::vector<kernels::PaddedNode> f_;                 // [N], likewise
 };
 
 }  // namespace omentum::physics
