@@ -15,6 +15,7 @@ struct StepperParts {
   std::unique_ptr<physics::ForceLaw> law;         // none: linear elasticity, by the kept factor itself
   std::optional<physics::ExplicitScheme> scheme;  // needs a law; none: backward Euler on the kept factor
   double step_s = 0;                              // of the integrator, fixed
+  double energy_margin = 2;                       // of a sound integration (physics/dynamics/energy_watch.h)
   int most_compliance_nodes = 0;                  // of one local model
 };
 

@@ -33,18 +33,36 @@ physics::Inertia inertia_of(const organ::Organ& organ, const scene::DynamicsSpec
           .stiffness_damping_s = dynamics.stiffness_damping_s};
 }
 
-// The scene's own, or a share of what the mesh allows.
-double explicit_step_s(const scene::DynamicsSpec& dynamics, physics::ExplicitScheme scheme,
-                       physics::ForceLaw& law, const physics::Inertia& inertia) {
+struct ExplicitTerms {
+  double step_s, stable_s;
+};
+
+// The scene's own step, or a share of what the mesh allows.
+ExplicitTerms explicit_terms(const scene::DynamicsSpec& dynamics, physics::ExplicitScheme scheme,
+                             physics::ForceLaw& law, const physics::Inertia& inertia) {
   const double highest_rad_s = physics::highest_frequency(law, inertia).rad_s;
   const double stable_s = physics::stable_step_s(scheme, inertia, highest_rad_s);
   const double step_s = dynamics.step_s.value_or(kShareOfStable * stable_s);
-  if (step_s > 0 && step_s <= stable_s) return step_s;
+  if (step_s > 0 && step_s < stable_s) return {step_s, stable_s};
   char line[160];
   std::snprintf(line, sizeof line,
-                ": step_s: found %g, expected at most %.3g, what \"%s\" is stable with on this mesh", step_s,
-                stable_s, dynamics.integrator.c_str());
+                ": step_s: found %g, expected less than %.3g: \"%s\" is stable on this mesh below that",
+                step_s, stable_s, dynamics.integrator.c_str());
   throw std::runtime_error(dynamics.where + line);
+}
+
+StepperParts stepper_of(const scene::DynamicsSpec& dynamics, const physics::Inertia& inertia,
+                        std::unique_ptr<physics::ForceLaw> law) {
+  StepperParts parts;
+  parts.scheme = scheme_of(dynamics.integrator);
+  parts.step_s = dynamics.step_s.value_or(kImplicitStep_s);
+  if (parts.scheme) {
+    const auto [step_s, stable_s] = explicit_terms(dynamics, *parts.scheme, *law, inertia);
+    parts.step_s = step_s;
+    parts.energy_margin = physics::energy_margin(*parts.scheme, step_s / stable_s);
+  }
+  parts.law = std::move(law);
+  return parts;
 }
 
 // `law`: of an explicit scheme also where the kept factor knows the same forces.
@@ -52,15 +70,9 @@ std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::O
                                  std::unique_ptr<physics::ForceLaw> law) {
   const organ::Organ& organ = source.organ;
   const scene::DynamicsSpec& dynamics = *spec.dynamics;
-  const auto scheme = scheme_of(dynamics.integrator);
-  physics::Inertia inertia = inertia_of(organ, dynamics);
-  const double step_s =
-      scheme ? explicit_step_s(dynamics, *scheme, *law, inertia) : dynamics.step_s.value_or(kImplicitStep_s);
   DynamicParts parts{.mesh = organ.mesh, .material = organ.material, .uncut_surface = organ.surface.node};
-  parts.inertia = std::move(inertia);
-  parts.stepper.law = std::move(law);
-  parts.stepper.scheme = scheme;
-  parts.stepper.step_s = step_s;
+  parts.inertia = inertia_of(organ, dynamics);
+  parts.stepper = stepper_of(dynamics, parts.inertia, std::move(law));
   parts.gravity_m_s2 = dynamics.gravity_m_s2;
   parts.tears = tear_limits_of(organ, spec);
   parts.cut_delay_s = dynamics.cut_delay_s;

@@ -15,6 +15,8 @@ constexpr double kTearCheck_s = 1.0 / 60;
 constexpr std::size_t kMostTorn = 4;
 // What fell so many lengths of the organ is out of everybody's sight.
 constexpr double kReach = 2;
+// Below this no eye and no hand finds a motion, J: a gram at 1 mm/s.
+constexpr double kUnnoticed_j = 5e-10;
 // A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
 constexpr double kRounding = 1e-9;
 
@@ -37,6 +39,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       loads_(mesh_, parts.material, parts.gravity_m_s2),
       state_(physics::state_at_rest(mesh_.positions.size())),
       before_(state_),
+      watch_(parts.stepper.energy_margin, kUnnoticed_j),
       swept_(mesh_),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.material, parts.tears),
@@ -113,12 +116,12 @@ void DynamicModel::advance(double dt_s) noexcept {
   ahead_s_ -= steps * stepper_->step_s();
   std::ranges::copy(state_.u, before_.u.begin());
   std::ranges::copy(state_.v, before_.v.begin());
-  const EnergyLedger ledger = ledger_;
+  const physics::EnergyWatch watch = watch_;
   status_.diverged = !run(steps, &BodyStepper::step);
   if (status_.diverged && stepper_->can_shorten()) {
     status_.fault = "would diverge, goes on in shorter steps";
     std::swap(state_, before_);
-    ledger_ = ledger;
+    watch_ = watch;
     status_.diverged = !run(steps, &BodyStepper::step_shorter);
   }
   status_.simulated_s += steps * stepper_->step_s();
@@ -129,9 +132,10 @@ bool DynamicModel::run(int steps, Step step) noexcept {
   for (int i = 0; i < steps; ++i) {
     const auto work_j = (stepper_.get()->*step)(state_, loads_.external());
     if (!work_j) return false;
-    ledger_.add_work(*work_j);
+    watch_.add_work(*work_j);
   }
-  return ledger_.allows(stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v));
+  const double energy_j = stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v);
+  return watch_.accepts(energy_j, steps * stepper_->step_s());
 }
 
 void DynamicModel::reset() noexcept {
@@ -143,7 +147,7 @@ void DynamicModel::reset() noexcept {
   editor_.restore();
   loads_.restore();
   burning_.clear();
-  ledger_.reset();
+  watch_.restart(0);
   std::ranges::fill(state_.u, 0.0);
   std::ranges::fill(state_.v, 0.0);
   ahead_s_ = until_check_s_ = 0;

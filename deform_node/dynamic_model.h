@@ -4,9 +4,9 @@
 #include "deform_node/body_loads.h"
 #include "deform_node/body_stepper.h"
 #include "deform_node/cut_queue.h"
-#include "deform_node/energy_ledger.h"
 #include "deform_node/organ_models.h"
 #include "deform_node/patch_gatherer.h"
+#include "physics/dynamics/energy_watch.h"
 #include "physics/dynamics/swept_cut.h"
 #include "physics/dynamics/tearing.h"
 
@@ -50,7 +50,7 @@ class DynamicModel final : public OrganModel {
   void remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   void advance(double dt_s) noexcept;
   using Step = decltype(&BodyStepper::step);
-  /// False: the energy cannot be.
+  /// False: the energy afterwards cannot be.
   bool run(int steps, Step step) noexcept;
   void show() noexcept;
 
@@ -60,7 +60,7 @@ class DynamicModel final : public OrganModel {
   BodyLoads loads_;
   physics::BodyState state_, before_;  // now, and when this tick began
   std::unique_ptr<BodyStepper> stepper_;
-  EnergyLedger ledger_;
+  physics::EnergyWatch watch_;
   physics::SweptCut swept_;
   CutQueue burning_;
   physics::Tearing tearing_;
