@@ -26,25 +26,45 @@ ImplicitStep::ImplicitStep(const geometry::TetraMesh& mesh, const MaterialMap& m
       lacking_(ahead_.size()) {}
 
 bool ImplicitStep::step(BodyState& state, std::span<const double> external) noexcept {
-  const double reach = step_s_ + inertia_.stiffness_damping_s;
-  for (std::size_t c = 0; c < ahead_.size(); ++c) ahead_[c] = state.u[c] + reach * state.v[c];
-  factor_.holding_forces(ahead_, forces_);
-  for (double& f : forces_) f = -f;
+  look_ahead(state);
+  find_own_forces();
   return finish(state, external);
 }
 
 bool ImplicitStep::step(BodyState& state, ForceLaw& law, std::span<const double> external) noexcept {
-  const double reach = step_s_ + inertia_.stiffness_damping_s;
-  for (std::size_t c = 0; c < ahead_.size(); ++c) ahead_[c] = state.u[c] + reach * state.v[c];
+  look_ahead(state);
   law.forces(ahead_, forces_);
   return finish(state, external);
 }
 
-bool ImplicitStep::finish(BodyState& state, std::span<const double> external) noexcept {
+void ImplicitStep::foresee(const BodyState& state, std::span<const double> external,
+                           std::span<double> u) noexcept {
+  look_ahead(state);
+  find_own_forces();
+  find_impulse(state, external);
+  factor_.solve_roughly(impulse_, change_);
+  for (std::size_t c = 0; c < u.size(); ++c) u[c] = state.u[c] + step_s_ * (state.v[c] + change_[c]);
+}
+
+void ImplicitStep::look_ahead(const BodyState& state) noexcept {
+  const double reach = step_s_ + inertia_.stiffness_damping_s;
+  for (std::size_t c = 0; c < ahead_.size(); ++c) ahead_[c] = state.u[c] + reach * state.v[c];
+}
+
+void ImplicitStep::find_own_forces() noexcept {
+  factor_.holding_forces(ahead_, forces_);
+  for (double& f : forces_) f = -f;
+}
+
+void ImplicitStep::find_impulse(const BodyState& state, std::span<const double> external) noexcept {
   for (std::size_t c = 0; c < impulse_.size(); ++c) {
     const double drag = inertia_.mass_damping_per_s * inertia_.mass[c / 3] * state.v[c];
     impulse_[c] = lacking_[c] + step_s_ * (external[c] + forces_[c] - drag);
   }
+}
+
+bool ImplicitStep::finish(BodyState& state, std::span<const double> external) noexcept {
+  find_impulse(state, external);
   factor_.solve_roughly(impulse_, change_);
   factor_.multiply(change_, lacking_);
   double speed = 0;
@@ -71,6 +91,18 @@ void ImplicitStep::compliance(std::span<const geometry::NodeId> nodes, std::span
   factor_.inverse_block(nodes, block);
   const auto scale = static_cast<float>(step_s_ * step_s_);
   for (std::size_t i = 0; i < 9 * nodes.size() * nodes.size(); ++i) block[i] *= scale;
+}
+
+void ImplicitStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {
+  factor_.solve(forces, yield);
+  for (double& y : yield) y *= step_s_ * step_s_;
+}
+
+void ImplicitStep::add(double strength, std::span<const double> yield, BodyState& state) const noexcept {
+  for (std::size_t c = 0; c < yield.size(); ++c) {
+    state.u[c] += strength * yield[c];
+    state.v[c] += strength * yield[c] / step_s_;
+  }
 }
 
 double ImplicitStep::elastic_energy(std::span<const double> u) noexcept {

@@ -41,12 +41,23 @@ class ImplicitStep {
   /// A^-1.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept;
 
+  /// Displacement of all nodes at the end of a step per force held over it: yield = dt^2 A^-1 F, [3N] each,
+  /// m.
+  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept;
+  /// The end of a step that had `strength` times those forces more.
+  void add(double strength, std::span<const double> yield, BodyState& state) const noexcept;
+  /// Where the next step would end under `external` forces; of the factor's own law. Nothing is changed.
+  void foresee(const BodyState& state, std::span<const double> external, std::span<double> u) noexcept;
+
   /// u^T K u / 2 with what is left, J.
   double elastic_energy(std::span<const double> u) noexcept;
   double step_s() const { return step_s_; }
   KeptFactor& factor() { return factor_; }
 
  private:
+  void look_ahead(const BodyState& state) noexcept;
+  void find_own_forces() noexcept;
+  void find_impulse(const BodyState& state, std::span<const double> external) noexcept;
   bool finish(BodyState& state, std::span<const double> external) noexcept;
 
   Inertia inertia_;
