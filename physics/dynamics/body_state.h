@@ -18,7 +18,7 @@ struct BodyState {
 BodyState state_at_rest(std::size_t node_count);
 
 /// The terms of M a = f(u) - D v + f_ext that never change, cuts included: the mass of what is removed stays
-/// on its nodes (docs/design.md, "Dynamics"). Damping is Rayleigh's, D = a M + b K: the share of critical
+/// on its nodes. Damping is Rayleigh's, D = a M + b K: the share of critical
 /// damping of a mode of angular frequency w is a / (2 w) + b w / 2.
 struct Inertia {
   std::vector<double> mass;        // [N], kg, above zero

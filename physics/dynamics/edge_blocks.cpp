@@ -38,7 +38,8 @@ AlignedFloats::AlignedFloats(std::size_t size)
   std::fill_n(values_.get(), size, 0.f);
 }
 
-EdgeBlocks::EdgeBlocks(const TensorBooks& books) : places_(books.edges().size()), blocks_(0) {
+EdgeBlocks::EdgeBlocks(const TensorBooks& books)
+    : node_count_(static_cast<std::int32_t>(books.node_count())), places_(books.edges().size()), blocks_(0) {
   place_rows(books, shared_out(books));
   blocks_ = AlignedFloats(steps() * kEdgeBlocks);
 }
@@ -84,8 +85,12 @@ void EdgeBlocks::refresh(const TensorBooks& books, std::int32_t e) noexcept {
 }
 
 kernels::EdgeSlices EdgeBlocks::slices() const noexcept {
-  return {start_.data(), rows_.data(), neighbours_.data(), blocks_.data(),
-          static_cast<std::int32_t>(start_.size()) - 1};
+  return {start_.data(),
+          rows_.data(),
+          neighbours_.data(),
+          blocks_.data(),
+          static_cast<std::int32_t>(start_.size()) - 1,
+          node_count_};
 }
 
 }  // namespace omentum::physics

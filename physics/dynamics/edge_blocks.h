@@ -48,6 +48,7 @@ class EdgeBlocks {
   };
   void place_rows(const TensorBooks& books, const std::vector<std::vector<std::int32_t>>& rows);
 
+  std::int32_t node_count_;
   std::vector<std::int32_t> start_, rows_, neighbours_;
   std::vector<Place> places_;  // [E]
   AlignedFloats blocks_;

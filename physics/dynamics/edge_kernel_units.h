@@ -26,15 +26,25 @@ struct EdgeSlices {
   const std::int32_t* neighbours;  // [steps][kEdgeLanes], floats before the node's
   const float* blocks;             // [steps][kEdgeBlocks], 64-byte aligned
   std::int32_t slices;
+  std::int32_t nodes;
 };
 
-/// With d = u_k - u_n and K the block between n (row) and k (neighbour): f_n -= K d, f_k += K^T d. Both
-/// [nodes][kNodeFloats], 16-byte aligned; the fourth floats of `u` are zero.
-using EdgeForces = void (*)(const EdgeSlices& slices, const float* u, float* f) noexcept;
+/// Both [nodes][kNodeFloats], 16-byte aligned; the fourth floats of `u` are zero and stay so.
+struct EdgeScratch {
+  float *u, *f;
+};
+
+/// With d = u_k - u_n and K the block between n (row) and k (neighbour), over all edges: f_n -= K d,
+/// f_k += K^T d, from zero. `u`, `f`: [nodes][3]; in between everything is float.
+using EdgeForces = void (*)(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
+                            double* f) noexcept;
 
 /// For each vector unit; edge_kernels() knows which of them this processor has.
-void edge_forces_plain(const EdgeSlices& slices, const float* u, float* f) noexcept;
-void edge_forces_avx2(const EdgeSlices& slices, const float* u, float* f) noexcept;
-void edge_forces_avx512(const EdgeSlices& slices, const float* u, float* f) noexcept;
+void edge_forces_plain(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
+                       double* f) noexcept;
+void edge_forces_avx2(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
+                      double* f) noexcept;
+void edge_forces_avx512(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
+                        double* f) noexcept;
 
 }  // namespace omentum::physics::kernels

@@ -2,8 +2,9 @@
 
 namespace omentum::physics::kernels {
 
-void edge_forces_avx512(const EdgeSlices& slices, const float* u, float* f) noexcept {
-  edge_forces_here(slices, u, f);
+void edge_forces_avx512(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
+                        double* f) noexcept {
+  edge_forces_here(slices, u, scratch, f);
 }
 
 }  // namespace omentum::physics::kernels

@@ -1,5 +1,5 @@
-// The loop of edge_kernel_units.h. Each edge_kernels_*.cpp compiles it for one vector unit: no library header
-// with inline functions may be included here or there.
+// The loops of edge_kernel_units.h. Each edge_kernels_*.cpp compiles them for one vector unit: no library
+// header with inline functions may be included here or there.
 #pragma once
 
 #include "physics/dynamics/edge_kernel_units.h"
@@ -10,7 +10,12 @@ namespace omentum::physics::kernels {
 namespace {
 
 typedef float Node __attribute__((vector_size(kNodeFloats * sizeof(float)), may_alias));
-typedef float Lanes __attribute__((vector_size(kPlane * sizeof(float)), may_alias));
+typedef double WideNode __attribute__((vector_size(kNodeFloats * sizeof(double))));
+
+// The same at any address.
+struct __attribute__((packed, may_alias)) LooseWideNode {
+  WideNode node;
+};
 
 inline const Node& node(const float* p) {
   return *reinterpret_cast<const Node*>(p);
@@ -19,46 +24,127 @@ inline Node& node(float* p) {
   return *reinterpret_cast<Node*>(p);
 }
 
-// clang-format off
-// Of each lane (x, y, z, 0): (y, z, x, 0) and (z, x, y, 0).
-#define OMENTUM_ROTATED(v) \
-  __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7, 9, 10, 8, 11, 13, 14, 12, 15)
-#define OMENTUM_ROTATED_TWICE(v) \
-  __builtin_shufflevector(v, v, 2, 0, 1, 3, 6, 4, 5, 7, 10, 8, 9, 11, 14, 12, 13, 15)
-#define OMENTUM_GATHERED(source, at)                                                                      \
-  __builtin_shufflevector(                                                                                \
-      __builtin_shufflevector(node(source + at[0]), node(source + at[1]), 0, 1, 2, 3, 4, 5, 6, 7),        \
-      __builtin_shufflevector(node(source + at[2]), node(source + at[3]), 0, 1, 2, 3, 4, 5, 6, 7),        \
-      0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
-// clang-format on
+// As many lanes as a register holds. Of each lane (x, y, z, 0): (y, z, x, 0), and (z, x, y, 0).
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
 
-inline void edge_forces_here(const EdgeSlices& slices, const float* u, float* f) noexcept {
-  for (std::int32_t s = 0; s < slices.slices; ++s) {
-    const std::int32_t* row = slices.rows + s * kEdgeLanes;
-    const Lanes u_row = OMENTUM_GATHERED(u, row);
-    Lanes pull{};
-    for (std::int32_t step = slices.start[s]; step < slices.start[s + 1]; ++step) {
-      const std::int32_t* neighbour = slices.neighbours + static_cast<std::ptrdiff_t>(step) * kEdgeLanes;
-      const float* block = slices.blocks + static_cast<std::ptrdiff_t>(step) * kEdgeBlocks;
-      const Lanes& K_0 = *reinterpret_cast<const Lanes*>(block);
-      const Lanes& K_1 = *reinterpret_cast<const Lanes*>(block + kPlane);
-      const Lanes& K_2 = *reinterpret_cast<const Lanes*>(block + 2 * kPlane);
-      const Lanes d = OMENTUM_GATHERED(u, neighbour) - u_row;
-      const Lanes along = K_0 * d;
-      pull += along + K_1 * OMENTUM_ROTATED(d) + K_2 * OMENTUM_ROTATED_TWICE(d);
-      const Lanes once = K_2 * d, twice = K_1 * d;
-      const Lanes push = along + OMENTUM_ROTATED(once) + OMENTUM_ROTATED_TWICE(twice);
-      // one after the other: two lanes may have the same neighbour
-      node(f + neighbour[0]) += __builtin_shufflevector(push, push, 0, 1, 2, 3);
-      node(f + neighbour[1]) += __builtin_shufflevector(push, push, 4, 5, 6, 7);
-      node(f + neighbour[2]) += __builtin_shufflevector(push, push, 8, 9, 10, 11);
-      node(f + neighbour[3]) += __builtin_shufflevector(push, push, 12, 13, 14, 15);
-    }
-    node(f + row[0]) -= __builtin_shufflevector(pull, pull, 0, 1, 2, 3);
-    node(f + row[1]) -= __builtin_shufflevector(pull, pull, 4, 5, 6, 7);
-    node(f + row[2]) -= __builtin_shufflevector(pull, pull, 8, 9, 10, 11);
-    node(f + row[3]) -= __builtin_shufflevector(pull, pull, 12, 13, 14, 15);
+constexpr int kLanes = 4;
+typedef float Lanes __attribute__((vector_size(kLanes * kNodeFloats * sizeof(float)), may_alias));
+
+inline Lanes rotated(Lanes v) {
+  return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7, 9, 10, 8, 11, 13, 14, 12, 15);
+}
+inline Lanes rotated_twice(Lanes v) {
+  return __builtin_shufflevector(v, v, 2, 0, 1, 3, 6, 4, 5, 7, 10, 8, 9, 11, 14, 12, 13, 15);
+}
+inline Lanes gathered(const float* nodes, const std::int32_t* at) {
+  const auto low = __builtin_shufflevector(node(nodes + at[0]), node(nodes + at[1]), 0, 1, 2, 3, 4, 5, 6, 7);
+  const auto high = __builtin_shufflevector(node(nodes + at[2]), node(nodes + at[3]), 0, 1, 2, 3, 4, 5, 6, 7);
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+// One after the other: two lanes may be of the same node.
+inline void scatter(Lanes v, float* nodes, const std::int32_t* at) {
+  node(nodes + at[0]) += __builtin_shufflevector(v, v, 0, 1, 2, 3);
+  node(nodes + at[1]) += __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  node(nodes + at[2]) += __builtin_shufflevector(v, v, 8, 9, 10, 11);
+  node(nodes + at[3]) += __builtin_shufflevector(v, v, 12, 13, 14, 15);
+}
+
+#elif defined(__AVX2__)
+
+constexpr int kLanes = 2;
+typedef float Lanes __attribute__((vector_size(kLanes * kNodeFloats * sizeof(float)), may_alias));
+
+inline Lanes rotated(Lanes v) {
+  return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7);
+}
+inline Lanes rotated_twice(Lanes v) {
+  return __builtin_shufflevector(v, v, 2, 0, 1, 3, 6, 4, 5, 7);
+}
+inline Lanes gathered(const float* nodes, const std::int32_t* at) {
+  return __builtin_shufflevector(node(nodes + at[0]), node(nodes + at[1]), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+inline void scatter(Lanes v, float* nodes, const std::int32_t* at) {
+  node(nodes + at[0]) += __builtin_shufflevector(v, v, 0, 1, 2, 3);
+  node(nodes + at[1]) += __builtin_shufflevector(v, v, 4, 5, 6, 7);
+}
+
+#else
+
+constexpr int kLanes = 1;
+typedef Node Lanes;
+
+inline Lanes rotated(Lanes v) {
+  return __builtin_shufflevector(v, v, 1, 2, 0, 3);
+}
+inline Lanes rotated_twice(Lanes v) {
+  return __builtin_shufflevector(v, v, 2, 0, 1, 3);
+}
+inline Lanes gathered(const float* nodes, const std::int32_t* at) {
+  return node(nodes + at[0]);
+}
+inline void scatter(Lanes v, float* nodes, const std::int32_t* at) {
+  node(nodes + at[0]) += v;
+}
+
+#endif
+
+inline const Lanes& lanes(const float* p) {
+  return *reinterpret_cast<const Lanes*>(p);
+}
+
+// To float, padded; each node but the last by a load that reaches into the next one.
+inline void narrow(const double* wide, std::int32_t nodes, float* narrowed) {
+  for (std::int32_t n = 0; n + 1 < nodes; ++n) {
+    const WideNode& four =
+        reinterpret_cast<const LooseWideNode*>(wide + 3 * static_cast<std::ptrdiff_t>(n))->node;
+    const Node rounded = __builtin_convertvector(four, Node);
+    node(narrowed + static_cast<std::ptrdiff_t>(n) * kNodeFloats) =
+        __builtin_shufflevector(rounded, Node{}, 0, 1, 2, 4);
   }
+  const std::ptrdiff_t last = nodes - 1;
+  for (int i = 0; i < 3; ++i) narrowed[last * kNodeFloats + i] = static_cast<float>(wide[3 * last + i]);
+}
+
+// And back: what each store has too much, the next one overwrites.
+inline void widen(const float* narrowed, std::int32_t nodes, double* wide) {
+  for (std::int32_t n = 0; n + 1 < nodes; ++n) {
+    const Node& four = node(narrowed + static_cast<std::ptrdiff_t>(n) * kNodeFloats);
+    reinterpret_cast<LooseWideNode*>(wide + 3 * static_cast<std::ptrdiff_t>(n))->node =
+        __builtin_convertvector(four, WideNode);
+  }
+  const std::ptrdiff_t last = nodes - 1;
+  for (int i = 0; i < 3; ++i) wide[3 * last + i] = narrowed[last * kNodeFloats + i];
+}
+
+// kLanes rows of a slice from `lane` on.
+inline void take_rows(const EdgeSlices& slices, std::int32_t slice, int lane, const float* u, float* f) {
+  const std::int32_t* rows = slices.rows + slice * kEdgeLanes + lane;
+  const std::ptrdiff_t begin = slices.start[slice], end = slices.start[slice + 1];
+  const std::int32_t* neighbours = slices.neighbours + begin * kEdgeLanes + lane;
+  const std::int32_t* const neighbours_end = slices.neighbours + end * kEdgeLanes;
+  const float* block = slices.blocks + begin * kEdgeBlocks + lane * kNodeFloats;
+  const Lanes u_rows = gathered(u, rows);
+  Lanes pull{};
+  for (; neighbours < neighbours_end; neighbours += kEdgeLanes, block += kEdgeBlocks) {
+    const Lanes &K_0 = lanes(block), &K_1 = lanes(block + kPlane), &K_2 = lanes(block + 2 * kPlane);
+    const Lanes d = gathered(u, neighbours) - u_rows;
+    const Lanes along = K_0 * d;
+    pull -= along + K_1 * rotated(d) + K_2 * rotated_twice(d);
+    scatter(along + rotated(K_2 * d) + rotated_twice(K_1 * d), f, neighbours);
+  }
+  scatter(pull, f, rows);
+}
+
+inline void edge_forces_here(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
+                             double* f) {
+  narrow(u, slices.nodes, scratch.u);
+  for (std::int32_t n = 0; n < slices.nodes; ++n)
+    node(scratch.f + static_cast<std::ptrdiff_t>(n) * kNodeFloats) = Node{};
+  for (std::int32_t slice = 0; slice < slices.slices; ++slice) {
+    for (int lane = 0; lane < kEdgeLanes; lane += kLanes)
+      take_rows(slices, slice, lane, scratch.u, scratch.f);
+  }
+  widen(scratch.f, slices.nodes, f);
 }
 
 }  // namespace

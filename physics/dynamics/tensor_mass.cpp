@@ -36,22 +36,9 @@ void TensorMass::forces(std::span<const double> u, std::span<double> f) noexcept
   geometry::require(u.size() == 3 * books_.node_count() && f.size() == u.size(),
                     "three values for each node");
   if (arithmetic_ == Arithmetic::kFloat) {
-    forces_in_float(u, f);
+    edge_forces_(blocks_.slices(), u.data(), {u_.data(), f_.data()}, f.data());
   } else {
     forces_in_double(u, f);
-  }
-}
-
-void TensorMass::forces_in_float(std::span<const double> u, std::span<double> f) noexcept {
-  const std::size_t count = books_.node_count();
-  for (std::size_t n = 0; n < count; ++n) {
-    float* own = u_.data() + kNodeFloats * n;
-    for (int i = 0; i < 3; ++i) own[i] = static_cast<float>(u[3 * n + i]);
-  }
-  std::fill_n(f_.data(), f_.size(), 0.f);
-  edge_forces_(blocks_.slices(), u_.data(), f_.data());
-  for (std::size_t n = 0; n < count; ++n) {
-    for (int i = 0; i < 3; ++i) f[3 * n + i] = f_.data()[kNodeFloats * n + i];
   }
 }
 

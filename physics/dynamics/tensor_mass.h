@@ -28,7 +28,6 @@ class TensorMass final : public ForceLaw {
   const EdgeBlocks& blocks() const { return blocks_; }
 
  private:
-  void forces_in_float(std::span<const double> u, std::span<double> f) noexcept;
   void forces_in_double(std::span<const double> u, std::span<double> f) const noexcept;
   void refresh(geometry::TetId t) noexcept;
 
