@@ -17,10 +17,17 @@ using geometry::Vec3;
 /// What an organ consists of: how it is loaded, touched and drawn. How it moves is its model's affair.
 enum class OrganKind : std::uint8_t { kTetrahedralMesh };
 
-/// A model that a scene may choose for an organ, and the kind of organ that it moves.
+/// How a hand knows what an organ answers.
+enum class Feel : std::uint8_t {
+  kTensors,      // haptic_node has its precomputed tensors
+  kLocalModels,  // deform_node tells of the surface around each tool, again and again
+};
+
+/// A model that a scene may choose for an organ, the kind of organ that it moves, and how that is felt.
 struct OrganModelWord {
   std::string_view word;
   OrganKind kind;
+  Feel feel = Feel::kTensors;
 };
 inline constexpr std::array kOrganModels{OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh}};
 
@@ -57,6 +64,7 @@ struct ToolSpec {
   std::vector<Vec3> points;  // [P] p_TP, m
   double shaft_radius_m = 0.0025, shaft_length_m = 0.3;
   std::optional<Vec3> trocar;  // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
+  std::vector<Vec3> edge;      // begin and end of what cuts while its button is pressed, in T, m; or empty
 };
 
 /// A simulated hand: a mass on a spring and damper to a target that moves along a script.
@@ -70,6 +78,7 @@ struct HandSpec {
   double hover_m = 0.03;                 // start this far above
   double depth_m = 0.01;                 // the target goes this far below the rest surface (0: hovers only)
   double slide_m = 0.03;
+  bool cut = false;  // presses the tool's button while it slides
   double start_s = 1, approach_s = 2, press_s = 1.5, hold_s = 2, slide_s = 3, release_s = 1.5;  // then again
 };
 
