@@ -44,6 +44,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.material, parts.tears),
       reach_m_(kReach * length_of(mesh_)),
+      burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
       block_(std::make_unique<std::vector<float>>(9 * kPatchNodes * kPatchNodes)) {
@@ -54,10 +55,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
 }
 
 ModelSizes DynamicModel::sizes() const {
-  return {.values = values_.size(),
-          .removed_bytes = (mesh_.tetrahedra.size() + 7) / 8,
-          .local_nodes = kPatchNodes,
-          .spheres = 0};
+  return {.values = values_.size(), .removed_bytes = burnt_.size(), .local_nodes = kPatchNodes, .spheres = 0};
 }
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -72,7 +70,9 @@ void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
 void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
   if (!strokes.empty()) swept_.follow(state_.u);
   for (const CutStroke& stroke : strokes) burning_.meet(swept_.find({stroke.from, stroke.to}), editor_);
-  remove(burning_.burn(dt_s, editor_));
+  const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
+  for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
+  remove(burnt);
 }
 
 void DynamicModel::check(double dt_s) noexcept {
@@ -147,6 +147,7 @@ void DynamicModel::reset() noexcept {
   editor_.restore();
   loads_.restore();
   burning_.clear();
+  std::ranges::fill(burnt_, std::uint8_t{0});
   watch_.restart(0);
   std::ranges::fill(state_.u, 0.0);
   std::ranges::fill(state_.v, 0.0);
@@ -166,7 +167,8 @@ OrganView DynamicModel::view() const noexcept {
   return {.kind = StateKind::kSurface,
           .topology_version = version_,
           .values = std::span(values_).first(3 * editor_.surface_nodes().size()),
-          .removed_bits = editor_.removed_bits()};
+          .removed_bits = editor_.removed_bits(),
+          .burnt_bits = burnt_};
 }
 
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {

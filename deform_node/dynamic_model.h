@@ -47,6 +47,7 @@ class DynamicModel final : public OrganModel {
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
   void check(double dt_s) noexcept;
   void drop_what_fell() noexcept;
+  /// Those that are there, and what then has to go.
   void remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   void advance(double dt_s) noexcept;
   using Step = decltype(&BodyStepper::step);
@@ -70,6 +71,7 @@ class DynamicModel final : public OrganModel {
   std::uint64_t version_ = 0;
   ModelStatus status_;
   std::vector<geometry::TetId> gone_, fallen_;  // workspace, capacity T
+  std::vector<std::uint8_t> burnt_;             // bits, of what edges burnt away
   std::vector<float> values_;                   // [3N], of them 3 for each node of the surface
   std::unique_ptr<PatchGatherer> gatherer_;     // workspace of local_model()
   std::unique_ptr<std::vector<float>> block_;

@@ -51,12 +51,13 @@ struct OrganView {
   std::uint64_t topology_version = 0;  // rises with every change of what is removed, also with a reset
   std::span<const float> values;       // x y z, one after the other: [3 n]
   std::span<const std::uint8_t> removed_bits{};  // bit t % 8 of byte t / 8: tetrahedron t; empty: none is
+  std::span<const std::uint8_t> burnt_bits{};    // those of them that an edge burnt away, likewise
 };
 
 /// What a model says of itself. Counters count since the start, over resets.
 struct ModelStatus {
   std::uint64_t steps = 0;
-  double simulated_s = 0;                 // how far it was moved on
+  double simulated_s = 0;                 // what it lived through; 0: it has no time of its own
   std::uint32_t removed_tetrahedra = 0;   // now
   std::uint32_t repaired_tetrahedra = 0;  // of them, what hung on one node or edge and nobody cut
   bool diverged = false;                  // its state is beyond help: it must be reset, and not be published

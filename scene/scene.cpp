@@ -33,6 +33,9 @@ constexpr Range kStale_s{.minimum = 0, .maximum = 0.025, .above = true};
 // Faster is a blow, slower pushes a hand that has let go, or whose device is dead.
 constexpr Range kDecay_s{.minimum = 0.002, .maximum = 0.05};
 
+// No instrument's edge is longer: more is a wrong unit.
+constexpr double kLongestEdge_m = 0.2;
+
 // A path in a scene is meant from the scene's folder.
 std::filesystem::path beside(const std::filesystem::path& scene, const std::filesystem::path& file) {
   return (scene.parent_path() / file).lexically_normal();
@@ -94,6 +97,22 @@ OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   return organ;
 }
 
+// What cuts, and where it does: both keys or none.
+void read_edge(TomlSection& s, ToolSpec& tool) {
+  bool cuts = false;
+  s.read("cuts", cuts, kOptional);
+  s.read("edge", tool.edge, cuts ? kRequired : kOptional);
+  if (!cuts && s.has("edge"))
+    s.refuse("edge", "an edge of a tool that does not cut", "cuts = true beside it");
+  if (!cuts) return;
+  if (tool.edge.size() != 2)
+    s.refuse("edge", std::to_string(tool.edge.size()) + " points", "two, its begin and end");
+  const double length_m = (tool.edge[1] - tool.edge[0]).norm();
+  if (!(length_m > 0 && length_m <= kLongestEdge_m))
+    s.refuse("edge", "an edge of " + std::to_string(length_m) + " m",
+             "one above 0 and up to " + std::to_string(kLongestEdge_m) + " m");
+}
+
 ToolSpec read_tool(TomlSection& s) {
   ToolSpec tool;
   s.read("id", tool.id, kRequired, msg::MAX_TOOLS - 1);
@@ -103,6 +122,7 @@ ToolSpec read_tool(TomlSection& s) {
   s.read("shaft_radius_m", tool.shaft_radius_m, kOptional, kPositive);
   s.read("shaft_length_m", tool.shaft_length_m, kOptional, kPositive);
   s.read("trocar", tool.trocar);
+  read_edge(s, tool);
   s.refuse_unknown_keys();
   return tool;
 }
@@ -120,6 +140,7 @@ HandSpec read_hand(TomlSection& s) {
   s.read("hover_m", hand.hover_m, kOptional, kPositive);
   s.read("depth_m", hand.depth_m, kOptional, kNotNegative);
   s.read("slide_m", hand.slide_m, kOptional, kNotNegative);
+  s.read("cut", hand.cut, kOptional);
   s.read("start_s", hand.start_s, kOptional, kNotNegative);
   s.read("approach_s", hand.approach_s, kOptional, kPositive);
   s.read("press_s", hand.press_s, kOptional, kPositive);
@@ -182,9 +203,11 @@ void refuse_wrong_hands(const Scene& scene, std::vector<TomlSection>& sections) 
     const std::uint32_t id = scene.hands[i].tool;
     const auto is_tool = [id](const ToolSpec& tool) { return tool.id == id; };
     const auto is_hand = [id](const HandSpec& hand) { return hand.tool == id; };
-    if (std::none_of(scene.tools.begin(), scene.tools.end(), is_tool)) {
+    const auto tool = std::ranges::find_if(scene.tools, is_tool);
+    if (tool == scene.tools.end())
       sections[i].refuse("tool", std::to_string(id), "the id of one of the [[tools]]");
-    }
+    if (scene.hands[i].cut && tool->edge.empty())
+      sections[i].refuse("cut", "true with a tool that does not cut", "a tool with cuts = true");
     if (std::any_of(scene.hands.begin(), scene.hands.begin() + static_cast<std::ptrdiff_t>(i), is_hand)) {
       sections[i].refuse("tool", std::to_string(id) + " again", "another tool for each hand");
     }

@@ -72,6 +72,7 @@ struct ToolSpec {
   std::vector<Vec3> points;  // [P] p_TP, m
   double shaft_radius_m = 0.0025, shaft_length_m = 0.3;
   std::optional<Vec3> trocar;  // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
+  std::vector<Vec3> edge;      // begin and end of what cuts while its button is pressed, in T, m; or empty
 };
 
 /// A simulated hand: a mass on a spring and damper to a target that moves along a script.
@@ -85,6 +86,7 @@ struct HandSpec {
   double hover_m = 0.03;                 // start this far above
   double depth_m = 0.01;                 // the target goes this far below the rest surface (0: hovers only)
   double slide_m = 0.03;
+  bool cut = false;  // presses the tool's button while it slides
   double start_s = 1, approach_s = 2, press_s = 1.5, hold_s = 2, slide_s = 3, release_s = 1.5;  // then again
 };
 

@@ -13,6 +13,10 @@ std::string text_of(double number) {
   return {digits, std::to_chars(digits, digits + sizeof(digits), number).ptr};
 }
 
+std::string text_of(bool value) {
+  return value ? "true" : "false";
+}
+
 std::string text_of(std::uint32_t number) {
   return std::to_string(number);
 }
@@ -111,6 +115,8 @@ void add(const ToolSpec& tool, Table table) {
   table.add("shaft_radius_m", tool.shaft_radius_m);
   table.add("shaft_length_m", tool.shaft_length_m);
   table.add("trocar", tool.trocar);
+  for (std::size_t i = 0; i < tool.edge.size(); ++i)
+    table.add("edge[" + std::to_string(i) + "]", tool.edge[i]);
 }
 
 void add(const HandSpec& hand, Table table) {
@@ -125,6 +131,7 @@ void add(const HandSpec& hand, Table table) {
   table.add("hover_m", hand.hover_m);
   table.add("depth_m", hand.depth_m);
   table.add("slide_m", hand.slide_m);
+  table.add("cut", hand.cut);
   table.add("start_s", hand.start_s);
   table.add("approach_s", hand.approach_s);
   table.add("press_s", hand.press_s);

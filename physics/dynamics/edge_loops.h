@@ -127,10 +127,13 @@ inline void take_rows(const EdgeSlices& slices, std::int32_t slice, int lane, co
   Lanes pull{};
   for (; neighbours < neighbours_end; neighbours += kEdgeLanes, block += kEdgeBlocks) {
     const Lanes &K_0 = lanes(block), &K_1 = lanes(block + kPlane), &K_2 = lanes(block + 2 * kPlane);
-    const Lanes d = gathered(u, neighbours) - u_rows;
+    // read once: to the compiler a store to `f` may change them
+    std::int32_t at[kLanes];
+    for (int l = 0; l < kLanes; ++l) at[l] = neighbours[l];
+    const Lanes d = gathered(u, at) - u_rows;
     const Lanes along = K_0 * d;
     pull -= along + K_1 * rotated(d) + K_2 * rotated_twice(d);
-    scatter(along + rotated(K_2 * d) + rotated_twice(K_1 * d), f, neighbours);
+    scatter(along + rotated(K_2 * d) + rotated_twice(K_1 * d), f, at);
   }
   scatter(pull, f, rows);
 }

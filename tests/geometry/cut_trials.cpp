@@ -4,6 +4,7 @@
 #include "geometry/surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <numeric>
 #include <set>
