@@ -61,7 +61,7 @@ class Search {
       aim();
       slope = dot(gradient_, direction_);
     }
-    return go(slope);
+    return std::isfinite(slope) && go(slope);
   }
 
  private:
