@@ -2,6 +2,7 @@
 
 #include "physics/dynamics/corotational.h"
 #include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/rest_search.h"
 #include "physics/dynamics/spring_mesh.h"
 #include "physics/dynamics/tensor_mass.h"
 
@@ -20,20 +21,21 @@ using Law = std::unique_ptr<physics::ForceLaw>;
 
 struct DynamicModel {
   std::string_view name;
+  bool linear;  // its stiffness is the factor's, however far it moves
   Law (*make)(const organ::Organ&);
 };
 
 constexpr std::array kModels{
-    DynamicModel{"tensor-mass",
+    DynamicModel{"tensor-mass", true,
                  [](const organ::Organ& organ) -> Law {
                    return std::make_unique<physics::TensorMass>(organ.mesh, organ.material,
                                                                 physics::TensorMass::Arithmetic::kDouble);
                  }},
-    DynamicModel{"corotational",
+    DynamicModel{"corotational", false,
                  [](const organ::Organ& organ) -> Law {
                    return std::make_unique<physics::Corotational>(organ.mesh, organ.material);
                  }},
-    DynamicModel{"spring-mass",
+    DynamicModel{"spring-mass", false,
                  [](const organ::Organ& organ) -> Law {
                    return std::make_unique<physics::SpringMesh>(organ.mesh, organ.material);
                  }},
@@ -66,20 +68,16 @@ double largest(std::span<const double> values) {
   return found;
 }
 
-// Until nothing moves.
-void run(physics::ImplicitStep& stepper, physics::ForceLaw& law, std::span<const double> weight,
-         std::string_view model, physics::BodyState& state) {
+// Until nothing moves. False: it does not come to that.
+bool run(physics::ImplicitStep& stepper, physics::ForceLaw& law, std::span<const double> weight,
+         physics::BodyState& state) {
   int quiet = 0;
   for (int i = 0; i < kMostSteps && quiet < kQuietSteps; ++i) {
-    if (!stepper.step(state, law, weight)) break;
-    // written so that a NaN is not quiet
-    const bool moved = !(kStep_s * largest(state.v) <= kQuiet * largest(state.u));
+    if (!stepper.step(state, law, weight)) return false;
+    const bool moved = kStep_s * largest(state.v) > kQuiet * largest(state.u);
     quiet = moved ? 0 : quiet + 1;
   }
-  if (quiet < kQuietSteps) {
-    throw InputError("--model " + std::string(model) + ": does not come to rest in " +
-                     std::to_string(kMostSteps) + " steps; expected smaller displacements or loads");
-  }
+  return quiet == kQuietSteps;
 }
 
 physics::StaticSolution solution_of(const physics::BodyState& state, std::span<const double> forces,
@@ -104,20 +102,26 @@ bool is_dynamic_model(std::string_view model) {
 
 physics::StaticSolution move_to_rest(std::string_view model, const organ::Organ& organ, const CutOrgan& cut,
                                      Imposed imposed, const Vec3& gravity) {
-  const Law law = std::ranges::find(kModels, model, &DynamicModel::name)->make(organ);
+  const DynamicModel& dynamic = *std::ranges::find(kModels, model, &DynamicModel::name);
+  const Law law = dynamic.make(organ);
+  for (const geometry::TetId t : cut.removed) law->remove(t);
   const physics::Inertia inertia = inertia_of(organ, cut, imposed);
   physics::ImplicitStep stepper(organ.mesh, organ.material, inertia,
                                 {.step_s = kStep_s, .most_compliance_nodes = 0});
   if (!stepper.remove(cut.removed))
     throw InputError("--remove: what is left hangs together too loosely to be solved");
-  for (const geometry::TetId t : cut.removed) law->remove(t);
 
   std::vector<double> weight;
   for (const double mass : inertia.mass) {
     for (int axis = 0; axis < 3; ++axis) weight.push_back(mass * gravity[axis]);
   }
   physics::BodyState state = start_of(organ, imposed);
-  run(stepper, *law, weight, model, state);
+  const bool rests = dynamic.linear ? run(stepper, *law, weight, state)
+                                    : physics::search_rest(*law, stepper.factor(), weight, state.u);
+  if (!rests) {
+    throw InputError("--model " + std::string(model) +
+                     ": found no rest; expected smaller loads or displacements");
+  }
   std::vector<double> forces(state.u.size());
   law->forces(state.u, forces);
   return solution_of(state, forces, weight, imposed);

@@ -55,6 +55,8 @@ class KeptFactor {
   /// Nodes and degrees of freedom that are free.
   std::int32_t node_count() const { return stiffness_.node_count(); }
   std::int32_t free_count() const { return panels_.size(); }
+  /// Whether a support holds component `c` of the [3N].
+  bool is_held(std::size_t c) const { return position_[c] < 0; }
 
  private:
   struct Assembled;
