@@ -2,11 +2,13 @@
 
 #include "physics/dynamics/implicit_step.h"
 #include "physics/dynamics/stable_step.h"
+#include "physics/dynamics/warped_step.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <random>
 
 namespace omentum::tissue_compare {
@@ -82,17 +84,31 @@ IntegratorTrial run_explicit(ExplicitScheme scheme, physics::ForceLaw& law, cons
              [&](physics::BodyState& state) { static_cast<void>(stepper.step(law, force, step_s, state)); });
 }
 
+// Whether a step under the tissue's weight was sound.
+using ImplicitRunner = std::function<bool(physics::BodyState&)>;
+
+ImplicitRunner implicit_runner(Law which, physics::ForceLaw& law, const Tissue& tissue,
+                               const physics::Inertia& inertia, double step_s) {
+  const std::vector<double> force = weight(inertia);
+  if (which == Law::kCorotational) {
+    const auto warped = std::make_shared<physics::WarpedStep>(
+        tissue.mesh, tissue.material, inertia, physics::Corotational(tissue.mesh, tissue.material),
+        physics::WarpedOptions{.step_s = step_s});
+    return [warped, force](physics::BodyState& state) { return warped->step(state, force); };
+  }
+  const auto kept = std::make_shared<physics::ImplicitStep>(tissue.mesh, tissue.material, inertia,
+                                                            physics::ImplicitOptions{.step_s = step_s});
+  if (which == Law::kTensorMass)
+    return [kept, force](physics::BodyState& state) { return kept->step(state, force); };
+  return [kept, force, &law](physics::BodyState& state) { return kept->step(state, law, force); };
+}
+
 IntegratorTrial run_implicit(Law which, physics::ForceLaw& law, const Tissue& tissue,
                              const physics::Inertia& inertia, const IntegratorOptions& options) {
-  physics::ImplicitStep stepper(tissue.mesh, tissue.material, inertia, {.step_s = options.implicit_step_s});
-  const std::vector<double> force = weight(inertia);
+  const ImplicitRunner step = implicit_runner(which, law, tissue, inertia, options.implicit_step_s);
   bool sound = true;
-  IntegratorTrial trial = run(
-      "implicit", options.implicit_step_s, options.trial_s, inertia.mass.size(),
-      [&](physics::BodyState& state) {
-        sound = (which == Law::kTensorMass ? stepper.step(state, force) : stepper.step(state, law, force)) &&
-                sound;
-      });
+  IntegratorTrial trial = run("implicit", options.implicit_step_s, options.trial_s, inertia.mass.size(),
+                              [&](physics::BodyState& state) { sound = step(state) && sound; });
   trial.diverged = !sound;
   return trial;
 }

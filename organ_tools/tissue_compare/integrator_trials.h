@@ -27,7 +27,8 @@ struct IntegratorTrial {
   bool diverged;  // under gravity, within the steps that were taken
 };
 
-/// Forward Euler, symplectic Euler, Runge-Kutta 4 and the implicit step, under gravity from rest.
+/// Forward Euler, symplectic Euler, Runge-Kutta 4 and an implicit step (on the kept factor; the co-rotational
+/// law's is the warped one), under gravity from rest.
 std::vector<IntegratorTrial> compare_integrators(Law law, const Tissue& tissue,
                                                  const IntegratorOptions& options);
 

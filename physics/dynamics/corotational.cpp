@@ -14,6 +14,10 @@ namespace kernels {
 // eigenvalue; of several, any.
 void nearest_rotation(const double* F, double* R) noexcept {
   const auto f = [&](int a, int b) { return F[3 * a + b]; };
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(R);
+  rotation.setIdentity();
+  // the eigenvalues of what diverged would be looked for a thousand times as long, in vain
+  if (!Eigen::Map<const Eigen::Matrix3d>(F).allFinite()) return;
   Eigen::Matrix4d N;
   N.row(0) << f(0, 0) + f(1, 1) + f(2, 2), f(2, 1) - f(1, 2), f(0, 2) - f(2, 0), f(1, 0) - f(0, 1);
   N.row(1) << N(0, 1), f(0, 0) - f(1, 1) - f(2, 2), f(0, 1) + f(1, 0), f(0, 2) + f(2, 0);
@@ -21,7 +25,6 @@ void nearest_rotation(const double* F, double* R) noexcept {
   N.row(3) << N(0, 3), N(1, 3), N(2, 3), f(2, 2) - f(0, 0) - f(1, 1);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(N);
   const Eigen::Vector4d q = eigen.eigenvectors().col(3);
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(R);
   rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 

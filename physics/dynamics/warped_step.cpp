@@ -21,15 +21,13 @@ void add(double scale, std::span<const double> x, std::span<double> y) noexcept 
   for (std::size_t c = 0; c < y.size(); ++c) y[c] += scale * x[c];
 }
 
-// Newton and Schulz towards the nearest rotation: a few steps do where the rotations of a mean hardly differ.
-constexpr int kPolishings = 3;
-// From the identity, of what they leave; a mean that is further away is none, and its node is not turned.
+// From the identity, what Q^T Q may be: a mean that is further away is none, and its node is not turned.
 constexpr double kNoRotation = 0.1;
 
+// A mean of rotations that hardly differ, once more towards the nearest rotation (Newton and Schulz). What it
+// is off by costs iterations, not truth.
 Eigen::Matrix3d rotation_near(const Eigen::Matrix3d& mean) noexcept {
-  Eigen::Matrix3d Q = mean;
-  for (int i = 0; i < kPolishings; ++i)
-    Q = (0.5 * Q * (3 * Eigen::Matrix3d::Identity() - Q.transpose() * Q)).eval();
+  const Eigen::Matrix3d Q = 0.5 * mean * (3 * Eigen::Matrix3d::Identity() - mean.transpose() * mean);
   const bool found = (Q.transpose() * Q - Eigen::Matrix3d::Identity()).norm() < kNoRotation;
   return found ? Q : Eigen::Matrix3d::Identity();
 }
