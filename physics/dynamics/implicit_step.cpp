@@ -98,13 +98,6 @@ void ImplicitStep::yield_to(std::span<const double> forces, std::span<double> yi
   for (double& y : yield) y *= step_s_ * step_s_;
 }
 
-void ImplicitStep::add(double strength, std::span<const double> yield, BodyState& state) const noexcept {
-  for (std::size_t c = 0; c < yield.size(); ++c) {
-    state.u[c] += strength * yield[c];
-    state.v[c] += strength * yield[c] / step_s_;
-  }
-}
-
 double ImplicitStep::elastic_energy(std::span<const double> u) noexcept {
   factor_.holding_forces(u, forces_);
   double twice = 0;

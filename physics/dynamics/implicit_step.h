@@ -1,9 +1,9 @@
 // Backward Euler on a kept factor: steps as large as one likes, at the price of one solve.
 #pragma once
 
-#include "physics/dynamics/body_state.h"
 #include "physics/dynamics/force_law.h"
 #include "physics/dynamics/kept_factor.h"
+#include "physics/dynamics/large_step.h"
 
 namespace omentum::physics {
 
@@ -22,36 +22,30 @@ struct ImplicitOptions {
 /// impulse, so that momentum is kept and rest is exact, at the cost of a product instead of a second solve.
 ///
 /// All memory is taken at construction; one thread at a time.
-class ImplicitStep {
+class ImplicitStep final : public LargeStep {
  public:
   /// Throws as KeptFactor does. `mesh` outlives it.
   ImplicitStep(const geometry::TetraMesh& mesh, const MaterialMap& material, const Inertia& inertia,
                const ImplicitOptions& options);
 
-  /// One step under `external` forces, [3N], N. False: the result is not finite.
-  [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept;
+  double step_s() const override { return step_s_; }
+  [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
   /// The same with the forces of another law than the factor's own; K is then what its stiffness is near.
   [[nodiscard]] bool step(BodyState& state, ForceLaw& law, std::span<const double> external) noexcept;
+  /// u^T K u / 2.
+  double elastic_energy(std::span<const double> u) noexcept override;
 
-  /// Tetrahedra go and all come back: KeptFactor::remove and restore. A law of its own is told by the caller.
-  [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept;
-  void restore() noexcept;
+  /// A law of its own is told by the caller.
+  [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
+  void restore() noexcept override;
 
-  /// Displacement of `nodes` at the end of a step per force held over it, [3n x 3n], m/N, symmetric: dt^2
-  /// A^-1.
-  void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept;
+  /// dt^2 A^-1.
+  void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
+  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override;
+  /// Of the factor's own law.
+  void foresee(const BodyState& state, std::span<const double> external,
+               std::span<double> u) noexcept override;
 
-  /// Displacement of all nodes at the end of a step per force held over it: yield = dt^2 A^-1 F, [3N] each,
-  /// m.
-  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept;
-  /// The end of a step that had `strength` times those forces more.
-  void add(double strength, std::span<const double> yield, BodyState& state) const noexcept;
-  /// Where the next step would end under `external` forces; of the factor's own law. Nothing is changed.
-  void foresee(const BodyState& state, std::span<const double> external, std::span<double> u) noexcept;
-
-  /// u^T K u / 2 with what is left, J.
-  double elastic_energy(std::span<const double> u) noexcept;
-  double step_s() const { return step_s_; }
   KeptFactor& factor() { return factor_; }
 
  private:

@@ -6,6 +6,8 @@
 
 namespace omentum::physics {
 
+using geometry::Vec3;
+
 namespace {
 
 // Gauss-Seidel over as few unknowns as there are tools.
@@ -33,7 +35,7 @@ ImposedPress::ImposedPress(std::size_t node_count, std::size_t most_presses)
       lacking_(most_presses),
       strength_(most_presses) {}
 
-std::span<const double> ImposedPress::impose(ImplicitStep& stepper, std::span<const Press> presses,
+std::span<const double> ImposedPress::impose(LargeStep& stepper, std::span<const Press> presses,
                                              BodyState& state) noexcept {
   geometry::require(presses.size() <= yields_.size(), "no more presses than were said");
   count_ = presses.size();
@@ -48,7 +50,12 @@ std::span<const double> ImposedPress::impose(ImplicitStep& stepper, std::span<co
     for (std::size_t q = 0; q < count_; ++q) coupling_[p * count_ + q] = along(presses[p], yields_[q]);
   }
   solve();
-  for (std::size_t p = 0; p < count_; ++p) stepper.add(strength_[p], yields_[p], state);
+  for (std::size_t p = 0; p < count_; ++p) {
+    for (std::size_t c = 0; c < state.u.size(); ++c) {
+      state.u[c] += strength_[p] * yields_[p][c];
+      state.v[c] += strength_[p] * yields_[p][c] / stepper.step_s();
+    }
+  }
   return std::span(strength_).first(count_);
 }
 

@@ -1,7 +1,7 @@
 // Tools that press a body as far as a hand says, not as hard.
 #pragma once
 
-#include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/large_step.h"
 
 #include <vector>
 
@@ -11,8 +11,8 @@ namespace omentum::physics {
 /// lengths.
 struct Press {
   std::span<const geometry::NodeId> nodes;
-  std::span<const Vec3> displacements;  // from rest, in W, m
-  std::span<const Vec3> forces;         // on the body, in W, N
+  std::span<const geometry::Vec3> displacements;  // from rest, in W, m
+  std::span<const geometry::Vec3> forces;         // on the body, in W, N
 };
 
 /// Ends an implicit step that was made without the tools so that each press is as deep as its hand says: one
@@ -34,7 +34,7 @@ class ImposedPress {
 
   /// `state` is that of a step of `stepper` with all other forces. The strengths s, [presses]; they are valid
   /// until the next call. Precondition: at most `most_presses`.
-  std::span<const double> impose(ImplicitStep& stepper, std::span<const Press> presses,
+  std::span<const double> impose(LargeStep& stepper, std::span<const Press> presses,
                                  BodyState& state) noexcept;
 
  private:

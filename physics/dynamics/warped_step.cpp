@@ -53,14 +53,27 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
       residual_(ahead_.size()) {}
 
 bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
-  for (std::size_t c = 0; c < ahead_.size(); ++c) ahead_[c] = state.u[c] + options_.step_s * state.v[c];
-  law_.linearize(ahead_, Tangent::kWarped);
-  mean_rotations();
-  form_impulse(state, external);
+  linearize(state);
+  add_impulse(state, external, residual_);
   solve();
   add(1, change_, state.v);
   add(options_.step_s, state.v, state.u);
   return std::isfinite(dot(state.v, state.v));
+}
+
+void WarpedStep::foresee(const BodyState& state, std::span<const double> external,
+                         std::span<double> u) noexcept {
+  linearize(state);
+  std::ranges::copy(residual_, direction_.begin());
+  add_impulse(state, external, direction_);
+  precondition(direction_, change_);
+  for (std::size_t c = 0; c < u.size(); ++c) u[c] = state.u[c] + options_.step_s * (state.v[c] + change_[c]);
+}
+
+void WarpedStep::linearize(const BodyState& state) noexcept {
+  for (std::size_t c = 0; c < ahead_.size(); ++c) ahead_[c] = state.u[c] + options_.step_s * state.v[c];
+  law_.linearize(ahead_, Tangent::kWarped);
+  mean_rotations();
 }
 
 // Nodes that are held in part are not turned: a held component has to stay one.
@@ -79,15 +92,16 @@ void WarpedStep::mean_rotations() noexcept {
 }
 
 // The right-hand side is added to what the last step lacked: all of it is lacking while dv = 0.
-void WarpedStep::form_impulse(const BodyState& state, std::span<const double> external) noexcept {
+void WarpedStep::add_impulse(const BodyState& state, std::span<const double> external,
+                             std::span<double> lacking) noexcept {
   law_.forces(ahead_, forces_);
   law_.product(state.v, product_);
-  for (std::size_t c = 0; c < residual_.size(); ++c) {
+  for (std::size_t c = 0; c < lacking.size(); ++c) {
     const double drag = inertia_.mass_damping_per_s * inertia_.mass[c / 3] * state.v[c] +
                         inertia_.stiffness_damping_s * product_[c];
     const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
-    residual_[c] += options_.step_s * (external[c] + forces_[c] - drag);
-    if (held) residual_[c] = 0;
+    lacking[c] += options_.step_s * (external[c] + forces_[c] - drag);
+    if (held) lacking[c] = 0;
   }
 }
 
@@ -143,6 +157,11 @@ void WarpedStep::restore() noexcept {
   std::ranges::fill(left_, 1);
   std::ranges::fill(residual_, 0.0);
   factor_.restore();
+}
+
+void WarpedStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {
+  precondition(forces, yield);
+  for (double& y : yield) y *= options_.step_s * options_.step_s;
 }
 
 void WarpedStep::compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {

@@ -1,9 +1,9 @@
 // Backward Euler for co-rotational tissue: large rotations at large steps, without a factorization.
 #pragma once
 
-#include "physics/dynamics/body_state.h"
 #include "physics/dynamics/corotational.h"
 #include "physics/dynamics/kept_factor.h"
+#include "physics/dynamics/large_step.h"
 
 namespace omentum::physics {
 
@@ -25,32 +25,37 @@ struct WarpedOptions {
 /// step's equation lacks in the end is given to the next one as an impulse, so that momentum is kept.
 ///
 /// All memory is taken at construction; one thread at a time.
-class WarpedStep {
+class WarpedStep final : public LargeStep {
  public:
   /// Throws as KeptFactor does. `mesh` outlives it; `law` is of the same mesh and material, and has lost
   /// nothing yet.
   WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& material, const Inertia& inertia,
              Corotational law, const WarpedOptions& options);
 
-  /// One step under `external` forces, [3N], N. False: the result is not finite.
-  [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept;
+  double step_s() const override { return options_.step_s; }
+  [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
+  double elastic_energy(std::span<const double> u) noexcept override { return law_.energy(u); }
 
-  /// Tetrahedra go, from the law and from the factor, and all come back: as KeptFactor::remove and restore.
-  [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept;
-  void restore() noexcept;
+  /// From the law and from the factor.
+  [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
+  void restore() noexcept override;
 
-  /// Displacement of `nodes` at the end of a step per force held over it, [3n x 3n], m/N, symmetric: that of
-  /// the body at rest, turned at each node as of the last step.
-  void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept;
+  /// Those of the body at rest, turned at each node as of the last step.
+  void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
+  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override;
+  /// The first iteration of a step.
+  void foresee(const BodyState& state, std::span<const double> external,
+               std::span<double> u) noexcept override;
 
   /// Of the last step.
   int iterations() const { return iterations_; }
-  double step_s() const { return options_.step_s; }
   Corotational& law() { return law_; }
 
  private:
+  void linearize(const BodyState& state) noexcept;
   void mean_rotations() noexcept;
-  void form_impulse(const BodyState& state, std::span<const double> external) noexcept;
+  void add_impulse(const BodyState& state, std::span<const double> external,
+                   std::span<double> lacking) noexcept;
   void multiply(std::span<const double> x, std::span<double> y) noexcept;
   void precondition(std::span<const double> residual, std::span<double> x) noexcept;
   void solve() noexcept;

@@ -1,6 +1,8 @@
 #include "physics/dynamics/imposed_press.h"
 
 #include "physics/direct_solve.h"
+#include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/warped_step.h"
 #include "tests/physics/dynamics/kept_factor_fixtures.h"
 #include "tests/support/heap_count.h"
 
