@@ -67,16 +67,24 @@ Rejection translate(const msg::Contact& contact, const OrganNumbers& organ, Held
   held.cause = contact.cause;
   held.count = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    if (contact.nodes[i] >= organ.surface_of_file_node.size()) return Rejection::kNode;
-    const SurfaceId node = organ.surface_of_file_node[contact.nodes[i]];
-    if (!node.valid()) return Rejection::kNode;
-    if (node >= organ.mobile_count) continue;
+    if (contact.nodes[i] >= organ.node_of_file.size()) return Rejection::kNode;
+    const NodeId node = organ.node_of_file[contact.nodes[i]];
+    if (!node.valid() || (organ.compliance && !organ.surface_of_node[node].valid())) return Rejection::kNode;
+    if (organ.pinned[node]) continue;
     held.nodes[held.count] = node;
     held.forces[held.count] = to_vector(contact.forces[i]);
     held.displacements[held.count] = to_vector(contact.displacements[i]);
     ++held.count;
   }
   return Rejection::kNone;
+}
+
+// Of an organ with tensors, m.
+double moved_by(const HeldContact& held, const OrganNumbers& organ) noexcept {
+  const auto count = static_cast<std::size_t>(held.count);
+  std::array<SurfaceId, kMaxNodesPerTool> nodes;
+  for (std::size_t i = 0; i < count; ++i) nodes[i] = organ.surface_of_node[held.nodes[i]];
+  return largest_displacement_m(*organ.compliance, {nodes.data(), count}, {held.forces.data(), count});
 }
 
 }  // namespace
@@ -88,10 +96,7 @@ Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumb
   const OrganNumbers& organ = organs[contact.organ];
   rejection = translate(contact, organ, held);
   if (rejection != Rejection::kNone || organ.compliance == nullptr) return rejection;
-  const auto count = static_cast<std::size_t>(held.count);
-  const double moved_m =
-      largest_displacement_m(*organ.compliance, {held.nodes.data(), count}, {held.forces.data(), count});
-  return moved_m <= organ.reach_m ? Rejection::kNone : Rejection::kReach;
+  return moved_by(held, organ) <= organ.reach_m ? Rejection::kNone : Rejection::kReach;
 }
 
 ContactBook::ContactBook(std::vector<OrganNumbers> organs, const ContactBounds& bounds,

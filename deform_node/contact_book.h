@@ -30,11 +30,14 @@ double staleness_gain(double age_s) noexcept;
 
 /// How a Contact's node numbers are read for one organ.
 struct OrganNumbers {
-  std::vector<SurfaceId> surface_of_file_node;  // invalid where the node is not on the surface
-  std::int32_t mobile_count = 0;                // SurfaceIds below carry tensors
+  std::vector<NodeId> node_of_file;        // [nodes of the mesh file] invalid where the mesh has none
+  std::vector<SurfaceId> surface_of_node;  // [N] of the uncut surface; invalid inside
+  std::vector<bool> pinned;                // [N] nothing moves these
   std::uint64_t topology_version = 0;
   double reach_m = 0;  // farther no contact moves a node (contact_reach.h)
-  const physics::SurfaceCompliance* compliance = nullptr;  // not owned; none: only what is claimed is checked
+  // Not owned. With them a contact's nodes are of the surface that they are of, and what its forces would do
+  // is checked; an organ without may be cut, which bares any node, and only what is claimed is checked.
+  const physics::SurfaceCompliance* compliance = nullptr;
 };
 
 /// What a scene lets its contacts claim.
@@ -48,12 +51,12 @@ ContactBounds bounds_of(const scene::Scene& scene);
 enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kForce, kReach };
 const char* describe(Rejection rejection) noexcept;
 
-/// A checked Contact with SurfaceIds, of fixed size: it crosses threads without memory being taken.
+/// A checked Contact with the mesh's nodes, of fixed size: it crosses threads without memory being taken.
 struct HeldContact {
   msg::Echo cause{};
   std::int64_t received_ns = 0;  // this process's steady clock; 0: none came yet
   int count = 0;
-  std::array<SurfaceId, kMaxNodesPerTool> nodes{};
+  std::array<NodeId, kMaxNodesPerTool> nodes{};
   std::array<Vec3, kMaxNodesPerTool> displacements{};
   std::array<Vec3, kMaxNodesPerTool> forces{};
 };

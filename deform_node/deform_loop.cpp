@@ -103,6 +103,7 @@ void DeformLoop::serve_or_stand_by() {
 
 void DeformLoop::take_up() {
   if (role_ == Role::kStandingBy) say_once(told_serving_, "the other one fell silent, this one serves");
+  time_.note(loop_.now_ns(), organs_.simulated_s(), true);
   role_ = Role::kServing;
 }
 
@@ -143,13 +144,15 @@ void DeformLoop::obey() noexcept {
 void DeformLoop::take_figures() noexcept {
   const runtime::LoopRecord& record = loop_.record();
   orders_.tell(own_);
+  time_.note(loop_.now_ns(), organs_.simulated_s(), orders_.paused());
   figures_ = {.number = figures_.number + 1,
               .paused = own_.paused,
               .newest_order = own_.newest_order,
               .ticks = record.ticks,
               .missed = record.missed,
               .period_us = node::to_message(record.period.percentiles()),
-              .compute_us = node::to_message(record.compute.percentiles())};
+              .compute_us = node::to_message(record.compute.percentiles()),
+              .real_time_factor = time_.recent()};
   own_.ticks = record.ticks;
   standby_.serving(own_);
 }
@@ -170,6 +173,8 @@ nlohmann::json DeformLoop::report() const {
           {"states", states_},
           {"steps", organs_.steps()},
           {"removed_tetrahedra", organs_.removed_tetrahedra()},
+          {"repaired_tetrahedra", organs_.repaired_tetrahedra()},
+          {"real_time_factor", time_.overall()},
           {"faults", faults_.lines()}};
 }
 

@@ -5,6 +5,7 @@
 #include "deform_node/organ_group.h"
 #include "deform_node/standby.h"
 #include "deform_node/state_publisher.h"
+#include "deform_node/time_account.h"
 #include "node_common/loaded_scene.h"
 #include "node_common/refusal.h"
 #include "node_common/session_orders.h"
@@ -70,6 +71,7 @@ class DeformLoop {
   bool told_standing_by_ = false, told_serving_ = false;  // on stderr
   msg::NodeStatus own_;  // who this is; what of it changes is the publisher's, but for the ticks
   LoopFigures figures_;
+  TimeAccount time_;
   Standby standby_;
 
   // declared last: callbacks end before what they touch

@@ -52,4 +52,19 @@ std::uint32_t OrganGroup::removed_tetrahedra() const {
   return removed;
 }
 
+std::uint32_t OrganGroup::repaired_tetrahedra() const {
+  std::uint32_t repaired = 0;
+  for (const ServedOrgan& served : organs_) repaired += served.model->status().repaired_tetrahedra;
+  return repaired;
+}
+
+double OrganGroup::simulated_s() const {
+  double slowest_s = 0;
+  for (const ServedOrgan& served : organs_) {
+    const double own_s = served.model->status().simulated_s;
+    if (own_s > 0 && (slowest_s == 0 || own_s < slowest_s)) slowest_s = own_s;
+  }
+  return slowest_s;
+}
+
 }  // namespace omentum::deform

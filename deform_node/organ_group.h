@@ -25,6 +25,9 @@ class OrganGroup {
   /// Over all organs.
   std::uint64_t steps() const;
   std::uint32_t removed_tetrahedra() const;
+  std::uint32_t repaired_tetrahedra() const;
+  /// What the slowest organ lived through, s; 0 where none has a time of its own.
+  double simulated_s() const;
 
  private:
   void heed(ServedOrgan& served) noexcept;

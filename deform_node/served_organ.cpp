@@ -17,8 +17,9 @@ std::vector<ServedOrgan> load_organs(const scene::Scene& scene, std::span<const 
 
 OrganNumbers numbers_of(const node::OrganSource& source) {
   const organ::Organ& organ = source.organ;
-  return {.surface_of_file_node = organ.surface_of_file_node(),
-          .mobile_count = organ.surface.mobile_count,
+  return {.node_of_file = organ.mesh.nodes_of_file(),
+          .surface_of_node = organ.surface.of_node,
+          .pinned = physics::pinned_nodes(organ.fixed),
           .topology_version = 0,
           .reach_m = reach_of(source.rest),
           .compliance = organ.compliance ? &*organ.compliance : nullptr};

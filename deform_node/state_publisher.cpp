@@ -68,6 +68,7 @@ void StatePublisher::write_status(const TickSnapshot& tick) {
   status_.missed = figures.missed;
   status_.period_us = figures.period_us;
   status_.compute_us = figures.compute_us;
+  status_.real_time_factor = figures.real_time_factor;
   status_.echoes.assign(tick.echoes.all().begin(), tick.echoes.all().end());
   node::fill_faults(faults_, status_);
   writers_.status.write(status_);

@@ -93,6 +93,14 @@ MeshSize gallbladder_size() {
   return {700, 1000, 2500, 5000, 0.0042};
 }
 
+MeshSize plate_size() {
+  return {700, 820, 2000, 2450, 0.0105};
+}
+
+MeshSize cylinder_size() {
+  return {225, 270, 800, 980, 0.0125};
+}
+
 geometry::TetraMesh tetrahedralize(const ImplicitShape& shape, const MeshSize& size) {
   double edge_m = size.first_edge_m;
   const double wanted = 0.5 * static_cast<double>(size.fewest_nodes + size.most_nodes);

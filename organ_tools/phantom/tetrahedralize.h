@@ -19,6 +19,10 @@ MeshSize paper_size();
 MeshSize fine_size();
 /// The gallbladder's: elements of about half the length of those of a liver of the papers' size.
 MeshSize gallbladder_size();
+/// The plate's: about 759 nodes and 2,212 tetrahedra (Cotin 1998, fig. 2).
+MeshSize plate_size();
+/// The cylinder's: about 248 nodes and 889 tetrahedra (Cotin 1998, fig. 3).
+MeshSize cylinder_size();
 
 /// Fills the shape with a valid mesh within the bounds: Delaunay refinement with a manifold
 /// boundary, then sliver removal, with the edge length adjusted until the counts fit. The same input gives

@@ -156,6 +156,19 @@ TEST_F(ForeignFilesTest, AfterMergingTheKeptNodesNumberStands) {
   EXPECT_EQ(numbers("s.f.csv").at(0)[0], cells.node_number(13));
 }
 
+TEST_F(ForeignFilesTest, WhatHangsOnANodeIsDroppedOnDemandAndTold) {
+  test::CellMesh cells = box;
+  const int corner = 26, first = static_cast<int>(cells.positions.size());
+  for (const geometry::Vec3& away : {geometry::Vec3(0.002, 0, 0), {0, 0.002, 0}, {0, 0, 0.002}})
+    cells.positions.push_back(cells.positions[corner] + away);
+  cells.cells.push_back({test::kTetCell, {corner, first, first + 1, first + 2}});
+  const std::string file = write("hanging.msh", test::gmsh_2(cells));
+  expect_refused("organ_build", plain(file), "touch there in a point");
+  EXPECT_FALSE(std::filesystem::exists(organ));
+  const std::string told = run("organ_build", with_more(plain(file), {"--repair"}));
+  EXPECT_THAT(told, AllOf(HasSubstr("repaired: dropped 1 tetrahedron"), HasSubstr("1.33333 mm^3")));
+}
+
 // What one run wrote with one numbering must not be read with the other.
 TEST_F(ForeignFilesTest, ATableThatSaysAnotherNumberingIsRefused) {
   run("organ_build", plain(mesh));

@@ -122,6 +122,35 @@ TEST(Scene, RegionsThatSayTooLittleOrTooMuchAreRefused) {
   EXPECT_THAT(refusal("label = 1\nyuong_pa = 1"), HasSubstr("yuong_pa: found an unknown key"));
 }
 
+TEST(Scene, ACuttingToolHasAnEdgeAndAHandMayPressItsButton) {
+  const std::string cutting = with("shape = \"probe\"", R"(shape = "probe"
+cuts = true
+edge = [[0, 0, 0], [0, 0, 0.012]])");
+  const Scene scene = load_scene(write_scene(cutting + "cut = true\n"));
+  ASSERT_EQ(scene.tools[0].edge.size(), 2u);
+  EXPECT_EQ(scene.tools[0].edge[1], Vec3(0, 0, 0.012));
+  EXPECT_TRUE(scene.hands[0].cut);
+  const Scene blunt = load_scene(write_scene(kGood));
+  EXPECT_TRUE(blunt.tools[0].edge.empty());
+  EXPECT_FALSE(blunt.hands[0].cut);
+}
+
+TEST(Scene, AnEdgeThatIsNoneIsRefused) {
+  const auto refusal = [](const std::string& keys) {
+    return message_of(write_scene(with("shape = \"probe\"", "shape = \"probe\"\n" + keys)));
+  };
+  EXPECT_THAT(refusal("cuts = 1"), HasSubstr(":13: tools[0].cuts: found 1, expected true or false"));
+  EXPECT_THAT(refusal("cuts = true"), HasSubstr("tools[0].edge: "));
+  EXPECT_THAT(
+      refusal("edge = [[0, 0, 0], [0, 0, 0.01]]"),
+      HasSubstr(":13: tools[0].edge: found an edge of a tool that does not cut, expected cuts = true"));
+  EXPECT_THAT(refusal("cuts = true\nedge = [[0, 0, 0]]"), HasSubstr("found 1 points, expected two"));
+  EXPECT_THAT(refusal("cuts = true\nedge = [[0, 0, 1], [0, 0, 1]]"), HasSubstr("an edge of 0"));
+  EXPECT_THAT(refusal("cuts = true\nedge = [[0, 0, 0], [0, 0, 12]]"), HasSubstr("an edge of 12"));
+  EXPECT_THAT(message_of(write_scene(kGood + "cut = true\n")),
+              HasSubstr("hands[0].cut: found true with a tool that does not cut"));
+}
+
 TEST(Scene, WhatIsWrittenIsRead) {
   const Scene scene = load_scene(write_scene(kGood + R"(depth_m = 0.02
 start_s = 0
@@ -146,11 +175,12 @@ target = [4, 5, 6]
 }
 
 TEST(Scene, AnOrgansModelSaysItsKind) {
-  for (const auto& [word, kind] : kOrganModels) {
-    const Scene scene = load_scene(
-        write_scene(with("name = \"liver\"", "name = \"liver\"\nmodel = \"" + std::string(word) + "\"")));
-    EXPECT_EQ(scene.organs[0].model, word);
-    EXPECT_EQ(scene.organs[0].kind, kind);
+  for (const OrganModelWord& model : kOrganModels) {
+    const Scene scene = load_scene(write_scene(
+        with("name = \"liver\"", "name = \"liver\"\nmodel = \"" + std::string(model.word) + "\"")));
+    EXPECT_EQ(scene.organs[0].model, model.word);
+    EXPECT_EQ(scene.organs[0].kind, model.kind);
+    EXPECT_EQ(scene.organs[0].dynamics.has_value(), model.feel == Feel::kLocalModels);
   }
 }
 

@@ -1,0 +1,193 @@
+#include "deform_node/dynamic_model.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace omentum::deform {
+
+using geometry::TetId;
+
+namespace {
+
+// As often as a screen shows it.
+constexpr double kTearCheck_s = 1.0 / 60;
+// Of one check: a crack runs by hundreds of tetrahedra a second, and each check leaves time for a step.
+constexpr std::size_t kMostTorn = 4;
+// What fell so many lengths of the organ is out of everybody's sight.
+constexpr double kReach = 2;
+// Below this no eye and no hand finds a motion, J: a gram at 1 mm/s.
+constexpr double kUnnoticed_j = 5e-10;
+// A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
+constexpr double kRounding = 1e-9;
+
+double length_of(const geometry::TetraMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : mesh.positions) box.extend(x);
+  return box.diagonal().norm();
+}
+
+Vec3 at(const std::vector<double>& components, NodeId n) {
+  return Eigen::Map<const Vec3>(components.data() + 3 * n);
+}
+
+}  // namespace
+
+DynamicModel::DynamicModel(DynamicParts parts)
+    : mesh_(parts.mesh),
+      inertia_(std::move(parts.inertia)),
+      editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
+      loads_(mesh_, parts.material, parts.gravity_m_s2),
+      state_(physics::state_at_rest(mesh_.positions.size())),
+      before_(state_),
+      watch_(parts.stepper.energy_margin, kUnnoticed_j),
+      swept_(mesh_),
+      burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
+      tearing_(mesh_, parts.material, parts.tears),
+      reach_m_(kReach * length_of(mesh_)),
+      burnt_((mesh_.tetrahedra.size() + 7) / 8),
+      values_(state_.u.size()),
+      gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
+      block_(std::make_unique<std::vector<float>>(9 * kPatchNodes * kPatchNodes)) {
+  parts.stepper.most_compliance_nodes = kPatchNodes;
+  stepper_ = std::make_unique<BodyStepper>(mesh_, parts.material, inertia_, std::move(parts.stepper));
+  gone_.reserve(mesh_.tetrahedra.size());
+  fallen_.reserve(mesh_.tetrahedra.size());
+}
+
+ModelSizes DynamicModel::sizes() const {
+  return {.values = values_.size(), .removed_bytes = burnt_.size(), .local_nodes = kPatchNodes, .spheres = 0};
+}
+
+void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
+  status_.fault = {};
+  loads_.press(loads.presses, editor_);
+  cut(loads.cuts, dt_s);
+  check(dt_s);
+  advance(dt_s);
+  show();
+}
+
+void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
+  if (!strokes.empty()) swept_.follow(state_.u);
+  for (const CutStroke& stroke : strokes) burning_.meet(swept_.find({stroke.from, stroke.to}), editor_);
+  const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
+  for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
+  remove(burnt);
+}
+
+void DynamicModel::check(double dt_s) noexcept {
+  until_check_s_ -= dt_s;
+  if (until_check_s_ > 0) return;
+  until_check_s_ = std::max(until_check_s_ + kTearCheck_s, 0.0);
+  remove(tearing_.check(state_.u, editor_.removed_bits(), kMostTorn));
+  drop_what_fell();
+}
+
+void DynamicModel::drop_what_fell() noexcept {
+  const auto is_gone = [&](NodeId n) { return !(at(state_.u, n).squaredNorm() < reach_m_ * reach_m_); };
+  fallen_.clear();
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+    if (!editor_.is_removed(TetId(t)) && std::ranges::any_of(mesh_.tetrahedra[t], is_gone))
+      fallen_.push_back(TetId(t));
+  remove(fallen_);
+}
+
+void DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
+  if (tetrahedra.empty()) return;
+  const geometry::Removal removal = editor_.remove(tetrahedra);
+  gone_.assign(removal.asked.begin(), removal.asked.end());
+  gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
+  gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
+  if (gone_.empty()) return;
+  ++version_;
+  status_.removed_tetrahedra = static_cast<std::uint32_t>(editor_.removed_count());
+  status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
+  if (!stepper_->remove(gone_)) status_.diverged = true;
+  loads_.lighten(gone_, editor_);
+  for (const TetId t : gone_)
+    for (const NodeId n : mesh_.tetrahedra[t])
+      if (editor_.uses(n) == 0) Eigen::Map<Vec3>(state_.v.data() + 3 * n).setZero();
+}
+
+void DynamicModel::advance(double dt_s) noexcept {
+  ahead_s_ += dt_s;
+  const auto steps = static_cast<int>(ahead_s_ / stepper_->step_s() + kRounding);
+  if (status_.diverged || steps == 0) return;
+  ahead_s_ -= steps * stepper_->step_s();
+  std::ranges::copy(state_.u, before_.u.begin());
+  std::ranges::copy(state_.v, before_.v.begin());
+  const physics::EnergyWatch watch = watch_;
+  status_.diverged = !run(steps, &BodyStepper::step);
+  if (status_.diverged && stepper_->can_shorten()) {
+    status_.fault = "would diverge, goes on in shorter steps";
+    std::swap(state_, before_);
+    watch_ = watch;
+    status_.diverged = !run(steps, &BodyStepper::step_shorter);
+  }
+  status_.simulated_s += steps * stepper_->step_s();
+  status_.steps += static_cast<std::uint64_t>(steps);
+}
+
+bool DynamicModel::run(int steps, Step step) noexcept {
+  for (int i = 0; i < steps; ++i) {
+    const auto work_j = (stepper_.get()->*step)(state_, loads_.external());
+    if (!work_j) return false;
+    watch_.add_work(*work_j);
+  }
+  const double energy_j = stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v);
+  return watch_.accepts(energy_j, steps * stepper_->step_s());
+}
+
+void DynamicModel::reset() noexcept {
+  gone_.clear();
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+    if (editor_.is_removed(TetId(t))) gone_.push_back(TetId(t));
+  if (!gone_.empty()) ++version_;
+  stepper_->restore(gone_);
+  editor_.restore();
+  loads_.restore();
+  burning_.clear();
+  std::ranges::fill(burnt_, std::uint8_t{0});
+  watch_.restart(0);
+  std::ranges::fill(state_.u, 0.0);
+  std::ranges::fill(state_.v, 0.0);
+  ahead_s_ = until_check_s_ = 0;
+  status_.removed_tetrahedra = status_.repaired_tetrahedra = 0;
+  status_.diverged = false;
+  show();
+}
+
+void DynamicModel::show() noexcept {
+  float* value = values_.data();
+  for (const NodeId n : editor_.surface_nodes())
+    for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(state_.u[3 * n + axis]);
+}
+
+OrganView DynamicModel::view() const noexcept {
+  return {.kind = StateKind::kSurface,
+          .topology_version = version_,
+          .values = std::span(values_).first(3 * editor_.surface_nodes().size()),
+          .removed_bits = editor_.removed_bits(),
+          .burnt_bits = burnt_};
+}
+
+bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
+  if (!gatherer_->gather(place, editor_, state_.u, patch)) return false;
+  const std::span<const NodeId> nodes = gatherer_->nodes();
+  patch.topology_version = version_;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]);
+    patch.velocities[i] = at(state_.v, nodes[i]);
+    patch.forces[i] = loads_.of_tools(nodes[i]);
+  }
+  const std::size_t rows = 3 * nodes.size();
+  const std::span<float> block = std::span(*block_).first(rows * rows);
+  stepper_->compliance(nodes, block);
+  float* upper = patch.compliance.data();
+  for (std::size_t r = 0; r < rows; ++r)
+    upper = std::copy(block.begin() + static_cast<std::ptrdiff_t>(r * rows + r),
+                      block.begin() + static_cast<std::ptrdiff_t>((r + 1) * rows), upper);
+  return true;
+}
+
+}  // namespace omentum::deform

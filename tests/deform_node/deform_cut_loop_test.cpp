@@ -1,0 +1,107 @@
+// An organ with masses in the whole loop: strokes come in, topologies and states go out.
+#include "deform_node/deform_loop.h"
+
+#include "geometry/mesh_editor.h"
+#include "tests/support/block_scene.h"
+#include "tests/support/fake_bus.h"
+#include "tests/support/staged_loop.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace omentum::deform {
+namespace {
+
+constexpr double kRate_hz = 100;
+
+class CutLoopTest : public testing::Test {
+ protected:
+  CutLoopTest() {
+    options_.node.scene = block_.scene_with("mesh = ", "model = \"tensor-mass\"\ncut_delay_s = 0\nmesh = ");
+    node_ = std::make_unique<test::StagedLoop<DeformLoop>>(kRate_hz, options_, bus_.opener());
+    node_->pass(1);
+  }
+
+  static msg::Edge edge_at(double y) { return {{0.05, y, 0.12}, {0.05, y, 0.04}}; }
+  /// A hook goes through the upper half of the block, from one side to the other.
+  void cut(std::uint64_t count) {
+    msg::Contact contact{};
+    contact.cutting = true;
+    contact.cut_count = count;
+    contact.seq = ++seq_;
+    contact.cause = {.tool = 0, .seq = seq_, .stamp_ns = 5};
+    contact.topology_version = newest_topology().version;
+    contact.edge_before = edge_at(-0.01);
+    contact.edge = edge_at(0.11);
+    bus_.post(contact);
+    node_->tick();
+    contact.cutting = false;
+    contact.seq = ++seq_;
+    contact.edge_before = contact.edge;
+    bus_.post(contact);
+    node_->tick();
+  }
+  msg::Topology newest_topology() { return bus_.newest<msg::Topology>().value_or(msg::Topology{}); }
+  void reset() {
+    bus_.post(
+        msg::SessionCommand{.order = ++orders_, .sender = 1, .command = msg::COMMAND_RESET, .argument = {}});
+    node_->tick(2);
+  }
+
+  test::BlockScene block_{4};
+  organ::Organ organ_ = block_.organ();
+  test::FakeBus bus_;
+  DeformOptions options_;
+  std::unique_ptr<test::StagedLoop<DeformLoop>> node_;
+  std::uint64_t seq_ = 0, orders_ = 0;
+};
+
+TEST_F(CutLoopTest, AStrokeBecomesATopologyAndAStateThatNumbersBaredNodes) {
+  EXPECT_EQ(bus_.newest<msg::OrganState>()->node_count, organ_.surface.node.size());
+  cut(1);
+  const msg::Topology topology = newest_topology();
+  EXPECT_GE(topology.version, 1u);
+  EXPECT_FALSE(topology.last_removed.empty());
+  EXPECT_EQ(topology.burnt_bits.size(), topology.removed_bits.size());
+  geometry::MeshEditor editor(organ_.mesh, {.smallest_piece_m3 = 0, .uncut_surface = organ_.surface.node});
+  editor.set_removed(topology.removed_bits);
+  EXPECT_GT(editor.surface_nodes().size(), organ_.surface.node.size());
+  const auto state = bus_.newest<msg::OrganState>();
+  EXPECT_EQ(state->topology_version, topology.version);
+  EXPECT_EQ(state->node_count, editor.surface_nodes().size());
+  EXPECT_EQ(node_->end(), "");
+  EXPECT_EQ(node_->loop().report()["removed_tetrahedra"], editor.removed_count());
+  EXPECT_GT(node_->loop().report()["real_time_factor"], 0.5);
+}
+
+TEST_F(CutLoopTest, AResetIsAWholeOrganInAHigherVersionThatCanBeCutAgain) {
+  cut(1);
+  const msg::Topology before = newest_topology();
+  reset();
+  const msg::Topology whole = newest_topology();
+  EXPECT_GT(whole.version, before.version);
+  for (const std::uint8_t bits : whole.removed_bits) EXPECT_EQ(bits, 0);
+  for (const std::uint8_t bits : whole.burnt_bits) EXPECT_EQ(bits, 0);
+  EXPECT_EQ(bus_.newest<msg::OrganState>()->node_count, organ_.surface.node.size());
+  cut(2);
+  EXPECT_GT(newest_topology().version, whole.version);
+  EXPECT_EQ(newest_topology().removed_bits, before.removed_bits);
+  EXPECT_EQ(node_->end(), "");
+}
+
+TEST_F(CutLoopTest, APressedOrganYieldsAndTellsTheHandOfItsSurface) {
+  msg::ToolPose pose{};
+  pose.seq = 1;
+  pose.valid = true;
+  pose.position = {0.05, 0.05, 0.1};
+  bus_.post(pose);
+  node_->tick();
+  const auto model = bus_.newest<msg::LocalModel>();
+  ASSERT_TRUE(model.has_value());
+  EXPECT_GT(model->nodes.size(), 3u);
+  EXPECT_EQ(model->compliance.size(), 3 * model->nodes.size() * (3 * model->nodes.size() + 1) / 2);
+  EXPECT_EQ(node_->end(), "");
+}
+
+}  // namespace
+}  // namespace omentum::deform

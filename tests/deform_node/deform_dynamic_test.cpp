@@ -1,0 +1,314 @@
+#include "deform_node/dynamic_model.h"
+
+#include "geometry/surface.h"
+#include "physics/stiffness_factor.h"
+#include "tests/support/heap_count.h"
+#include "tests/support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace omentum::deform {
+namespace {
+
+using geometry::TetId;
+using ::testing::Each;
+
+constexpr double kTick_s = 0.01;
+constexpr double kLength_m = 0.12, kThick_m = 0.04;
+constexpr physics::Material kTissue{.young_pa = 20000, .poisson = 0.4, .density_kg_m3 = 1000};
+
+/// A beam that is held at x = 0, and its model.
+class DynamicModelTest : public testing::Test {
+ protected:
+  DynamicModelTest() {
+    for (const Vec3& x : mesh_.positions) {
+      fixed_.push_back(x.x() < 1e-9 ? physics::kPinned : 0);
+      pinned_.push_back(fixed_.back() != 0);
+    }
+    surface_ = geometry::extract_surface(mesh_, pinned_);
+  }
+
+  DynamicParts parts(double step_s = 0.005) {
+    return {.mesh = mesh_,
+            .material = material_,
+            .uncut_surface = surface_.node,
+            .inertia = {.mass = physics::lumped_masses(mesh_, material_),
+                        .fixed = fixed_,
+                        .mass_damping_per_s = 5,
+                        .stiffness_damping_s = 0.01},
+            .stepper = {.law = nullptr, .scheme = {}, .step_s = step_s},
+            .tears = std::vector<physics::TearLimits>(mesh_.tetrahedra.size()),
+            .cut_delay_s = 0,
+            .cut_rate_per_s = 1e6};
+  }
+  NodeId nearest(const Vec3& x) const {
+    const auto less = [&](const Vec3& a, const Vec3& b) { return (a - x).norm() < (b - x).norm(); };
+    const auto found = std::min_element(mesh_.positions.begin(), mesh_.positions.end(), less);
+    return NodeId(static_cast<std::size_t>(found - mesh_.positions.begin()));
+  }
+  static void pass(DynamicModel& model, double seconds, const TickLoads& loads = {}) {
+    for (int i = 0; i < std::lround(seconds / kTick_s); ++i) model.step(loads, kTick_s);
+  }
+  /// Right through the beam at `x`.
+  static CutStroke stroke_at(double x) {
+    return {.tool = 0,
+            .cut = 1,
+            .from = {Vec3(x, -1, -1), Vec3(x, -1, 1)},
+            .to = {Vec3(x, 1, -1), Vec3(x, 1, 1)}};
+  }
+  Vec3 shown(const DynamicModel& model, NodeId n) const {
+    return Eigen::Map<const Eigen::Vector3f>(model.view().values.data() + 3 * surface_.of_node[n])
+        .cast<double>();
+  }
+  static int count_bits(std::span<const std::uint8_t> bits) {
+    return std::accumulate(bits.begin(), bits.end(), 0,
+                           [](int sum, std::uint8_t b) { return sum + std::popcount(b); });
+  }
+
+  geometry::TetraMesh mesh_ = test::make_box_mesh(6, 2, 2, Vec3(kLength_m, kThick_m, kThick_m));
+  physics::MaterialMap material_{kTissue};
+  physics::FixedComponents fixed_;
+  std::vector<bool> pinned_;
+  geometry::Surface surface_;
+};
+
+TEST_F(DynamicModelTest, AtRestItStaysAtRest) {
+  DynamicModel model(parts());
+  pass(model, 1);
+  EXPECT_THAT(model.view().values, Each(0.0F));
+  EXPECT_EQ(model.view().values.size(), 3 * surface_.node.size());
+  EXPECT_EQ(model.status().steps, 200u);
+  EXPECT_NEAR(model.status().simulated_s, 1, 1e-9);
+}
+
+TEST_F(DynamicModelTest, StepsThatDoNotDivideATickFollowTheClock) {
+  DynamicModel model(parts(0.003));
+  pass(model, 3);
+  EXPECT_EQ(model.status().steps, 1000u);
+}
+
+TEST_F(DynamicModelTest, UnderAPressItComesToTheDirectSolution) {
+  DynamicModel model(parts());
+  const NodeId pressed = nearest({kLength_m, kThick_m / 2, kThick_m});
+  const std::array<NodeId, 1> nodes{pressed};
+  const std::array<Vec3, 1> forces{Vec3(0.01, 0.02, -0.1)};
+  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = forces, .forces = forces};
+  pass(model, 10, {.presses = {&load, 1}, .cuts = {}});
+
+  const physics::FreeDofs dofs = physics::free_dofs(fixed_);
+  const physics::Stiffness K = physics::assemble_stiffness(mesh_, material_);
+  Eigen::MatrixXd f = Eigen::MatrixXd::Zero(dofs.count, 1);
+  for (int axis = 0; axis < 3; ++axis) f(dofs.of(pressed, axis), 0) = forces[0][axis];
+  const Eigen::MatrixXd u = physics::StiffnessFactor(K, dofs).solve(f);
+  const double largest = u.cwiseAbs().maxCoeff();
+  for (const NodeId n : surface_.node)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double expected = dofs.of(n, axis) < 0 ? 0 : u(dofs.of(n, axis), 0);
+      EXPECT_NEAR(shown(model, n)[axis], expected, 1e-5 * largest);
+    }
+}
+
+TEST_F(DynamicModelTest, ItSagsUnderItsWeight) {
+  DynamicParts heavy = parts();
+  heavy.gravity_m_s2 = Vec3(0, 0, -9.81);
+  DynamicModel model(std::move(heavy));
+  pass(model, 5);
+  EXPECT_LT(shown(model, nearest({kLength_m, 0, 0})).z(), -0.001);
+  EXPECT_FALSE(model.status().diverged);
+}
+
+TEST_F(DynamicModelTest, AStrokeRemovesWhatItMeetsAndBaresNodes) {
+  DynamicModel model(parts());
+  const CutStroke stroke = stroke_at(0.05);
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  const OrganView view = model.view();
+  EXPECT_EQ(view.topology_version, 1u);
+  EXPECT_EQ(count_bits(view.removed_bits), static_cast<int>(model.status().removed_tetrahedra));
+  geometry::MeshEditor editor(mesh_, {.uncut_surface = surface_.node});
+  editor.set_removed(view.removed_bits);
+  EXPECT_GT(editor.surface_nodes().size(), surface_.node.size());
+  EXPECT_EQ(view.values.size(), 3 * editor.surface_nodes().size());
+  EXPECT_EQ(editor.piece_count(), 2) << "a fast stroke leaves no bridge";
+  pass(model, 0.1);
+  EXPECT_EQ(model.view().topology_version, 1u);
+}
+
+TEST_F(DynamicModelTest, TissueBurnsThroughAfterItsDelay) {
+  DynamicParts slow = parts();
+  slow.cut_delay_s = 0.045;
+  DynamicModel model(std::move(slow));
+  const CutStroke stroke = stroke_at(0.05);
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  pass(model, 0.03);
+  EXPECT_EQ(model.view().topology_version, 0u);
+  pass(model, 0.01);
+  EXPECT_EQ(model.view().topology_version, 1u);
+}
+
+TEST_F(DynamicModelTest, WhatIsCutOffFallsAndIsDroppedOutOfSight) {
+  DynamicParts heavy = parts();
+  heavy.gravity_m_s2 = Vec3(0, 0, -9.81);
+  DynamicModel model(std::move(heavy));
+  pass(model, 1);
+  const CutStroke stroke = stroke_at(0.05);
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  const auto at_first = model.status().removed_tetrahedra;
+  pass(model, 0.1);
+  EXPECT_LT(shown(model, nearest({kLength_m, 0, 0})).z(), -0.02);
+  EXPECT_EQ(model.status().removed_tetrahedra, at_first);
+  pass(model, 2);
+  EXPECT_GT(model.status().removed_tetrahedra, at_first);
+  geometry::MeshEditor editor(mesh_);
+  editor.set_removed(model.view().removed_bits);
+  EXPECT_EQ(editor.piece_count(), 1);
+  EXPECT_FALSE(model.status().diverged);
+}
+
+TEST_F(DynamicModelTest, ACrackRunsThroughWhatIsWeakAndNotAllAtOnce) {
+  DynamicParts weak = parts();
+  weak.gravity_m_s2 = Vec3(60, 0, 0);
+  const auto is_weak = [&](std::size_t t) {
+    double x = 0;
+    for (const NodeId n : mesh_.tetrahedra[t]) x += mesh_.positions[n].x() / 4;
+    return x > 0.04 && x < 0.06;
+  };
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+    if (is_weak(t)) weak.tears[t].stress_pa = 2000;
+  DynamicModel model(std::move(weak));
+  std::uint32_t at_first = 0;
+  for (int i = 0; i < 100 && at_first == 0; ++i) {
+    model.step({}, kTick_s);
+    at_first = model.status().removed_tetrahedra;
+  }
+  EXPECT_GT(at_first, 0u);
+  EXPECT_LE(at_first, 8u) << "with what its going leaves hanging";
+  geometry::MeshEditor editor(mesh_);
+  for (int i = 0; i < 100 && editor.piece_count() == 1; ++i) {
+    model.step({}, kTick_s);
+    editor.set_removed(model.view().removed_bits);
+  }
+  EXPECT_EQ(editor.piece_count(), 2);
+  std::uint32_t strong_gone = 0;
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+    strong_gone += !is_weak(t) && editor.is_removed(TetId(t));
+  EXPECT_LE(strong_gone, model.status().repaired_tetrahedra);
+}
+
+TEST_F(DynamicModelTest, AResetMakesItWholeInAHigherVersion) {
+  DynamicModel model(parts());
+  model.reset();
+  EXPECT_EQ(model.view().topology_version, 0u) << "it was whole";
+  const CutStroke stroke = stroke_at(0.05);
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  model.reset();
+  EXPECT_EQ(model.view().topology_version, 2u);
+  EXPECT_THAT(model.view().removed_bits, Each(std::uint8_t{0}));
+  EXPECT_THAT(model.view().values, Each(0.0F));
+  EXPECT_EQ(model.view().values.size(), 3 * surface_.node.size());
+  EXPECT_EQ(model.status().removed_tetrahedra, 0u);
+
+  // and what it does afterwards is what an organ does that was never cut
+  DynamicModel never(parts());
+  const std::array<NodeId, 1> nodes{nearest({kLength_m, 0, 0})};
+  const std::array<Vec3, 1> forces{Vec3(0, 0, 0.1)};
+  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = forces, .forces = forces};
+  pass(model, 0.5, {.presses = {&load, 1}, .cuts = {}});
+  pass(never, 0.5, {.presses = {&load, 1}, .cuts = {}});
+  for (std::size_t i = 0; i < never.view().values.size(); ++i)
+    EXPECT_NEAR(model.view().values[i], never.view().values[i], 1e-8);
+}
+
+TEST_F(DynamicModelTest, AForceOnWhatIsGoneDoesNothing) {
+  DynamicModel model(parts());
+  const CutStroke all{.tool = 0,
+                      .cut = 1,
+                      .from = {Vec3(0.06, -1, -1), Vec3(0.06, -1, 1)},
+                      .to = {Vec3(0.06, 1, -1), Vec3(0.06, 1, 1)}};
+  for (double x = 0; x <= kLength_m; x += 0.004) {
+    const CutStroke stroke = stroke_at(x);
+    model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  }
+  EXPECT_EQ(model.status().removed_tetrahedra, mesh_.tetrahedra.size());
+  const std::array<NodeId, 1> nodes{nearest({kLength_m, 0, 0})};
+  const std::array<Vec3, 1> forces{Vec3(0, 0, 100)};
+  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = forces, .forces = forces};
+  const Vec3 before = shown(model, nodes[0]);
+  model.step({.presses = {&load, 1}, .cuts = {&all, 1}}, kTick_s);
+  EXPECT_EQ(shown(model, nodes[0]), before);
+  EXPECT_FALSE(model.status().diverged);
+}
+
+// What the hand is told is what the next step does.
+TEST_F(DynamicModelTest, ALocalModelForetellsTheNextStep) {
+  DynamicModel model(parts(kTick_s)), pushed(parts(kTick_s));
+  const std::array<NodeId, 1> nodes{nearest({kLength_m, kThick_m / 2, kThick_m})};
+  const std::array<Vec3, 1> forces{Vec3(0.01, 0.02, -0.1)};
+  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = forces, .forces = forces};
+  pass(model, 0.2, {.presses = {&load, 1}, .cuts = {}});
+  pass(pushed, 0.2, {.presses = {&load, 1}, .cuts = {}});
+  LocalPatch patch(DynamicModel::kPatchNodes);
+  ASSERT_TRUE(model.local_model({mesh_.positions[nodes[0]], 0.015}, patch));
+
+  std::size_t at = 0;
+  while (at < patch.node_count && patch.nodes[at] != static_cast<std::uint32_t>(mesh_.file_node[nodes[0]]))
+    ++at;
+  ASSERT_LT(at, patch.node_count);
+  EXPECT_EQ(patch.forces[at], forces[0]);
+  const Vec3 more(0, 0, -0.05);
+  const std::array<Vec3, 1> larger{Vec3(forces[0] + more)};
+  const ToolLoad harder{.tool = 0, .nodes = nodes, .displacements = larger, .forces = larger};
+  model.step({.presses = {&load, 1}, .cuts = {}}, kTick_s);
+  pushed.step({.presses = {&harder, 1}, .cuts = {}}, kTick_s);
+  const auto C = [&](std::size_t row, std::size_t column) {
+    const std::size_t r = std::min(row, column), c = std::max(row, column), n = patch.node_count;
+    return patch.compliance[r * (6 * n - r - 1) / 2 + c];
+  };
+  for (std::size_t i = 0; i < patch.node_count; ++i) {
+    const NodeId n(static_cast<std::size_t>(patch.nodes[i]));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double foretold = C(3 * i + axis, 3 * at + 2) * more.z();
+      const double is = shown(pushed, n)[static_cast<Eigen::Index>(axis)] -
+                        shown(model, n)[static_cast<Eigen::Index>(axis)];
+      EXPECT_NEAR(is, foretold, 1e-7);
+    }
+  }
+}
+
+TEST_F(DynamicModelTest, ALocalModelIsOfTheCutSurface) {
+  DynamicModel model(parts());
+  const Vec3 inside(0.05, kThick_m / 2, kThick_m / 2);
+  LocalPatch patch(DynamicModel::kPatchNodes);
+  EXPECT_FALSE(model.local_model({inside, 0.01}, patch));
+  const CutStroke stroke = stroke_at(0.05);
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  ASSERT_TRUE(model.local_model({inside, 0.02}, patch));
+  EXPECT_EQ(patch.topology_version, 1u);
+  EXPECT_GT(patch.triangle_count, 0u);
+  for (std::size_t i = 0; i < patch.triangle_count; ++i)
+    for (const std::uint8_t corner : patch.triangles[i]) EXPECT_LT(corner, patch.node_count);
+}
+
+TEST_F(DynamicModelTest, NothingOfItTakesMemory) {
+  DynamicParts weak = parts();
+  weak.gravity_m_s2 = Vec3(20, 0, -5);
+  for (physics::TearLimits& limits : weak.tears) limits.edge_elongation = 0.1;
+  DynamicModel model(std::move(weak));
+  LocalPatch patch(DynamicModel::kPatchNodes);
+  const std::size_t before = test::heap_allocations();
+  for (int i = 0; i < 30; ++i) {
+    const CutStroke stroke = stroke_at(0.03 + 0.002 * i);
+    model.step({.presses = {}, .cuts = {&stroke, i % 3 == 0 ? 1u : 0u}}, kTick_s);
+    (void)model.local_model({Vec3(0.05, 0.02, kThick_m), 0.02}, patch);
+    if (i == 20) model.reset();
+  }
+  EXPECT_EQ(test::heap_allocations(), before);
+  EXPECT_GT(model.status().removed_tetrahedra, 0u);
+}
+
+}  // namespace
+}  // namespace omentum::deform
