@@ -4,6 +4,7 @@
 #include "geometry/remaining_tetrahedra.h"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
