@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kCurveHeight = 74, kCurveThickness = 1.8f;  // pixels
 constexpr float kAxisWidth = 40;                            // pixels: "100 N"
+constexpr double kKeepsUp = 0.98;  // of real time: what is less is seen as slow motion
 const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
 const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
 
@@ -190,6 +191,11 @@ void organ_line(const OrganRow& row) {
     ImGui::TextColored(kAmber, "%s%s for %s", of.c_str(),
                        row.known ? "organ stale: no state" : "no organ state", age.c_str());
   }
+  if (row.removed_tetrahedra > 0) {
+    ImGui::TextUnformatted((of + "removed tetrahedra").c_str());
+    ImGui::SameLine();
+    right_aligned(format("%d", row.removed_tetrahedra).c_str());
+  }
   if (row.beyond_linear()) {
     ImGui::TextColored(kAmber, "%smoved %.0f mm: beyond linear range (%.0f mm)", of.c_str(), row.moved_mm,
                        row.limit_mm);
@@ -200,6 +206,12 @@ void organs(const PanelView& view) {
   ImGui::TextUnformatted("deepest dent");
   ImGui::SameLine();
   right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  if (view.real_time_factor > 0) {
+    ImGui::TextUnformatted("real time");
+    ImGui::SameLine();
+    const bool slow = view.real_time_factor < kKeepsUp;
+    right_aligned(format("%.2f x", view.real_time_factor).c_str(), slow ? &kAmber : nullptr);
+  }
   ImGui::PushTextWrapPos(0);  // an organ may have a long name
   for (const OrganRow& row : view.organs) organ_line(row);
   ImGui::PopTextWrapPos();

@@ -40,7 +40,7 @@ class RenderLoop {
   /// std::runtime_error when deform_node turns out to serve another organ.
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
-  /// window, and `deepest_dent_m` (dent.h).
+  /// window, `deepest_dent_m` (dent.h) and `unmatched_states` (inbox.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.

@@ -54,16 +54,23 @@ struct Programs {
       : backdrop("backdrop", shaders::screen_vert, prefix, shaders::backdrop_frag),
         lens("lens", shaders::screen_vert, prefix, shaders::lens_frag),
         tissue("tissue", shaders::surface_vert, prefix, shaders::tissue_frag),
+        cut("cut tissue", shaders::surface_vert, prefix + "#define CUT\n", shaders::tissue_frag),
+        bared("bared tissue", shaders::surface_vert, prefix + "#define CUT\n#define BARED\n",
+              shaders::tissue_frag),
         solid("solid", shaders::surface_vert, prefix, shaders::solid_frag),
         ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
         signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
 
-  Program backdrop, lens, tissue, solid, ground, signal;
+  Program backdrop, lens, tissue, cut, bared, solid, ground, signal;
 
   const Program& of(Look look) const {
     switch (look) {
       case Look::kTissue:
         return tissue;
+      case Look::kCut:
+        return cut;
+      case Look::kBared:
+        return bared;
       case Look::kGround:
         return ground;
       case Look::kSignal:
@@ -89,6 +96,13 @@ class GlRenderer final : public Renderer {
   }
   void update_vertices(MeshId mesh, std::span<const Vertex> vertices) override {
     meshes_[static_cast<std::size_t>(mesh)].update(vertices);
+  }
+
+  void update_triangles(MeshId mesh, std::size_t first, std::span<const MeshTriangle> triangles) override {
+    meshes_[static_cast<std::size_t>(mesh)].update(first, triangles);
+  }
+  void replace_mesh(MeshId mesh, const MeshData& with) override {
+    meshes_[static_cast<std::size_t>(mesh)].replace(with);
   }
 
   Input begin_frame() override { return panel_->begin_frame(); }
@@ -177,7 +191,8 @@ class GlRenderer final : public Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look : {Look::kSolid, Look::kTissue, Look::kGround, Look::kSignal})
+    for (const Look look :
+         {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kGround, Look::kSignal})
       draw_items(frame, look);
     glDisable(GL_CULL_FACE);
     glDepthRange(kSignalDepth, 1);

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <limits>
+
 namespace omentum::render {
 namespace {
 
@@ -94,6 +96,16 @@ TEST(PanelView, FaultsNameTheirNode) {
   msg::NodeStatus status = status_of(msg::NODE_DEFORM, 1);
   status.faults = {"contact of an unknown node"};
   EXPECT_THAT(all_faults({{status, 0}}), ElementsAre("deform: contact of an unknown node"));
+}
+
+TEST(PanelView, RealTimeIsThatOfTheServerThatSpeaks) {
+  msg::NodeStatus serving = status_of(msg::NODE_DEFORM, 1), hand = status_of(msg::NODE_HAPTIC, 1);
+  serving.real_time_factor = 0.7;
+  hand.real_time_factor = 5;
+  EXPECT_EQ(real_time_factor({{serving, 0}, {hand, 0}}, 0), 0.7);
+  EXPECT_EQ(real_time_factor({{serving, 0}}, 60 * kSecond), 0) << "silent";
+  serving.real_time_factor = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(real_time_factor({{serving, 0}}, 0), 0);
 }
 
 TEST(PanelView, ForceStateInWords) {
@@ -259,6 +271,16 @@ TEST_F(PanelLayout, StaleOrganIsTold) {
   const float told = height_of(view);
   view.organs[0].age_ns = 0;
   EXPECT_LT(height_of(view), told);
+}
+
+TEST_F(PanelLayout, CutsAndTheirTimeAreTold) {
+  PanelView view = busy();
+  const float whole = height_of(view);
+  view.organs[0].removed_tetrahedra = 312;
+  const float cut = height_of(view);
+  EXPECT_GT(cut, whole);
+  view.real_time_factor = 1;
+  EXPECT_GT(height_of(view), cut);
 }
 
 TEST_F(PanelLayout, ALongSceneNameLeavesRoomForWhatStandsBesideIt) {
