@@ -24,7 +24,7 @@ BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap
                           geometry::signed_volume(x[a], x[b], x[c], x[d]) / 4);
     for (const NodeId n : mesh.tetrahedra[t]) uncut_kg_[n] += quarter_kg_.back();
   }
-  pressed_nodes_.reserve(kMaxLoadedNodes);
+  presses_.reserve(kMaxLoadedNodes);
   restore();
 }
 
@@ -32,21 +32,24 @@ void BodyLoads::weigh(NodeId n) noexcept {
   Eigen::Map<Vec3>(external_.data() + 3 * n) = carried_kg_[n] * gravity_ + pressed_[n];
 }
 
-Vec3 BodyLoads::of_tools(NodeId n) const noexcept {
-  return pressed_[n];
+Vec3 BodyLoads::of_tool(std::uint32_t tool, NodeId n) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (const Press& press : presses_)
+    if (press.tool == tool && press.node == n) sum += press.force;
+  return sum;
 }
 
 void BodyLoads::press(std::span<const ToolLoad> presses, const MeshEditor& editor) noexcept {
-  for (const NodeId n : pressed_nodes_) {
-    pressed_[n].setZero();
-    weigh(n);
+  for (const Press& last : presses_) {
+    pressed_[last.node].setZero();
+    weigh(last.node);
   }
-  pressed_nodes_.clear();
+  presses_.clear();
   for (const ToolLoad& load : presses) {
     for (std::size_t i = 0; i < load.nodes.size(); ++i) {
       const NodeId n = load.nodes[i];
-      if (editor.uses(n) == 0 || pressed_nodes_.size() == pressed_nodes_.capacity()) continue;
-      pressed_nodes_.push_back(n);
+      if (editor.uses(n) == 0 || presses_.size() == kMaxLoadedNodes) continue;
+      presses_.push_back({load.tool, n, load.forces[i]});
       pressed_[n] += load.forces[i];
       weigh(n);
     }
@@ -67,7 +70,7 @@ void BodyLoads::lighten(std::span<const TetId> gone, const MeshEditor& editor) n
 void BodyLoads::restore() noexcept {
   carried_kg_ = uncut_kg_;
   std::ranges::fill(pressed_, Vec3::Zero());
-  pressed_nodes_.clear();
+  presses_.clear();
   for (std::size_t n = 0; n < uncut_kg_.size(); ++n) weigh(NodeId(n));
 }
 

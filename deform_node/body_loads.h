@@ -24,10 +24,16 @@ class BodyLoads {
 
   /// [3N], N.
   std::span<const double> external() const noexcept { return external_; }
-  /// The tools' share at one node, N.
-  Vec3 of_tools(NodeId n) const noexcept;
+  /// One tool's share at a node, N.
+  Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
 
  private:
+  struct Press {
+    std::uint32_t tool;
+    NodeId node;
+    Vec3 force;
+  };
+
   void weigh(NodeId n) noexcept;
 
   const geometry::TetraMesh& mesh_;
@@ -37,7 +43,7 @@ class BodyLoads {
   std::vector<double> uncut_kg_;    // [N]
   std::vector<double> external_;    // [3N]
   std::vector<Vec3> pressed_;       // [N], by the tools
-  std::vector<NodeId> pressed_nodes_;
+  std::vector<Press> presses_;      // capacity kMaxLoadedNodes
 };
 
 }  // namespace omentum::deform

@@ -1,61 +1,133 @@
 #include "deform_node/body_stepper.h"
 
+#include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/warped_step.h"
+
 #include <cmath>
 #include <utility>
 
 namespace omentum::deform {
 
-using geometry::TetId;
-
 namespace {
 
-std::optional<double> finite(double work_j) {
-  return std::isfinite(work_j) ? std::optional(work_j) : std::nullopt;
+using geometry::NodeId;
+using geometry::TetId;
+using physics::BodyState;
+using physics::ForceLaw;
+
+using Work = std::optional<double>;
+
+// Of forces that were held over a step of `dt` which ended with `state`.
+double work_of(std::span<const double> external, const BodyState& state, double dt) {
+  double power_w = 0;
+  for (std::size_t c = 0; c < external.size(); ++c) power_w += external[c] * state.v[c];
+  return power_w * dt;
 }
+
+physics::ImplicitStep implicit_of(const SteppedBody& body, double step_s) {
+  return {body.mesh,
+          body.material,
+          body.inertia,
+          {.step_s = step_s, .most_compliance_nodes = BodyStepper::kPatchNodes}};
+}
+
+class ImplicitStepper final : public BodyStepper {
+ public:
+  ImplicitStepper(const SteppedBody& body, double step_s) : implicit_(implicit_of(body, step_s)) {}
+
+  double step_s() const override { return implicit_.step_s(); }
+  Work step(BodyState& state, std::span<const double> external) noexcept override {
+    if (!implicit_.step(state, external)) return {};
+    return work_of(external, state, step_s());
+  }
+  double elastic_energy(std::span<const double> u) noexcept override { return implicit_.elastic_energy(u); }
+  bool remove(std::span<const TetId> tetrahedra) noexcept override { return implicit_.remove(tetrahedra); }
+  void restore(std::span<const TetId> /*removed*/) noexcept override { implicit_.restore(); }
+  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
+    implicit_.compliance(nodes, block);
+  }
+
+ private:
+  physics::ImplicitStep implicit_;
+};
+
+class WarpedStepper final : public BodyStepper {
+ public:
+  WarpedStepper(const SteppedBody& body, double step_s)
+      : warped_(body.mesh, body.material, body.inertia, physics::Corotational(body.mesh, body.material),
+                {.step_s = step_s, .most_compliance_nodes = kPatchNodes}) {}
+
+  double step_s() const override { return warped_.step_s(); }
+  Work step(BodyState& state, std::span<const double> external) noexcept override {
+    if (!warped_.step(state, external)) return {};
+    return work_of(external, state, step_s());
+  }
+  double elastic_energy(std::span<const double> u) noexcept override { return warped_.law().energy(u); }
+  bool remove(std::span<const TetId> tetrahedra) noexcept override { return warped_.remove(tetrahedra); }
+  void restore(std::span<const TetId> /*removed*/) noexcept override { warped_.restore(); }
+  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
+    warped_.compliance(nodes, block);
+  }
+
+ private:
+  physics::WarpedStep warped_;
+};
+
+class ExplicitStepper final : public BodyStepper {
+ public:
+  ExplicitStepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law, physics::ExplicitScheme scheme,
+                  double step_s)
+      : inertia_(body.inertia),
+        law_(std::move(law)),
+        explicit_(scheme, inertia_),
+        step_s_(step_s),
+        felt_(implicit_of(body, kFeltStep_s)) {}
+
+  double step_s() const override { return step_s_; }
+  Work step(BodyState& state, std::span<const double> external) noexcept override {
+    return finite(explicit_.step(*law_, external, step_s_, state));
+  }
+  Work step_shorter(BodyState& state, std::span<const double> external) noexcept override {
+    double work_j = 0;
+    for (int i = 0; i < kShorter; ++i) work_j += explicit_.step(*law_, external, step_s_ / kShorter, state);
+    return finite(work_j);
+  }
+  double elastic_energy(std::span<const double> u) noexcept override { return law_->energy(u); }
+  bool remove(std::span<const TetId> tetrahedra) noexcept override {
+    for (const TetId t : tetrahedra) law_->remove(t);
+    return felt_.remove(tetrahedra);
+  }
+  void restore(std::span<const TetId> removed) noexcept override {
+    for (const TetId t : removed) law_->add(t);
+    felt_.restore();
+  }
+  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
+    felt_.compliance(nodes, block);
+  }
+
+ private:
+  static Work finite(double work_j) { return std::isfinite(work_j) ? Work(work_j) : std::nullopt; }
+
+  physics::Inertia inertia_;
+  std::unique_ptr<ForceLaw> law_;
+  physics::ExplicitStep explicit_;
+  double step_s_;
+  physics::ImplicitStep felt_;
+};
 
 }  // namespace
 
-BodyStepper::BodyStepper(const geometry::TetraMesh& mesh, const physics::MaterialMap& material,
-                         const physics::Inertia& inertia, StepperParts parts)
-    : inertia_(inertia),
-      law_(std::move(parts.law)),
-      step_s_(parts.step_s),
-      implicit_(mesh, material, inertia_,
-                {.step_s = parts.scheme ? kFeltStep_s : parts.step_s,
-                 .most_compliance_nodes = parts.most_compliance_nodes}) {
-  if (parts.scheme) explicit_.emplace(*parts.scheme, inertia_);
+std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s) {
+  return std::make_unique<ImplicitStepper>(body, step_s);
 }
 
-std::optional<double> BodyStepper::step(physics::BodyState& state,
-                                        std::span<const double> external) noexcept {
-  if (explicit_) return finite(explicit_->step(*law_, external, step_s_, state));
-  if (!(law_ ? implicit_.step(state, *law_, external) : implicit_.step(state, external))) return {};
-  double power_w = 0;
-  for (std::size_t c = 0; c < external.size(); ++c) power_w += external[c] * state.v[c];
-  return power_w * step_s_;
+std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s) {
+  return std::make_unique<WarpedStepper>(body, step_s);
 }
 
-std::optional<double> BodyStepper::step_shorter(physics::BodyState& state,
-                                                std::span<const double> external) noexcept {
-  double work_j = 0;
-  for (int i = 0; i < kShorter; ++i) work_j += explicit_->step(*law_, external, step_s_ / kShorter, state);
-  return finite(work_j);
-}
-
-double BodyStepper::elastic_energy(std::span<const double> u) noexcept {
-  return law_ ? law_->energy(u) : implicit_.elastic_energy(u);
-}
-
-bool BodyStepper::remove(std::span<const TetId> tetrahedra) noexcept {
-  if (law_)
-    for (const TetId t : tetrahedra) law_->remove(t);
-  return implicit_.remove(tetrahedra);
-}
-
-void BodyStepper::restore(std::span<const TetId> removed) noexcept {
-  if (law_)
-    for (const TetId t : removed) law_->add(t);
-  implicit_.restore();
+std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law,
+                                                   physics::ExplicitScheme scheme, double step_s) {
+  return std::make_unique<ExplicitStepper>(body, std::move(law), scheme, step_s);
 }
 
 }  // namespace omentum::deform

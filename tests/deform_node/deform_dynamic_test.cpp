@@ -34,14 +34,15 @@ class DynamicModelTest : public testing::Test {
   }
 
   DynamicParts parts(double step_s = 0.005) {
-    return {.mesh = mesh_,
-            .material = material_,
+    const SteppedBody body{mesh_,
+                           material_,
+                           {.mass = physics::lumped_masses(mesh_, material_),
+                            .fixed = fixed_,
+                            .mass_damping_per_s = 5,
+                            .stiffness_damping_s = 0.01}};
+    return {.body = body,
             .uncut_surface = surface_.node,
-            .inertia = {.mass = physics::lumped_masses(mesh_, material_),
-                        .fixed = fixed_,
-                        .mass_damping_per_s = 5,
-                        .stiffness_damping_s = 0.01},
-            .stepper = {.law = nullptr, .scheme = {}, .step_s = step_s},
+            .stepper = make_implicit_stepper(body, step_s),
             .tears = std::vector<physics::TearLimits>(mesh_.tetrahedra.size()),
             .cut_delay_s = 0,
             .cut_rate_per_s = 1e6};
@@ -251,8 +252,8 @@ TEST_F(DynamicModelTest, ALocalModelForetellsTheNextStep) {
   const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = forces, .forces = forces};
   pass(model, 0.2, {.presses = {&load, 1}, .cuts = {}});
   pass(pushed, 0.2, {.presses = {&load, 1}, .cuts = {}});
-  LocalPatch patch(DynamicModel::kPatchNodes);
-  ASSERT_TRUE(model.local_model({mesh_.positions[nodes[0]], 0.015}, patch));
+  LocalPatch patch(BodyStepper::kPatchNodes);
+  ASSERT_TRUE(model.local_model({0, mesh_.positions[nodes[0]], 0.015}, patch));
 
   std::size_t at = 0;
   while (at < patch.node_count && patch.nodes[at] != static_cast<std::uint32_t>(mesh_.file_node[nodes[0]]))
@@ -282,11 +283,11 @@ TEST_F(DynamicModelTest, ALocalModelForetellsTheNextStep) {
 TEST_F(DynamicModelTest, ALocalModelIsOfTheCutSurface) {
   DynamicModel model(parts());
   const Vec3 inside(0.05, kThick_m / 2, kThick_m / 2);
-  LocalPatch patch(DynamicModel::kPatchNodes);
-  EXPECT_FALSE(model.local_model({inside, 0.01}, patch));
+  LocalPatch patch(BodyStepper::kPatchNodes);
+  EXPECT_FALSE(model.local_model({0, inside, 0.01}, patch));
   const CutStroke stroke = stroke_at(0.05);
   model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
-  ASSERT_TRUE(model.local_model({inside, 0.02}, patch));
+  ASSERT_TRUE(model.local_model({0, inside, 0.02}, patch));
   EXPECT_EQ(patch.topology_version, 1u);
   EXPECT_GT(patch.triangle_count, 0u);
   for (std::size_t i = 0; i < patch.triangle_count; ++i)
@@ -298,12 +299,12 @@ TEST_F(DynamicModelTest, NothingOfItTakesMemory) {
   weak.gravity_m_s2 = Vec3(20, 0, -5);
   for (physics::TearLimits& limits : weak.tears) limits.edge_elongation = 0.1;
   DynamicModel model(std::move(weak));
-  LocalPatch patch(DynamicModel::kPatchNodes);
+  LocalPatch patch(BodyStepper::kPatchNodes);
   const std::size_t before = test::heap_allocations();
   for (int i = 0; i < 30; ++i) {
     const CutStroke stroke = stroke_at(0.03 + 0.002 * i);
     model.step({.presses = {}, .cuts = {&stroke, i % 3 == 0 ? 1u : 0u}}, kTick_s);
-    (void)model.local_model({Vec3(0.05, 0.02, kThick_m), 0.02}, patch);
+    (void)model.local_model({0, Vec3(0.05, 0.02, kThick_m), 0.02}, patch);
     if (i == 20) model.reset();
   }
   EXPECT_EQ(test::heap_allocations(), before);
