@@ -1,5 +1,6 @@
 #include "deform_node/body_stepper.h"
 
+#include "physics/dynamics/corotational.h"
 #include "physics/dynamics/implicit_step.h"
 #include "physics/dynamics/warped_step.h"
 
@@ -10,7 +11,6 @@ namespace omentum::deform {
 
 namespace {
 
-using geometry::NodeId;
 using geometry::TetId;
 using physics::BodyState;
 using physics::ForceLaw;
@@ -24,53 +24,37 @@ double work_of(std::span<const double> external, const BodyState& state, double 
   return power_w * dt;
 }
 
-physics::ImplicitStep implicit_of(const SteppedBody& body, double step_s) {
-  return {body.mesh,
-          body.material,
-          body.inertia,
-          {.step_s = step_s, .most_compliance_nodes = BodyStepper::kPatchNodes}};
+std::unique_ptr<physics::LargeStep> implicit_of(const SteppedBody& body, double step_s) {
+  return std::make_unique<physics::ImplicitStep>(
+      body.mesh, body.material, body.inertia,
+      physics::ImplicitOptions{.step_s = step_s, .most_compliance_nodes = BodyStepper::kPatchNodes});
 }
 
-class ImplicitStepper final : public BodyStepper {
- public:
-  ImplicitStepper(const SteppedBody& body, double step_s) : implicit_(implicit_of(body, step_s)) {}
+std::unique_ptr<physics::LargeStep> warped_of(const SteppedBody& body, double step_s) {
+  return std::make_unique<physics::WarpedStep>(
+      body.mesh, body.material, body.inertia, physics::Corotational(body.mesh, body.material),
+      physics::WarpedOptions{.step_s = step_s, .most_compliance_nodes = BodyStepper::kPatchNodes});
+}
 
-  double step_s() const override { return implicit_.step_s(); }
-  Work step(BodyState& state, std::span<const double> external) noexcept override {
-    if (!implicit_.step(state, external)) return {};
-    return work_of(external, state, step_s());
+class LargeStepper final : public BodyStepper {
+ public:
+  LargeStepper(const SteppedBody& body, std::unique_ptr<physics::LargeStep> large)
+      : large_(std::move(large)), imposed_(body.mesh.positions.size(), kMaxTools) {}
+
+  double step_s() const override { return large_->step_s(); }
+  Work step(BodyState& state, BodyLoads& loads) noexcept override {
+    if (!large_->step(state, loads.weights())) return {};
+    loads.act(imposed_.impose(*large_, loads.presses(), state));
+    return work_of(loads.external(), state, step_s());
   }
-  double elastic_energy(std::span<const double> u) noexcept override { return implicit_.elastic_energy(u); }
-  bool remove(std::span<const TetId> tetrahedra) noexcept override { return implicit_.remove(tetrahedra); }
-  void restore(std::span<const TetId> /*removed*/) noexcept override { implicit_.restore(); }
-  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
-    implicit_.compliance(nodes, block);
-  }
+  double elastic_energy(std::span<const double> u) noexcept override { return large_->elastic_energy(u); }
+  bool remove(std::span<const TetId> tetrahedra) noexcept override { return large_->remove(tetrahedra); }
+  void restore(std::span<const TetId> /*removed*/) noexcept override { large_->restore(); }
+  physics::LargeStep& felt() noexcept override { return *large_; }
 
  private:
-  physics::ImplicitStep implicit_;
-};
-
-class WarpedStepper final : public BodyStepper {
- public:
-  WarpedStepper(const SteppedBody& body, double step_s)
-      : warped_(body.mesh, body.material, body.inertia, physics::Corotational(body.mesh, body.material),
-                {.step_s = step_s, .most_compliance_nodes = kPatchNodes}) {}
-
-  double step_s() const override { return warped_.step_s(); }
-  Work step(BodyState& state, std::span<const double> external) noexcept override {
-    if (!warped_.step(state, external)) return {};
-    return work_of(external, state, step_s());
-  }
-  double elastic_energy(std::span<const double> u) noexcept override { return warped_.law().energy(u); }
-  bool remove(std::span<const TetId> tetrahedra) noexcept override { return warped_.remove(tetrahedra); }
-  void restore(std::span<const TetId> /*removed*/) noexcept override { warped_.restore(); }
-  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
-    warped_.compliance(nodes, block);
-  }
-
- private:
-  physics::WarpedStep warped_;
+  std::unique_ptr<physics::LargeStep> large_;
+  physics::ImposedPress imposed_;
 };
 
 class ExplicitStepper final : public BodyStepper {
@@ -84,26 +68,25 @@ class ExplicitStepper final : public BodyStepper {
         felt_(implicit_of(body, kFeltStep_s)) {}
 
   double step_s() const override { return step_s_; }
-  Work step(BodyState& state, std::span<const double> external) noexcept override {
-    return finite(explicit_.step(*law_, external, step_s_, state));
+  Work step(BodyState& state, BodyLoads& loads) noexcept override {
+    return finite(explicit_.step(*law_, loads.external(), step_s_, state));
   }
-  Work step_shorter(BodyState& state, std::span<const double> external) noexcept override {
+  Work step_shorter(BodyState& state, BodyLoads& loads) noexcept override {
     double work_j = 0;
-    for (int i = 0; i < kShorter; ++i) work_j += explicit_.step(*law_, external, step_s_ / kShorter, state);
+    for (int i = 0; i < kShorter; ++i)
+      work_j += explicit_.step(*law_, loads.external(), step_s_ / kShorter, state);
     return finite(work_j);
   }
   double elastic_energy(std::span<const double> u) noexcept override { return law_->energy(u); }
   bool remove(std::span<const TetId> tetrahedra) noexcept override {
     for (const TetId t : tetrahedra) law_->remove(t);
-    return felt_.remove(tetrahedra);
+    return felt_->remove(tetrahedra);
   }
   void restore(std::span<const TetId> removed) noexcept override {
     for (const TetId t : removed) law_->add(t);
-    felt_.restore();
+    felt_->restore();
   }
-  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
-    felt_.compliance(nodes, block);
-  }
+  physics::LargeStep& felt() noexcept override { return *felt_; }
 
  private:
   static Work finite(double work_j) { return std::isfinite(work_j) ? Work(work_j) : std::nullopt; }
@@ -112,17 +95,17 @@ class ExplicitStepper final : public BodyStepper {
   std::unique_ptr<ForceLaw> law_;
   physics::ExplicitStep explicit_;
   double step_s_;
-  physics::ImplicitStep felt_;
+  std::unique_ptr<physics::LargeStep> felt_;
 };
 
 }  // namespace
 
 std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s) {
-  return std::make_unique<ImplicitStepper>(body, step_s);
+  return std::make_unique<LargeStepper>(body, implicit_of(body, step_s));
 }
 
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s) {
-  return std::make_unique<WarpedStepper>(body, step_s);
+  return std::make_unique<LargeStepper>(body, warped_of(body, step_s));
 }
 
 std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law,

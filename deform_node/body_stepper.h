@@ -1,7 +1,7 @@
 // Law and integrator of an organ with masses, as one thing that is stepped, cut and felt.
 #pragma once
 
-#include "physics/dynamics/body_state.h"
+#include "deform_node/body_loads.h"
 #include "physics/dynamics/explicit_step.h"
 #include "physics/dynamics/force_law.h"
 
@@ -30,12 +30,11 @@ class BodyStepper {
   virtual ~BodyStepper() = default;
 
   virtual double step_s() const = 0;
-  /// One step under external forces, [3N], N. Their work, J; nothing where the result is not finite.
-  virtual std::optional<double> step(physics::BodyState& state,
-                                     std::span<const double> external) noexcept = 0;
+  /// One step under `loads`, which are told how strong presses became. Their work, J; nothing where the
+  /// result is not finite.
+  virtual std::optional<double> step(physics::BodyState& state, BodyLoads& loads) noexcept = 0;
   /// The same in kShorter steps; nothing also where the step's length is in the factor.
-  virtual std::optional<double> step_shorter(physics::BodyState& /*state*/,
-                                             std::span<const double> /*external*/) noexcept {
+  virtual std::optional<double> step_shorter(physics::BodyState& /*state*/, BodyLoads& /*loads*/) noexcept {
     return {};
   }
   /// J, of what is left.
@@ -45,19 +44,20 @@ class BodyStepper {
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore(std::span<const geometry::TetId> removed) noexcept = 0;
 
-  /// Displacement of `nodes` at the end of a step per force held over it, [3n x 3n], m/N, symmetric.
-  virtual void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept = 0;
+  /// What a hand feels: how the body yields to forces, and where it goes if they stay as they are.
+  virtual physics::LargeStep& felt() noexcept = 0;
 };
 
-/// Backward Euler for linear elasticity. Throws as physics::ImplicitStep does, like the others.
+/// Backward Euler for linear elasticity; presses are imposed (physics/dynamics/imposed_press.h). Throws as
+/// physics::ImplicitStep does, like the others.
 std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s);
 
 /// Backward Euler for co-rotational tissue (physics/dynamics/warped_step.h).
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s);
 
-/// Explicit steps. Nothing yields within one of them, and none has an equation whose solution would say how:
-/// what a hand feels of the body is the compliance at rest over kFeltStep_s, the time between two local
-/// models, s.
+/// Explicit steps, under the forces that hands say. Nothing yields within one of them, and none has an
+/// equation whose solution would say how: what a hand feels of the body is the compliance at rest over
+/// kFeltStep_s, the time between two local models, s.
 inline constexpr double kFeltStep_s = 0.005;
 std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body,
                                                    std::unique_ptr<physics::ForceLaw> law,

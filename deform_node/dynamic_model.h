@@ -68,8 +68,14 @@ class DynamicModel final : public OrganModel {
   std::vector<geometry::TetId> gone_, fallen_;  // workspace, capacity T
   std::vector<std::uint8_t> burnt_;             // bits, of what edges burnt away
   std::vector<float> values_;                   // [3N], of them 3 for each node of the surface
-  std::unique_ptr<PatchGatherer> gatherer_;     // workspace of local_model()
-  std::unique_ptr<std::vector<float>> block_;
+  // workspace of local_model()
+  struct Felt {
+    std::vector<float> compliance;  // [3 kPatchNodes squared]
+    std::vector<double> u;          // [3N] after one more step under the same forces ...
+    bool is_foreseen = false;       // ... from where the body is now
+  };
+  std::unique_ptr<PatchGatherer> gatherer_;
+  std::unique_ptr<Felt> felt_;
 };
 
 }  // namespace omentum::deform
