@@ -243,10 +243,10 @@ TEST(TissueSamples, AreAPlateAndACylinderOfTheirSizesWithRoundedEdges) {
   EXPECT_NEAR(plate_distance({0.1, 0, 0}), 0, 1e-12);
   EXPECT_GT(plate_distance({0.1, 0.1, 0}), 0) << "rounded";
   EXPECT_NEAR(plate_distance({0.13, 0, 0}), 0.03, 1e-12);
-  EXPECT_NEAR(cylinder_distance({0.02, 0, -0.08}), 0, 1e-12);
-  EXPECT_NEAR(cylinder_distance({0, 0, -0.16}), 0, 1e-12);
-  EXPECT_NEAR(cylinder_distance({0, 0, -0.08}), -0.02, 1e-12);
-  EXPECT_GT(cylinder_distance({0.02, 0, 0}), 0) << "rounded";
+  EXPECT_NEAR(cylinder_distance({0.03, 0, -0.06}), 0, 1e-12);
+  EXPECT_NEAR(cylinder_distance({0, 0, -0.12}), 0, 1e-12);
+  EXPECT_NEAR(cylinder_distance({0, 0, -0.06}), -0.03, 1e-12);
+  EXPECT_GT(cylinder_distance({0.03, 0, 0}), 0) << "rounded";
 }
 
 // Cotin 1998, figures 2 and 3.
