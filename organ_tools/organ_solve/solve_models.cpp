@@ -85,10 +85,11 @@ void add_support_shares(const organ::Organ& organ, const physics::Stiffness& sti
 
 }  // namespace
 
-physics::StaticSolution solve_directly(const organ::Organ& organ, Imposed imposed, const Vec3& gravity) {
-  const physics::Stiffness stiffness = physics::assemble_stiffness(organ.mesh, organ.material);
+physics::StaticSolution solve_directly(const organ::Organ& organ, const CutOrgan& cut, Imposed imposed,
+                                       const Vec3& gravity) {
+  const physics::Stiffness stiffness = stiffness_of(organ, cut);
   const std::vector<Vec3> loads = loads_of(organ, gravity);
-  physics::StaticSolution solution = physics::direct_solve(stiffness, organ.fixed, imposed, loads);
+  physics::StaticSolution solution = physics::direct_solve(stiffness, cut.fixed, imposed, loads);
   add_support_shares(organ, stiffness, imposed, loads, solution);
   return solution;
 }

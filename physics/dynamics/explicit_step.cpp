@@ -15,6 +15,7 @@ constexpr std::array<double, 4> kWeights{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 constexpr std::array<double, 3> kReach{0.5, 0.5, 1.0};
 
 Values inverse_masses(const Inertia& inertia) {
+  geometry::require(inertia.fixed.size() == inertia.mass.size(), "supports of each node");
   Values inverse(3 * inertia.mass.size());
   for (std::size_t i = 0; i < inverse.size(); ++i) {
     const bool held = is_fixed(inertia.fixed[i / 3], static_cast<int>(i % 3));
@@ -88,7 +89,8 @@ double ExplicitStep::forward_euler(ForceLaw& law, std::span<const double> extern
 double ExplicitStep::symplectic_euler(ForceLaw& law, std::span<const double> external_n, double dt,
                                       BodyState& state) noexcept {
   accelerate(law, external_n, state.u, state.v, 0);
-  all(state.v) = (all(state.v) + dt * all(a_)) / (1 + dt * inertia_.mass_damping_per_s);
+  const double slowed = 1 / (1 + dt * inertia_.mass_damping_per_s);
+  all(state.v) = slowed * all(state.v) + slowed * dt * all(a_);
   all(state.u) += dt * all(state.v);
   return dt * dot(external_n, state.v);
 }

@@ -30,7 +30,8 @@ class ImplicitStep {
 
   /// One step under `external` forces, [3N], N. False: the result is not finite.
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept;
-  /// The same with the forces of another law than the factor's own; K is then what its stiffness is near.
+  /// The same with the forces of another law than the factor's own. Stable as long as no stiffness of the law
+  /// is above 4/3 of K's in any direction: not for a co-rotational law once the body has turned.
   [[nodiscard]] bool step(BodyState& state, ForceLaw& law, std::span<const double> external) noexcept;
 
   /// Tetrahedra go and all come back: KeptFactor::remove and restore. A law of its own is told by the caller.

@@ -174,7 +174,6 @@ TEST_F(OrganProgramsTest, SolveRefusesBadInput) {
   expect_refused("organ_solve", solve_arguments((folder / "absent.csv").string()), "absent.csv");
   auto arguments = solve_arguments(write("i.csv", "79,0,0,0.001\n"));
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"--model", "hybrid"},
-                                      {"--model", "tensor-mass"},
                                       {"--remove", "tets.csv"},
                                       {"--gravity", "1,2"},
                                       {"-o", (folder / "absent" / "s").string()}}) {

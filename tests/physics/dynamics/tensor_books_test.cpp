@@ -101,5 +101,36 @@ TEST_F(TensorBooksTest, EachTetrahedronIsOfItsRegionsMaterial) {
   EXPECT_LE(difference(stiffened, books), kRestored);
 }
 
+class TensorBooksOfRealMeshes : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Data, TensorBooksOfRealMeshes,
+                         testing::Values("tet/openhelp_liver_7k.msh", "tet/sofa_liver.msh",
+                                         "tet/sofaenv_gallbladder.vtk"));
+
+// Slivers come and go: what they leave behind is measured by what was there with them.
+TEST_P(TensorBooksOfRealMeshes, LongCutsLeaveBooksOfMeshThatIsLeft) {
+  const std::filesystem::path file = test::data_file(GetParam());
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  const geometry::TetraMesh mesh = geometry::check_mesh(geometry::read_mesh(file), 1e-3).mesh;
+  const TensorBooks untouched(mesh, kMaterial);
+  TensorBooks books(mesh, kMaterial);
+  std::mt19937 generator(6);
+  std::vector<bool> gone(mesh.tetrahedra.size(), false);
+  for (std::size_t change = 0; change < 20 * gone.size(); ++change) {
+    const std::size_t t = generator() % gone.size();
+    gone[t] ? books.add(geometry::TetId(t)) : books.remove(geometry::TetId(t));
+    gone[t] = !gone[t];
+  }
+  geometry::TetraMesh left = mesh;
+  left.tetrahedra.clear();
+  for (std::size_t t = 0; t < gone.size(); ++t)
+    if (!gone[t]) left.tetrahedra.push_back(mesh.tetrahedra[t]);
+  const TensorBooks rebuilt(left, kMaterial);
+  for (std::size_t n = 0; n < books.node_count(); ++n) {
+    const NodeId id(n);
+    EXPECT_LE((books.vertex(id) - rebuilt.vertex(id)).norm(), kRestored * untouched.vertex(id).norm());
+  }
+}
+
 }  // namespace
 }  // namespace omentum::physics
