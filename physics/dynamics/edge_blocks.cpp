@@ -10,6 +10,7 @@ namespace {
 using kernels::kEdgeBlocks;
 using kernels::kEdgeLanes;
 using kernels::kNodeFloats;
+using kernels::kNodeStride;
 using kernels::kPlane;
 
 using Rows = std::vector<std::vector<std::int32_t>>;
@@ -55,7 +56,7 @@ void EdgeBlocks::place_rows(const TensorBooks& books, const Rows& rows) {
     for (int lane = 0; lane < kEdgeLanes; ++lane) {
       const bool filled = first + lane < order.size();
       const std::int32_t n = filled ? order[first + lane] : order.back();
-      rows_.push_back(n * kNodeFloats);
+      rows_.push_back(n * kNodeStride);
       for (std::int32_t i = 0; i < length; ++i) {
         const std::int32_t step = begin + i;
         // where there is no edge the node is its own neighbour
@@ -66,7 +67,7 @@ void EdgeBlocks::place_rows(const TensorBooks& books, const Rows& rows) {
           k = a == n ? b : a;
           places_[e] = {step * kEdgeBlocks + lane * kNodeFloats, b == n};
         }
-        neighbours_[static_cast<std::size_t>(step) * kEdgeLanes + lane] = k * kNodeFloats;
+        neighbours_[static_cast<std::size_t>(step) * kEdgeLanes + lane] = k * kNodeStride;
       }
     }
   }

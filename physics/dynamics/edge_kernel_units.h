@@ -9,8 +9,10 @@ namespace omentum::physics::kernels {
 
 /// Edges side by side: each is of another row.
 inline constexpr int kEdgeLanes = 4;
-/// Floats of a node: three components and padding, so that one is one aligned load.
+/// Floats of a node's displacement, or force: three components and padding, so that one is one aligned load.
 inline constexpr int kNodeFloats = 4;
+/// Floats from node to node: a node's displacement and its force share a cache line and an address.
+inline constexpr int kNodeStride = 2 * kNodeFloats;
 /// Floats of a plane: one diagonal of each lane's block, padded like a node.
 inline constexpr int kPlane = kEdgeLanes * kNodeFloats;
 /// Floats of the blocks of kEdgeLanes edges, 48 bytes each. Of a block K, padded: plane 0 is K_xx K_yy K_zz,
@@ -29,22 +31,14 @@ struct EdgeSlices {
   std::int32_t nodes;
 };
 
-/// Both [nodes][kNodeFloats], 16-byte aligned; the fourth floats of `u` are zero and stay so.
-struct EdgeScratch {
-  float *u, *f;
-};
-
 /// With d = u_k - u_n and K the block between n (row) and k (neighbour), over all edges: f_n -= K d,
-/// f_k += K^T d, from zero. `u`, `f`: [nodes][3]; in between everything is float.
-using EdgeForces = void (*)(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
-                            double* f) noexcept;
+/// f_k += K^T d, from zero. `u`, `f`: [nodes][3]; in between everything is float. `scratch`:
+/// [nodes][kNodeStride], 32-byte aligned.
+using EdgeForces = void (*)(const EdgeSlices& slices, const double* u, float* scratch, double* f) noexcept;
 
 /// For each vector unit; edge_kernels() knows which of them this processor has.
-void edge_forces_plain(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
-                       double* f) noexcept;
-void edge_forces_avx2(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
-                      double* f) noexcept;
-void edge_forces_avx512(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
-                        double* f) noexcept;
+void edge_forces_plain(const EdgeSlices& slices, const double* u, float* scratch, double* f) noexcept;
+void edge_forces_avx2(const EdgeSlices& slices, const double* u, float* scratch, double* f) noexcept;
+void edge_forces_avx512(const EdgeSlices& slices, const double* u, float* scratch, double* f) noexcept;
 
 }  // namespace omentum::physics::kernels

@@ -2,8 +2,7 @@
 
 namespace omentum::physics::kernels {
 
-void edge_forces_avx2(const EdgeSlices& slices, const double* u, const EdgeScratch& scratch,
-                      double* f) noexcept {
+void edge_forces_avx2(const EdgeSlices& slices, const double* u, float* scratch, double* f) noexcept {
   edge_forces_here(slices, u, scratch, f);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/dynamics/factor_kernels.h"
+#include "physics/dynamics/huge_pages.h"
 #include "physics/stiffness_factor.h"
 
 #include <cstdint>
@@ -87,7 +88,7 @@ class FactorPanels {
   std::vector<std::int32_t> supernode_of_;  // [n]
   std::vector<std::int32_t> rows_;
   std::vector<Strip> strips_;
-  std::vector<Column> high_, low_;
+  std::vector<Column, HugePages<Column>> high_, low_;
   std::vector<Inverses> inverses_;     // [strips]
   std::vector<double> pivots_;         // [n] D
   std::vector<float> inverse_pivots_;  // [n]

@@ -59,9 +59,10 @@ KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& mater
       material_(material),
       mass_(mass),
       weights_(weights),
-      stiffness_(assembled.stiffness),
-      neighbour_(stiffness_.neighbour.begin(), stiffness_.neighbour.end()),
-      uncut_stiffness_(stiffness_.block),
+      start_(assembled.stiffness.start),
+      neighbour_(assembled.stiffness.neighbour.begin(), assembled.stiffness.neighbour.end()),
+      block_(assembled.stiffness.block.begin(), assembled.stiffness.block.end()),
+      uncut_block_(block_),
       component_(assembled.free.count),
       position_(assembled.free.index.size(), -1),
       panels_(assembled.factor.supernodes()),
@@ -98,11 +99,9 @@ void KeptFactor::subtract_element(geometry::TetId t) noexcept {
   const ElementTensors element = element_tensors(corners_of(mesh_, t), material_.of(mesh_, t));
   const geometry::Tetrahedron& tet = mesh_.tetrahedra[t];
   for (int j = 0; j < 4; ++j) {
-    const auto row = stiffness_.neighbour.begin() + stiffness_.start[tet[j]];
-    const auto row_end = stiffness_.neighbour.begin() + stiffness_.start[tet[j] + 1];
+    const auto row = neighbour_.begin() + start_[tet[j]], row_end = neighbour_.begin() + start_[tet[j] + 1];
     for (int k = 0; k < 4; ++k)
-      stiffness_.block[std::lower_bound(row, row_end, tet[k]) - stiffness_.neighbour.begin()] -=
-          element[j][k];
+      block_[std::lower_bound(row, row_end, tet[k]) - neighbour_.begin()] -= element[j][k];
   }
 }
 
@@ -123,7 +122,7 @@ bool KeptFactor::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
 }
 
 void KeptFactor::restore() noexcept {
-  std::ranges::copy(uncut_stiffness_, stiffness_.block.begin());
+  std::ranges::copy(uncut_block_, block_.begin());
   for (std::size_t s = 0; s < changed_.size(); ++s) {
     if (changed_[s] == 0) continue;
     panels_.copy(panels_.supernodes()[s], uncut_);
@@ -146,8 +145,8 @@ void KeptFactor::solve(std::span<const double> b, std::span<double> x) noexcept 
 }
 
 void KeptFactor::holding_forces(std::span<const double> u, std::span<double> f) const noexcept {
-  kernels::multiply_block_rows(stiffness_.start.data(), neighbour_.data(), stiffness_.block.front().data(),
-                               stiffness_.node_count(), u.data(), f.data());
+  kernels::multiply_block_rows(start_.data(), neighbour_.data(), block_.front().data(), node_count(),
+                               u.data(), f.data());
 }
 
 void KeptFactor::multiply(std::span<const double> x, std::span<double> y) const noexcept {

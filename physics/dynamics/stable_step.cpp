@@ -1,5 +1,7 @@
 #include "physics/dynamics/stable_step.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,8 +12,6 @@ namespace omentum::physics {
 
 namespace {
 
-using Values = std::vector<double>;
-
 constexpr double kResidual = 0.02;  // of the eigenvalue: 1 % of the frequency
 // Displacements of the iteration, m: so small that rotations of an element show in no law, and large in
 // float.
@@ -21,20 +21,47 @@ constexpr double kProbe_m = 1e-6;
 constexpr double kRungeKuttaUndamped = 2 * std::numbers::sqrt2;
 constexpr double kRungeKuttaDamped = 2.615;
 
-Values free_scales(const Inertia& inertia) {
-  Values scale(3 * inertia.mass.size(), 0);
-  for (std::size_t i = 0; i < scale.size(); ++i) {
-    if (!is_fixed(inertia.fixed[i / 3], static_cast<int>(i % 3)))
-      scale[i] = 1 / std::sqrt(inertia.mass[i / 3]);
+Eigen::VectorXd free_scales(const Inertia& inertia) {
+  Eigen::VectorXd scale(static_cast<Eigen::Index>(3 * inertia.mass.size()));
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    const auto node = static_cast<std::size_t>(i / 3);
+    scale[i] = is_fixed(inertia.fixed[node], static_cast<int>(i % 3)) ? 0 : 1 / std::sqrt(inertia.mass[node]);
   }
   return scale;
 }
 
-double norm(const Values& x) {
-  double square = 0;
-  for (const double component : x) square += component * component;
-  return std::sqrt(square);
-}
+// M^-1/2 K M^-1/2 over the free components: symmetric, with the eigenvalues of M^-1 K.
+class ScaledStiffness {
+ public:
+  ScaledStiffness(ForceLaw& law, const Inertia& inertia)
+      : law_(law), scale_(free_scales(inertia)), u_(scale_.size()), f_(scale_.size()) {
+    // a unit vector moves the node with the least mass by the probe at most
+    reach_ = kProbe_m / scale_.maxCoeff();
+  }
+
+  bool anything_free() const { return scale_.maxCoeff() > 0; }
+
+  Eigen::VectorXd any_unit_vector() const {
+    std::mt19937 generator(1);
+    std::normal_distribution<double> normal;
+    const Eigen::VectorXd any =
+        Eigen::VectorXd::NullaryExpr(scale_.size(), [&] { return normal(generator); });
+    return (scale_.array() > 0).select(any, 0).normalized();
+  }
+
+  const Eigen::VectorXd& times(const Eigen::VectorXd& x) {
+    u_ = reach_ * scale_.cwiseProduct(x);
+    const auto size = static_cast<std::size_t>(u_.size());
+    law_.forces({u_.data(), size}, {f_.data(), size});
+    f_ = f_.cwiseProduct(scale_) / -reach_;
+    return f_;
+  }
+
+ private:
+  ForceLaw& law_;
+  Eigen::VectorXd scale_, u_, f_;  // [3N]
+  double reach_;
+};
 
 // The larger rate of decay of a mode that creeps back without swinging, or how fast it swings, 1/s:
 // |lambda| of lambda^2 + c lambda + w^2 = 0 with the larger modulus.
@@ -59,31 +86,17 @@ double symplectic_euler_limit(double a, double b, double w) {
 }  // namespace
 
 HighestFrequency highest_frequency(ForceLaw& law, const Inertia& inertia, int most) {
-  const Values scale = free_scales(inertia);
-  Values x(scale.size()), u(scale.size()), f(scale.size());
-  std::mt19937 generator(1);
-  std::normal_distribution<double> normal;
-  std::ranges::generate(x, [&] { return normal(generator); });
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale[i] > 0 ? 1 : 0;
-  // a unit vector of the scaled space moves the node with the least mass by at most the probe
-  const double reach = kProbe_m / *std::ranges::max_element(scale);
+  ScaledStiffness A(law, inertia);
   HighestFrequency found;
+  if (!A.anything_free()) return found;
+  Eigen::VectorXd x = A.any_unit_vector();
   double eigenvalue = 0, residual = std::numeric_limits<double>::infinity();
   while (found.evaluations < most && residual > kResidual * eigenvalue) {
-    const double size = norm(x);
-    if (size == 0) return found;
-    for (std::size_t i = 0; i < x.size(); ++i) u[i] = reach * scale[i] * (x[i] /= size);
-    law.forces(u, f);
+    const Eigen::VectorXd& Ax = A.times(x);
     ++found.evaluations;
-    eigenvalue = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      f[i] *= -scale[i] / reach;
-      eigenvalue += x[i] * f[i];
-    }
-    residual = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) residual += std::pow(f[i] - eigenvalue * x[i], 2);
-    residual = std::sqrt(residual);
-    x.swap(f);
+    eigenvalue = x.dot(Ax);
+    residual = (Ax - eigenvalue * x).norm();
+    x = Ax.normalized();
   }
   found.rad_s = std::sqrt(eigenvalue + residual);
   return found;

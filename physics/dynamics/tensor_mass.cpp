@@ -8,8 +8,6 @@ namespace omentum::physics {
 
 namespace {
 
-using kernels::kNodeFloats;
-
 Eigen::Map<const Vec3> at(std::span<const double> values, NodeId n) {
   return Eigen::Map<const Vec3>(values.data() + 3 * static_cast<std::size_t>(n));
 }
@@ -26,8 +24,7 @@ TensorMass::TensorMass(const geometry::TetraMesh& mesh, const MaterialMap& mater
       blocks_(books_),
       arithmetic_(arithmetic),
       edge_forces_(kernel.forces),
-      u_(kNodeFloats * books_.node_count()),
-      f_(kNodeFloats * books_.node_count()) {
+      scratch_(kernels::kNodeStride * books_.node_count()) {
   for (std::size_t e = 0; e < books_.edges().size(); ++e)
     blocks_.refresh(books_, static_cast<std::int32_t>(e));
 }
@@ -36,7 +33,7 @@ void TensorMass::forces(std::span<const double> u, std::span<double> f) noexcept
   geometry::require(u.size() == 3 * books_.node_count() && f.size() == u.size(),
                     "three values for each node");
   if (arithmetic_ == Arithmetic::kFloat) {
-    edge_forces_(blocks_.slices(), u.data(), {u_.data(), f_.data()}, f.data());
+    edge_forces_(blocks_.slices(), u.data(), scratch_.data(), f.data());
   } else {
     forces_in_double(u, f);
   }

@@ -35,7 +35,7 @@ class TensorMass final : public ForceLaw {
   EdgeBlocks blocks_;
   Arithmetic arithmetic_;
   kernels::EdgeForces edge_forces_;
-  AlignedFloats u_, f_;  // [N][kNodeFloats]
+  AlignedFloats scratch_;  // [N][kNodeStride]
 };
 
 }  // namespace omentum::physics

@@ -9,8 +9,6 @@
 namespace omentum::physics {
 namespace {
 
-using kernels::kNodeFloats;
-
 const Material kMaterial{5000, 0.45, 1000};
 constexpr double kFloatRounding = 2e-6;  // relative: sums of some twenty products in float
 
@@ -28,9 +26,9 @@ std::vector<Vec3> expected_forces(const TensorBooks& books, const std::vector<do
 
 std::vector<double> computed_forces(const kernels::EdgeKernel& kernel, const EdgeBlocks& blocks,
                                     const std::vector<double>& u) {
-  AlignedFloats u_scratch(u.size() / 3 * kNodeFloats), f_scratch(u.size() / 3 * kNodeFloats);
+  AlignedFloats scratch(u.size() / 3 * kernels::kNodeStride);
   std::vector<double> f(u.size(), -1);
-  kernel.forces(blocks.slices(), u.data(), {u_scratch.data(), f_scratch.data()}, f.data());
+  kernel.forces(blocks.slices(), u.data(), scratch.data(), f.data());
   return f;
 }
 
