@@ -1,6 +1,7 @@
 #include "physics/dynamics/kept_factor.h"
 
 #include "physics/dynamics/element_root.h"
+#include "physics/dynamics/flush_tiny.h"
 
 #include <algorithm>
 #include <cmath>
@@ -174,6 +175,7 @@ void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
 
 // With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
 void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
+  const FlushTiny flush;
   mark_ways(nodes);
   const std::size_t width = 3 * nodes.size(), n = x_.size();
   for (std::size_t r = 0; r < width; ++r) {
