@@ -58,7 +58,7 @@ class FactorPanels {
   /// One supernode's share of L^-1 x; and of L^-T x.
   void forward(const Supernode& s, float* x, float* scratch) const noexcept;
   void backward(const Supernode& s, float* x, float* scratch) const noexcept;
-  /// D at `position`, as solves use it.
+  /// 1 / D at `position`, as solves use it.
   float inverse_pivot(std::int32_t position) const { return inverse_pivots_[position]; }
 
   /// What solves keep of the diagonal tiles of a supernode, after its columns or pivots changed.

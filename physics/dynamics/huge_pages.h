@@ -13,7 +13,7 @@ void give_pages_back(void* pages) noexcept;
 /// The same for a std::vector.
 template <class T>
 struct HugePages {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): the standard's name
 
   HugePages() = default;
   template <class Other>

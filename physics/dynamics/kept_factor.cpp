@@ -1,10 +1,11 @@
 #include "physics/dynamics/kept_factor.h"
 
 #include "physics/dynamics/element_root.h"
+#include "physics/dynamics/flush_tiny.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 namespace omentum::physics {
 
@@ -37,13 +38,14 @@ std::vector<std::int32_t> free_components(const FreeDofs& free) {
 struct KeptFactor::Assembled {
   FreeDofs free;
   Stiffness stiffness;
-  StiffnessFactor factor;
+  std::optional<StiffnessFactor> factor;  // none where everything is held
 
   Assembled(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
             std::span<const double> mass, const SystemWeights& weights)
-      : free(free_dofs(fixed)),
-        stiffness(assemble_stiffness(mesh, material)),
-        factor(system_of(stiffness, mass, weights), free) {}
+      : free(free_dofs(fixed)), stiffness(assemble_stiffness(mesh, material)) {
+    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free);
+  }
+  Supernodes supernodes() const { return factor ? factor->supernodes() : Supernodes{}; }
 };
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
@@ -65,18 +67,18 @@ KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& mater
       uncut_block_(block_),
       component_(assembled.free.count),
       position_(assembled.free.index.size(), -1),
-      panels_(assembled.factor.supernodes()),
+      panels_(assembled.supernodes()),
       uncut_(panels_),
       downdate_(panels_),
       changed_(panels_.supernodes().size()),
-      scratch_(panels_.most_rows() / kTileRows),
+      scratch_(std::max(1, panels_.most_rows() / kTileRows)),
       x_(panels_.size()),
       residual_(position_.size()),
       correction_(position_.size()),
       columns_(static_cast<std::size_t>(3 * most_compliance_nodes) * panels_.size()),
       on_way_(panels_.supernodes().size()) {
   const std::vector<std::int32_t> components = free_components(assembled.free);
-  const Supernodes order = assembled.factor.supernodes();
+  const Supernodes order = assembled.supernodes();
   for (std::int32_t p = 0; p < order.size; ++p) {
     component_[p] = components[order.permutation[p]];
     position_[component_[p]] = p;
@@ -174,6 +176,7 @@ void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
 
 // With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
 void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
+  const FlushTiny flush;
   mark_ways(nodes);
   const std::size_t width = 3 * nodes.size(), n = x_.size();
   for (std::size_t r = 0; r < width; ++r) {

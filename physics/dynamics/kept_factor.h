@@ -52,7 +52,7 @@ class KeptFactor {
   /// What A is made of, and entries of its factor.
   const SystemWeights& weights() const { return weights_; }
   std::size_t entry_count() const { return panels_.entry_count(); }
-  /// Nodes and degrees of freedom that are free.
+  /// Nodes; degrees of freedom that are free.
   std::int32_t node_count() const { return static_cast<std::int32_t>(mass_.size()); }
   std::int32_t free_count() const { return panels_.size(); }
   /// Whether a support holds component `c` of the [3N].
