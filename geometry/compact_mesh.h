@@ -4,6 +4,8 @@
 #include "geometry/mesh_topology.h"
 #include "geometry/tetra_mesh.h"
 
+#include <span>
+
 namespace omentum::geometry {
 
 /// `positions`: of all nodes of the file, m; `tetrahedra`: those that are kept, by the file's nodes; `kept`:

@@ -4,6 +4,7 @@
 #include "geometry/tetra_links.h"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 

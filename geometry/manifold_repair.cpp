@@ -31,6 +31,7 @@ ManifoldRepair::ManifoldRepair(const RemainingTetrahedra& left)
       noted_(static_cast<std::size_t>(left.links().node_count())),
       is_noted_(noted_.size(), false),
       place_(static_cast<std::size_t>(left.links().tetrahedron_count()), kNone),
+      is_seen_(place_.size(), 0),
       side_count_(noted_.size(), 0),
       sides_of_(noted_.size()) {
   const std::size_t star = left.links().largest_star();
@@ -64,14 +65,38 @@ std::span<const TetId> ManifoldRepair::next() noexcept {
   return victims_;
 }
 
+// The usual case, in one walk through the faces around the node.
+bool ManifoldRepair::is_manifold_around(NodeId n) noexcept {
+  if (left_.uses(n) == 0) return true;
+  const auto see = [this](TetId t) {
+    if (at(is_seen_, t) != 0) return;
+    at(is_seen_, t) = 1;
+    star_.push_back(t);
+  };
+  star_.clear();
+  sides_.clear();
+  see(*std::ranges::find_if(left_.links().around(n), [this](TetId t) { return left_.has(t); }));
+  for (std::size_t i = 0; i < star_.size(); ++i) {
+    add_sides_of(static_cast<std::int32_t>(i), n);
+    for_each_neighbour_around(left_, star_[i], n, NodeId{}, see);
+  }
+  for (const TetId t : star_) at(is_seen_, t) = 0;
+  const bool one_fan = static_cast<std::int32_t>(star_.size()) == left_.uses(n);
+  const bool manifold = one_fan && !crowded_edge().valid() && number_fans_of_sides() < 2;
+  forget_sides();
+  return manifold;
+}
+
 void ManifoldRepair::find_victims_at(NodeId n) noexcept {
+  if (is_manifold_around(n)) return;
   collect_star(n);
   condemn_smaller_fans(n, NodeId{});
   if (!victims_.empty()) return;
   collect_sides(n);
   if (const NodeId edge_end = crowded_edge(); edge_end.valid()) {
     condemn_smaller_fans(n, edge_end);
-  } else if (number_fans_of_sides() > 1) {
+  } else {
+    number_fans_of_sides();
     condemn_bridge(n);
   }
   forget_sides();
@@ -79,7 +104,6 @@ void ManifoldRepair::find_victims_at(NodeId n) noexcept {
 
 void ManifoldRepair::collect_star(NodeId n) noexcept {
   star_.clear();
-  if (left_.uses(n) == 0) return;
   for (const TetId t : left_.links().around(n)) {
     if (!left_.has(t)) continue;
     at(place_, t) = static_cast<std::int32_t>(star_.size());
@@ -122,18 +146,21 @@ void ManifoldRepair::condemn_smaller_fans(NodeId n, NodeId edge_end) noexcept {
 
 void ManifoldRepair::collect_sides(NodeId n) noexcept {
   sides_.clear();
-  for (std::size_t i = 0; i < star_.size(); ++i) {
-    const Tetrahedron& v = left_.links().nodes(star_[i]);
-    const std::array<TetId, 4>& across = left_.links().across(star_[i]);
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (v[c] == n || left_.has_neighbour(across[c])) continue;
-      std::array<NodeId, 2> ends;
-      std::size_t found = 0;
-      for (const NodeId other : v) {
-        if (other != n && other != v[c]) ends[found++] = other;
-      }
-      add_side(ends[0], ends[1], static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < star_.size(); ++i) add_sides_of(static_cast<std::int32_t>(i), n);
+}
+
+void ManifoldRepair::add_sides_of(std::int32_t owner, NodeId n) noexcept {
+  const TetId t = at(star_, owner);
+  const Tetrahedron& v = left_.links().nodes(t);
+  const std::array<TetId, 4>& across = left_.links().across(t);
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (v[c] == n || left_.has_neighbour(across[c])) continue;
+    std::array<NodeId, 2> ends;
+    std::size_t found = 0;
+    for (const NodeId other : v) {
+      if (other != n && other != v[c]) ends[found++] = other;
     }
+    add_side(ends[0], ends[1], owner);
   }
 }
 

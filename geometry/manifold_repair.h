@@ -4,6 +4,7 @@
 #include "geometry/remaining_tetrahedra.h"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -40,9 +41,11 @@ class ManifoldRepair {
     std::int32_t fan;
   };
 
+  bool is_manifold_around(NodeId n) noexcept;
   void find_victims_at(NodeId n) noexcept;
   void collect_star(NodeId n) noexcept;
   void collect_sides(NodeId n) noexcept;
+  void add_sides_of(std::int32_t owner, NodeId n) noexcept;
   void add_side(NodeId a, NodeId b, std::int32_t owner) noexcept;
   void forget_sides() noexcept;
   void condemn_smaller_fans(NodeId n, NodeId edge_end) noexcept;
@@ -58,6 +61,7 @@ class ManifoldRepair {
   std::vector<bool> is_noted_;                         // [N]
   std::vector<TetId> star_;                            // around the node, ascending
   std::vector<std::int32_t> place_;                    // [T], in star_, of those that are there
+  std::vector<std::uint8_t> is_seen_;                  // [T], 0 between looks
   std::vector<std::int32_t> fan_;                      // [star]
   std::vector<std::int32_t> fan_size_;                 // [fans]
   std::vector<std::int32_t> pending_;                  // [star], a search's

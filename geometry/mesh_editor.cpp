@@ -2,6 +2,8 @@
 
 #include "geometry/surface.h"
 
+#include <bit>
+
 namespace omentum::geometry {
 namespace {
 
@@ -97,15 +99,17 @@ void MeshEditor::drop_small_pieces() noexcept {
 void MeshEditor::set_removed(std::span<const std::uint8_t> bits) noexcept {
   gone_.clear();
   bool anything_back = false;
-  for (std::int32_t t = 0; t < links_.tetrahedron_count(); ++t) {
-    const std::size_t byte = static_cast<std::size_t>(t) / 8;
-    const bool goes = byte < bits.size() && ((bits[byte] >> (t % 8)) & 1) != 0;
-    if (goes == is_removed(TetId(t))) continue;
-    if (goes) {
-      remove_one(TetId(t));
-    } else {
-      put_back(TetId(t));
-      anything_back = true;
+  for (std::size_t byte = 0; byte < removed_bits().size(); ++byte) {
+    const unsigned wanted = byte < bits.size() ? bits[byte] : 0u;
+    for (unsigned changes = wanted ^ removed_bits()[byte]; changes != 0; changes &= changes - 1) {
+      const TetId t(8 * byte + static_cast<std::size_t>(std::countr_zero(changes)));
+      if (t >= links_.tetrahedron_count()) break;
+      if (!is_removed(t)) {
+        remove_one(t);
+      } else {
+        put_back(t);
+        anything_back = true;
+      }
     }
   }
   if (anything_back) {

@@ -32,7 +32,7 @@ struct Removal {
 /// pieces (Cotin 1998, 5.5). After each remove() every boundary edge has two faces, and the tetrahedra and
 /// the boundary faces around every node form one fan each, as check_mesh demands of a mesh. Mesh and set of
 /// removed tetrahedra alone determine every answer but the order of faces(), so that processes which agree in
-/// the set agree in the surface. All memory is taken at construction (about 300 bytes per tetrahedron). One
+/// the set agree in the surface. All memory is taken at construction (about 250 bytes per tetrahedron). One
 /// thread at a time.
 class MeshEditor {
  public:

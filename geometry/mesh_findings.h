@@ -4,7 +4,9 @@
 #include "geometry/mesh_topology.h"
 #include "geometry/tetra_mesh.h"
 
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace omentum::geometry {

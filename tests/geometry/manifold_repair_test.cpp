@@ -1,7 +1,7 @@
 #include "geometry/manifold_repair.h"
 
 #include "geometry/mesh_editor.h"
-#include "tests/geometry/cut_trials.h"
+#include "tests/geometry/books_from_scratch.h"
 #include "tests/support/meshes.h"
 
 #include <gmock/gmock.h>
