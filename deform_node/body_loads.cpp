@@ -1,7 +1,5 @@
 #include "deform_node/body_loads.h"
 
-#include "deform_node/contact_book.h"
-
 #include <algorithm>
 
 namespace omentum::deform {
@@ -14,7 +12,8 @@ BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap
     : mesh_(mesh),
       gravity_(gravity_m_s2),
       uncut_kg_(mesh.positions.size()),
-      external_(3 * mesh.positions.size()),
+      weights_(3 * mesh.positions.size()),
+      external_(weights_.size()),
       pressed_(mesh.positions.size(), Vec3::Zero()) {
   quarter_kg_.reserve(mesh.tetrahedra.size());
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
@@ -24,33 +23,77 @@ BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap
                           geometry::signed_volume(x[a], x[b], x[c], x[d]) / 4);
     for (const NodeId n : mesh.tetrahedra[t]) uncut_kg_[n] += quarter_kg_.back();
   }
-  pressed_nodes_.reserve(kMaxLoadedNodes);
+  held_.reserve(kMaxTools);
+  presses_.reserve(kMaxTools);
   restore();
 }
 
-void BodyLoads::weigh(NodeId n) noexcept {
-  Eigen::Map<Vec3>(external_.data() + 3 * n) = carried_kg_[n] * gravity_ + pressed_[n];
+physics::Press BodyLoads::HeldPress::press() const noexcept {
+  return {{nodes.data(), count}, {displacements.data(), count}, {forces.data(), count}};
 }
 
-Vec3 BodyLoads::of_tools(NodeId n) const noexcept {
-  return pressed_[n];
+void BodyLoads::weigh(NodeId n) noexcept {
+  const Vec3 weight = carried_kg_[n] * gravity_;
+  Vec3::Map(&weights_[3 * n]) = weight;
+  Vec3::Map(&external_[3 * n]) = weight + pressed_[n];
+}
+
+Vec3 BodyLoads::of_tool(std::uint32_t tool, NodeId n) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (const HeldPress& held : held_)
+    for (std::size_t i = 0; i < held.count; ++i)
+      if (held.tool == tool && held.nodes[i] == n) sum += held.strength * held.forces[i];
+  return sum;
 }
 
 void BodyLoads::press(std::span<const ToolLoad> presses, const MeshEditor& editor) noexcept {
-  for (const NodeId n : pressed_nodes_) {
-    pressed_[n].setZero();
-    weigh(n);
-  }
-  pressed_nodes_.clear();
+  forget_presses();
   for (const ToolLoad& load : presses) {
-    for (std::size_t i = 0; i < load.nodes.size(); ++i) {
-      const NodeId n = load.nodes[i];
-      if (editor.uses(n) == 0 || pressed_nodes_.size() == pressed_nodes_.capacity()) continue;
-      pressed_nodes_.push_back(n);
-      pressed_[n] += load.forces[i];
-      weigh(n);
+    if (held_.size() == kMaxTools) break;
+    HeldPress& held = held_.emplace_back();
+    held.tool = load.tool;
+    held.count = std::min<std::size_t>(load.nodes.size(), kMaxNodesPerTool);
+    std::copy_n(load.nodes.begin(), held.count, held.nodes.begin());
+    std::copy_n(load.displacements.begin(), held.count, held.displacements.begin());
+    std::copy_n(load.forces.begin(), held.count, held.forces.begin());
+    keep_attached(held, editor);
+    presses_.push_back(held.press());
+    for (std::size_t i = 0; i < held.count; ++i) pressed_[held.nodes[i]] += held.forces[i];
+    for (std::size_t i = 0; i < held.count; ++i) weigh(held.nodes[i]);
+  }
+}
+
+void BodyLoads::act(std::span<const double> strengths) noexcept {
+  for (std::size_t p = 0; p < held_.size(); ++p) {
+    HeldPress& held = held_[p];
+    for (std::size_t i = 0; i < held.count; ++i) {
+      pressed_[held.nodes[i]] += (strengths[p] - held.strength) * held.forces[i];
+      weigh(held.nodes[i]);
+    }
+    held.strength = strengths[p];
+  }
+}
+
+void BodyLoads::forget_presses() noexcept {
+  for (const HeldPress& held : held_) {
+    for (std::size_t i = 0; i < held.count; ++i) {
+      pressed_[held.nodes[i]].setZero();
+      weigh(held.nodes[i]);
     }
   }
+  held_.clear();
+  presses_.clear();
+}
+
+void BodyLoads::keep_attached(HeldPress& held, const MeshEditor& editor) noexcept {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < held.count; ++i) {
+    if (editor.uses(held.nodes[i]) == 0) continue;
+    held.nodes[kept] = held.nodes[i];
+    held.displacements[kept] = held.displacements[i];
+    held.forces[kept++] = held.forces[i];
+  }
+  held.count = kept;
 }
 
 void BodyLoads::lighten(std::span<const TetId> gone, const MeshEditor& editor) noexcept {
@@ -62,12 +105,15 @@ void BodyLoads::lighten(std::span<const TetId> gone, const MeshEditor& editor) n
       weigh(n);
     }
   }
+  for (std::size_t p = 0; p < held_.size(); ++p) {
+    keep_attached(held_[p], editor);
+    presses_[p] = held_[p].press();
+  }
 }
 
 void BodyLoads::restore() noexcept {
+  forget_presses();
   carried_kg_ = uncut_kg_;
-  std::ranges::fill(pressed_, Vec3::Zero());
-  pressed_nodes_.clear();
   for (std::size_t n = 0; n < uncut_kg_.size(); ++n) weigh(NodeId(n));
 }
 

@@ -1,9 +1,9 @@
 // What pulls and pushes the nodes of an organ with masses: its weight and the tools.
 #pragma once
 
-#include "deform_node/organ_models.h"
+#include "deform_node/contact_book.h"
 #include "geometry/mesh_editor.h"
-#include "physics/material_map.h"
+#include "physics/dynamics/imposed_press.h"
 
 #include <vector>
 
@@ -16,28 +16,47 @@ class BodyLoads {
  public:
   BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap& material, const Vec3& gravity_m_s2);
 
-  /// The tools' forces from now on, in place of the last ones.
+  /// What the tools' hands want from now on, in place of the last ones; as strong as they say.
   void press(std::span<const ToolLoad> presses, const geometry::MeshEditor& editor) noexcept;
+  std::span<const physics::Press> presses() const noexcept { return presses_; }
+  /// How strong each of presses() really is, as a share of what its hand said.
+  void act(std::span<const double> strengths) noexcept;
   /// What is left in `editor` after these went, or after all came back.
   void lighten(std::span<const geometry::TetId> gone, const geometry::MeshEditor& editor) noexcept;
   void restore() noexcept;
 
-  /// [3N], N.
+  /// Weights alone / with the tools' forces as they act, [3N], N.
+  std::span<const double> weights() const noexcept { return weights_; }
   std::span<const double> external() const noexcept { return external_; }
-  /// The tools' share at one node, N.
-  Vec3 of_tools(NodeId n) const noexcept;
+  /// One tool's share at a node, N.
+  Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
 
  private:
+  /// One tool's, without nodes that nothing is left around.
+  struct HeldPress {
+    std::uint32_t tool = 0;
+    double strength = 1;
+    std::size_t count = 0;
+    std::array<NodeId, kMaxNodesPerTool> nodes;
+    std::array<Vec3, kMaxNodesPerTool> displacements, forces;
+
+    physics::Press press() const noexcept;
+  };
+
+  void keep_attached(HeldPress& held, const geometry::MeshEditor& editor) noexcept;
   void weigh(NodeId n) noexcept;
+  void forget_presses() noexcept;
 
   const geometry::TetraMesh& mesh_;
   Vec3 gravity_;
   std::vector<double> quarter_kg_;  // [T], of each tetrahedron's mass
   std::vector<double> carried_kg_;  // [N]
   std::vector<double> uncut_kg_;    // [N]
+  std::vector<double> weights_;     // [3N]
   std::vector<double> external_;    // [3N]
   std::vector<Vec3> pressed_;       // [N], by the tools
-  std::vector<NodeId> pressed_nodes_;
+  std::vector<HeldPress> held_;     // capacity kMaxTools
+  std::vector<physics::Press> presses_;
 };
 
 }  // namespace omentum::deform

@@ -1,61 +1,116 @@
 #include "deform_node/body_stepper.h"
 
+#include "physics/dynamics/corotational.h"
+#include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/warped_step.h"
+
 #include <cmath>
 #include <utility>
 
 namespace omentum::deform {
 
-using geometry::TetId;
-
 namespace {
 
-std::optional<double> finite(double work_j) {
-  return std::isfinite(work_j) ? std::optional(work_j) : std::nullopt;
+using geometry::TetId;
+using physics::BodyState;
+using physics::ForceLaw;
+
+using Work = std::optional<double>;
+
+// Of forces that were held over a step of `dt` which ended with `state`.
+double work_of(std::span<const double> external, const BodyState& state, double dt) {
+  double power_w = 0;
+  for (std::size_t c = 0; c < external.size(); ++c) power_w += external[c] * state.v[c];
+  return power_w * dt;
 }
+
+std::unique_ptr<physics::LargeStep> implicit_of(const SteppedBody& body, double step_s) {
+  return std::make_unique<physics::ImplicitStep>(
+      body.mesh, body.material, body.inertia,
+      physics::ImplicitOptions{.step_s = step_s, .most_compliance_nodes = BodyStepper::kPatchNodes});
+}
+
+std::unique_ptr<physics::LargeStep> warped_of(const SteppedBody& body, double step_s) {
+  return std::make_unique<physics::WarpedStep>(
+      body.mesh, body.material, body.inertia, physics::Corotational(body.mesh, body.material),
+      physics::WarpedOptions{.step_s = step_s, .most_compliance_nodes = BodyStepper::kPatchNodes});
+}
+
+class LargeStepper final : public BodyStepper {
+ public:
+  LargeStepper(const SteppedBody& body, std::unique_ptr<physics::LargeStep> large)
+      : large_(std::move(large)), imposed_(body.mesh.positions.size(), kMaxTools) {}
+
+  double step_s() const override { return large_->step_s(); }
+  Work step(BodyState& state, BodyLoads& loads) noexcept override {
+    if (!large_->step(state, loads.weights())) return {};
+    loads.act(imposed_.impose(*large_, loads.presses(), state));
+    return work_of(loads.external(), state, step_s());
+  }
+  double elastic_energy(std::span<const double> u) noexcept override { return large_->elastic_energy(u); }
+  bool remove(std::span<const TetId> tetrahedra) noexcept override { return large_->remove(tetrahedra); }
+  void restore(std::span<const TetId> /*removed*/) noexcept override { large_->restore(); }
+  physics::LargeStep& felt() noexcept override { return *large_; }
+
+ private:
+  std::unique_ptr<physics::LargeStep> large_;
+  physics::ImposedPress imposed_;
+};
+
+class ExplicitStepper final : public BodyStepper {
+ public:
+  ExplicitStepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law, physics::ExplicitScheme scheme,
+                  double step_s)
+      : inertia_(body.inertia),
+        law_(std::move(law)),
+        explicit_(scheme, inertia_),
+        step_s_(step_s),
+        felt_(implicit_of(body, kFeltStep_s)) {}
+
+  double step_s() const override { return step_s_; }
+  Work step(BodyState& state, BodyLoads& loads) noexcept override {
+    return finite(explicit_.step(*law_, loads.external(), step_s_, state));
+  }
+  Work step_shorter(BodyState& state, BodyLoads& loads) noexcept override {
+    double work_j = 0;
+    for (int i = 0; i < kShorter; ++i)
+      work_j += explicit_.step(*law_, loads.external(), step_s_ / kShorter, state);
+    return finite(work_j);
+  }
+  double elastic_energy(std::span<const double> u) noexcept override { return law_->energy(u); }
+  bool remove(std::span<const TetId> tetrahedra) noexcept override {
+    for (const TetId t : tetrahedra) law_->remove(t);
+    return felt_->remove(tetrahedra);
+  }
+  void restore(std::span<const TetId> removed) noexcept override {
+    for (const TetId t : removed) law_->add(t);
+    felt_->restore();
+  }
+  physics::LargeStep& felt() noexcept override { return *felt_; }
+
+ private:
+  static Work finite(double work_j) { return std::isfinite(work_j) ? Work(work_j) : std::nullopt; }
+
+  physics::Inertia inertia_;
+  std::unique_ptr<ForceLaw> law_;
+  physics::ExplicitStep explicit_;
+  double step_s_;
+  std::unique_ptr<physics::LargeStep> felt_;
+};
 
 }  // namespace
 
-BodyStepper::BodyStepper(const geometry::TetraMesh& mesh, const physics::MaterialMap& material,
-                         const physics::Inertia& inertia, StepperParts parts)
-    : inertia_(inertia),
-      law_(std::move(parts.law)),
-      step_s_(parts.step_s),
-      implicit_(mesh, material, inertia_,
-                {.step_s = parts.scheme ? kFeltStep_s : parts.step_s,
-                 .most_compliance_nodes = parts.most_compliance_nodes}) {
-  if (parts.scheme) explicit_.emplace(*parts.scheme, inertia_);
+std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s) {
+  return std::make_unique<LargeStepper>(body, implicit_of(body, step_s));
 }
 
-std::optional<double> BodyStepper::step(physics::BodyState& state,
-                                        std::span<const double> external) noexcept {
-  if (explicit_) return finite(explicit_->step(*law_, external, step_s_, state));
-  if (!(law_ ? implicit_.step(state, *law_, external) : implicit_.step(state, external))) return {};
-  double power_w = 0;
-  for (std::size_t c = 0; c < external.size(); ++c) power_w += external[c] * state.v[c];
-  return power_w * step_s_;
+std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s) {
+  return std::make_unique<LargeStepper>(body, warped_of(body, step_s));
 }
 
-std::optional<double> BodyStepper::step_shorter(physics::BodyState& state,
-                                                std::span<const double> external) noexcept {
-  double work_j = 0;
-  for (int i = 0; i < kShorter; ++i) work_j += explicit_->step(*law_, external, step_s_ / kShorter, state);
-  return finite(work_j);
-}
-
-double BodyStepper::elastic_energy(std::span<const double> u) noexcept {
-  return law_ ? law_->energy(u) : implicit_.elastic_energy(u);
-}
-
-bool BodyStepper::remove(std::span<const TetId> tetrahedra) noexcept {
-  if (law_)
-    for (const TetId t : tetrahedra) law_->remove(t);
-  return implicit_.remove(tetrahedra);
-}
-
-void BodyStepper::restore(std::span<const TetId> removed) noexcept {
-  if (law_)
-    for (const TetId t : removed) law_->add(t);
-  implicit_.restore();
+std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law,
+                                                   physics::ExplicitScheme scheme, double step_s) {
+  return std::make_unique<ExplicitStepper>(body, std::move(law), scheme, step_s);
 }
 
 }  // namespace omentum::deform

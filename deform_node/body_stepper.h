@@ -1,8 +1,9 @@
 // Law and integrator of an organ with masses, as one thing that is stepped, cut and felt.
 #pragma once
 
+#include "deform_node/body_loads.h"
 #include "physics/dynamics/explicit_step.h"
-#include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/force_law.h"
 
 #include <memory>
 #include <optional>
@@ -10,57 +11,56 @@
 
 namespace omentum::deform {
 
-/// How a body is moved on.
-struct StepperParts {
-  std::unique_ptr<physics::ForceLaw> law;         // none: linear elasticity, by the kept factor itself
-  std::optional<physics::ExplicitScheme> scheme;  // needs a law; none: backward Euler on the kept factor
-  double step_s = 0;                              // of the integrator, fixed
-  double energy_margin = 2;                       // of a sound integration (physics/dynamics/energy_watch.h)
-  int most_compliance_nodes = 0;                  // of one local model
+/// What a stepper moves. `mesh` outlives it.
+struct SteppedBody {
+  const geometry::TetraMesh& mesh;
+  const physics::MaterialMap& material;
+  physics::Inertia inertia;
 };
 
-/// Every body keeps the factor of an implicit step. One that is moved on by an explicit scheme has it for the
-/// hand alone: explicit steps are too short for anything to yield within one, and have no equation whose
-/// solution would say how it does. The factor's stiffness is that of the body at rest, be it the law's or
-/// only near it. One thread at a time; what is noexcept allocates nothing.
+/// Moves a body on by steps of fixed length. Every one keeps the factor of an implicit step, at least for the
+/// hand. One thread at a time; what is noexcept allocates nothing.
 class BodyStepper {
  public:
-  /// What a hand feels of a body that is moved on explicitly is how it yields within this, s: the time
-  /// between two local models.
-  static constexpr double kFeltStep_s = 0.005;
+  /// Nodes that one compliance is of at most: as many as a LAN carries (transport::local_model_nodes).
+  static constexpr int kPatchNodes = 24;
   /// Into so many steps one is divided that would diverge.
   static constexpr int kShorter = 4;
 
-  /// `mesh` outlives it. Throws as physics::ImplicitStep does.
-  BodyStepper(const geometry::TetraMesh& mesh, const physics::MaterialMap& material,
-              const physics::Inertia& inertia, StepperParts parts);
+  virtual ~BodyStepper() = default;
 
-  double step_s() const { return step_s_; }
-  /// The implicit step's length is in its factor.
-  bool can_shorten() const { return explicit_.has_value(); }
-
-  /// One step under external forces, [3N], N. Their work, J; nothing where the result is not finite.
-  std::optional<double> step(physics::BodyState& state, std::span<const double> external) noexcept;
-  /// The same in kShorter steps. Precondition: can_shorten().
-  std::optional<double> step_shorter(physics::BodyState& state, std::span<const double> external) noexcept;
+  virtual double step_s() const = 0;
+  /// One step under `loads`, which are told how strong presses became. Their work, J; nothing where the
+  /// result is not finite.
+  virtual std::optional<double> step(physics::BodyState& state, BodyLoads& loads) noexcept = 0;
+  /// The same in kShorter steps; nothing also where the step's length is in the factor.
+  virtual std::optional<double> step_shorter(physics::BodyState& /*state*/, BodyLoads& /*loads*/) noexcept {
+    return {};
+  }
   /// J, of what is left.
-  double elastic_energy(std::span<const double> u) noexcept;
+  virtual double elastic_energy(std::span<const double> u) noexcept = 0;
 
   /// Precondition of both: exactly those are there, or gone. False: the factor is of no use any more.
-  [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept;
-  void restore(std::span<const geometry::TetId> removed) noexcept;
+  [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
+  virtual void restore(std::span<const geometry::TetId> removed) noexcept = 0;
 
-  /// physics::ImplicitStep::compliance.
-  void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
-    implicit_.compliance(nodes, block);
-  }
-
- private:
-  physics::Inertia inertia_;
-  std::unique_ptr<physics::ForceLaw> law_;
-  std::optional<physics::ExplicitStep> explicit_;
-  double step_s_;
-  physics::ImplicitStep implicit_;
+  /// What a hand feels: how the body yields to forces, and where it goes if they stay as they are.
+  virtual physics::LargeStep& felt() noexcept = 0;
 };
+
+/// Backward Euler for linear elasticity; presses are imposed (physics/dynamics/imposed_press.h). Throws as
+/// physics::ImplicitStep does, like the others.
+std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s);
+
+/// Backward Euler for co-rotational tissue (physics/dynamics/warped_step.h).
+std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s);
+
+/// Explicit steps, under the forces that hands say. Nothing yields within one of them, and none has an
+/// equation whose solution would say how: what a hand feels of the body is the compliance at rest over
+/// kFeltStep_s, the time between two local models, s.
+inline constexpr double kFeltStep_s = 0.005;
+std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body,
+                                                   std::unique_ptr<physics::ForceLaw> law,
+                                                   physics::ExplicitScheme scheme, double step_s);
 
 }  // namespace omentum::deform

@@ -104,6 +104,7 @@ void DeformLoop::serve_or_stand_by() {
 void DeformLoop::take_up() {
   if (role_ == Role::kStandingBy) say_once(told_serving_, "the other one fell silent, this one serves");
   time_.note(loop_.now_ns(), organs_.simulated_s(), true);
+  book_.forget_cuts(loop_.now_ns());
   role_ = Role::kServing;
 }
 
@@ -138,7 +139,7 @@ void DeformLoop::tick() noexcept {
 void DeformLoop::obey() noexcept {
   if (!orders_.take_reset()) return;
   book_.forget(loop_.now_ns());
-  organs_.reset();
+  organs_.reset(book_);
 }
 
 void DeformLoop::take_figures() noexcept {

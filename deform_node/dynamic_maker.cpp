@@ -33,46 +33,37 @@ physics::Inertia inertia_of(const organ::Organ& organ, const scene::DynamicsSpec
           .stiffness_damping_s = dynamics.stiffness_damping_s};
 }
 
-struct ExplicitTerms {
-  double step_s, stable_s;
+struct Stepping {
+  std::unique_ptr<BodyStepper> stepper;
+  double energy_margin = 2;  // backward Euler's: it loses energy
 };
 
-// The scene's own step, or a share of what the mesh allows.
-ExplicitTerms explicit_terms(const scene::DynamicsSpec& dynamics, physics::ExplicitScheme scheme,
-                             physics::ForceLaw& law, const physics::Inertia& inertia) {
-  const double highest_rad_s = physics::highest_frequency(law, inertia).rad_s;
-  const double stable_s = physics::stable_step_s(scheme, inertia, highest_rad_s);
+// By the scene's own step, or a share of what the mesh allows.
+Stepping step_explicitly(const SteppedBody& body, const scene::DynamicsSpec& dynamics,
+                         physics::ExplicitScheme scheme, std::unique_ptr<physics::ForceLaw> law) {
+  const double highest_rad_s = physics::highest_frequency(*law, body.inertia).rad_s;
+  const double stable_s = physics::stable_step_s(scheme, body.inertia, highest_rad_s);
   const double step_s = dynamics.step_s.value_or(kShareOfStable * stable_s);
-  if (step_s > 0 && step_s < stable_s) return {step_s, stable_s};
+  if (step_s > 0 && step_s < stable_s)
+    return {make_explicit_stepper(body, std::move(law), scheme, step_s),
+            physics::energy_margin(scheme, step_s / stable_s)};
   char line[160];
   std::snprintf(line, sizeof line,
-                ": step_s: found %g, expected less than %.3g: \"%s\" is stable on this mesh below that",
+                ": step_s: found %g, expected less than %.3g: below that \"%s\" is stable on this mesh",
                 step_s, stable_s, dynamics.integrator.c_str());
   throw std::runtime_error(dynamics.where + line);
 }
 
-StepperParts stepper_of(const scene::DynamicsSpec& dynamics, const physics::Inertia& inertia,
-                        std::unique_ptr<physics::ForceLaw> law) {
-  StepperParts parts;
-  parts.scheme = scheme_of(dynamics.integrator);
-  parts.step_s = dynamics.step_s.value_or(kImplicitStep_s);
-  if (parts.scheme) {
-    const auto [step_s, stable_s] = explicit_terms(dynamics, *parts.scheme, *law, inertia);
-    parts.step_s = step_s;
-    parts.energy_margin = physics::energy_margin(*parts.scheme, step_s / stable_s);
-  }
-  parts.law = std::move(law);
-  return parts;
-}
-
-// `law`: of an explicit scheme also where the kept factor knows the same forces.
-std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
-                                 std::unique_ptr<physics::ForceLaw> law) {
+// `step`: of a body, by what its scene says.
+template <class Step>
+std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec, Step&& step) {
   const organ::Organ& organ = source.organ;
   const scene::DynamicsSpec& dynamics = *spec.dynamics;
-  DynamicParts parts{.mesh = organ.mesh, .material = organ.material, .uncut_surface = organ.surface.node};
-  parts.inertia = inertia_of(organ, dynamics);
-  parts.stepper = stepper_of(dynamics, parts.inertia, std::move(law));
+  DynamicParts parts{.body = {organ.mesh, organ.material, inertia_of(organ, dynamics)},
+                     .uncut_surface = organ.surface.node};
+  Stepping stepping = step(parts.body, dynamics);
+  parts.stepper = std::move(stepping.stepper);
+  parts.energy_margin = stepping.energy_margin;
   parts.gravity_m_s2 = dynamics.gravity_m_s2;
   parts.tears = tear_limits_of(organ, spec);
   parts.cut_delay_s = dynamics.cut_delay_s;
@@ -82,24 +73,33 @@ std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::O
 }
 
 template <class Law>
-std::unique_ptr<physics::ForceLaw> law_of(const organ::Organ& organ) {
-  return std::make_unique<Law>(organ.mesh, organ.material);
+std::unique_ptr<physics::ForceLaw> law_of(const SteppedBody& body) {
+  return std::make_unique<Law>(body.mesh, body.material);
 }
 
 }  // namespace
 
 std::unique_ptr<OrganModel> make_tensor_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
-  // an implicit step has the same stiffness in its factor
-  const bool needs_law = scheme_of(spec.dynamics->integrator).has_value();
-  return make(source, spec, needs_law ? law_of<physics::TensorMass>(source.organ) : nullptr);
+  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
+    if (const auto scheme = scheme_of(dynamics.integrator))
+      return step_explicitly(body, dynamics, *scheme, law_of<physics::TensorMass>(body));
+    return {make_implicit_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
+  });
 }
 
 std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, const scene::OrganSpec& spec) {
-  return make(source, spec, law_of<physics::Corotational>(source.organ));
+  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
+    if (const auto scheme = scheme_of(dynamics.integrator))
+      return step_explicitly(body, dynamics, *scheme, law_of<physics::Corotational>(body));
+    return {make_warped_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
+  });
 }
 
 std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
-  return make(source, spec, law_of<physics::SpringMesh>(source.organ));
+  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
+    return step_explicitly(body, dynamics, scheme_of(dynamics.integrator).value(),
+                           law_of<physics::SpringMesh>(body));
+  });
 }
 
 }  // namespace omentum::deform

@@ -9,6 +9,7 @@ using geometry::TetId;
 
 namespace {
 
+constexpr std::size_t kPatchNodes = BodyStepper::kPatchNodes;
 // As often as a screen shows it.
 constexpr double kTearCheck_s = 1.0 / 60;
 // Of one check: a crack runs by hundreds of tetrahedra a second, and each check leaves time for a step.
@@ -33,23 +34,24 @@ Vec3 at(const std::vector<double>& components, NodeId n) {
 }  // namespace
 
 DynamicModel::DynamicModel(DynamicParts parts)
-    : mesh_(parts.mesh),
-      inertia_(std::move(parts.inertia)),
+    : mesh_(parts.body.mesh),
+      inertia_(std::move(parts.body.inertia)),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
-      loads_(mesh_, parts.material, parts.gravity_m_s2),
+      loads_(mesh_, parts.body.material, parts.gravity_m_s2),
       state_(physics::state_at_rest(mesh_.positions.size())),
       before_(state_),
-      watch_(parts.stepper.energy_margin, kUnnoticed_j),
+      stepper_(std::move(parts.stepper)),
+      watch_(parts.energy_margin, kUnnoticed_j),
       swept_(mesh_),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
-      tearing_(mesh_, parts.material, parts.tears),
+      tearing_(mesh_, parts.body.material, parts.tears),
       reach_m_(kReach * length_of(mesh_)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
-      block_(std::make_unique<std::vector<float>>(9 * kPatchNodes * kPatchNodes)) {
-  parts.stepper.most_compliance_nodes = kPatchNodes;
-  stepper_ = std::make_unique<BodyStepper>(mesh_, parts.material, inertia_, std::move(parts.stepper));
+      felt_(std::make_unique<Felt>()) {
+  felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
+  felt_->u.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
   fallen_.reserve(mesh_.tetrahedra.size());
 }
@@ -118,11 +120,11 @@ void DynamicModel::advance(double dt_s) noexcept {
   std::ranges::copy(state_.v, before_.v.begin());
   const physics::EnergyWatch watch = watch_;
   status_.diverged = !run(steps, &BodyStepper::step);
-  if (status_.diverged && stepper_->can_shorten()) {
-    status_.fault = "would diverge, goes on in shorter steps";
+  if (status_.diverged) {
     std::swap(state_, before_);
     watch_ = watch;
     status_.diverged = !run(steps, &BodyStepper::step_shorter);
+    if (!status_.diverged) status_.fault = "would diverge, goes on in shorter steps";
   }
   status_.simulated_s += steps * stepper_->step_s();
   status_.steps += static_cast<std::uint64_t>(steps);
@@ -130,7 +132,7 @@ void DynamicModel::advance(double dt_s) noexcept {
 
 bool DynamicModel::run(int steps, Step step) noexcept {
   for (int i = 0; i < steps; ++i) {
-    const auto work_j = (stepper_.get()->*step)(state_, loads_.external());
+    const auto work_j = (stepper_.get()->*step)(state_, loads_);
     if (!work_j) return false;
     watch_.add_work(*work_j);
   }
@@ -158,6 +160,7 @@ void DynamicModel::reset() noexcept {
 }
 
 void DynamicModel::show() noexcept {
+  felt_->is_foreseen = false;
   float* value = values_.data();
   for (const NodeId n : editor_.surface_nodes())
     for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(state_.u[3 * n + axis]);
@@ -174,15 +177,18 @@ OrganView DynamicModel::view() const noexcept {
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   if (!gatherer_->gather(place, editor_, state_.u, patch)) return false;
   const std::span<const NodeId> nodes = gatherer_->nodes();
+  physics::LargeStep& felt = stepper_->felt();
+  if (!felt_->is_foreseen) felt.foresee(state_, loads_.external(), felt_->u);
+  felt_->is_foreseen = true;
   patch.topology_version = version_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]);
-    patch.velocities[i] = at(state_.v, nodes[i]);
-    patch.forces[i] = loads_.of_tools(nodes[i]);
+    patch.velocities[i] = (at(felt_->u, nodes[i]) - at(state_.u, nodes[i])) / felt.step_s();
+    patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
   }
   const std::size_t rows = 3 * nodes.size();
-  const std::span<float> block = std::span(*block_).first(rows * rows);
-  stepper_->compliance(nodes, block);
+  const std::span<float> block = std::span(felt_->compliance).first(rows * rows);
+  felt.compliance(nodes, block);
   float* upper = patch.compliance.data();
   for (std::size_t r = 0; r < rows; ++r)
     upper = std::copy(block.begin() + static_cast<std::ptrdiff_t>(r * rows + r),

@@ -12,13 +12,12 @@
 
 namespace omentum::deform {
 
-/// What a dynamic organ consists of. What it refers to outlives the model.
+/// What a dynamic organ consists of.
 struct DynamicParts {
-  const geometry::TetraMesh& mesh;
-  const physics::MaterialMap& material;
-  std::span<const NodeId> uncut_surface;  // in the organ file's order; read at construction alone
-  physics::Inertia inertia{};
-  StepperParts stepper{};
+  SteppedBody body;                        // its mesh outlives the model
+  std::span<const NodeId> uncut_surface;   // in the organ file's order; read at construction alone
+  std::unique_ptr<BodyStepper> stepper{};  // of the same body
+  double energy_margin = 2;                // of a sound integration by it (physics/dynamics/energy_watch.h)
   Vec3 gravity_m_s2 = Vec3::Zero();
   std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
@@ -30,10 +29,6 @@ struct DynamicParts {
 /// organ that was cut. What its energy may be is what was done to it: more says that it diverges.
 class DynamicModel final : public OrganModel {
  public:
-  /// Nodes of one local model: as many as a LAN carries (transport::local_model_nodes).
-  static constexpr int kPatchNodes = 24;
-
-  /// Throws as physics::ImplicitStep does.
   explicit DynamicModel(DynamicParts parts);
 
   ModelSizes sizes() const override;
@@ -73,8 +68,14 @@ class DynamicModel final : public OrganModel {
   std::vector<geometry::TetId> gone_, fallen_;  // workspace, capacity T
   std::vector<std::uint8_t> burnt_;             // bits, of what edges burnt away
   std::vector<float> values_;                   // [3N], of them 3 for each node of the surface
-  std::unique_ptr<PatchGatherer> gatherer_;     // workspace of local_model()
-  std::unique_ptr<std::vector<float>> block_;
+  // workspace of local_model()
+  struct Felt {
+    std::vector<float> compliance;  // [3 kPatchNodes squared]
+    std::vector<double> u;          // [3N] after one more step under the same forces ...
+    bool is_foreseen = false;       // ... from where the body is now
+  };
+  std::unique_ptr<PatchGatherer> gatherer_;
+  std::unique_ptr<Felt> felt_;
 };
 
 }  // namespace omentum::deform

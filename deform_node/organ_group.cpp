@@ -19,21 +19,31 @@ OrganGroup::OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faul
     : organs_(std::move(organs)), faults_(faults), collision_(models_of(organs_)) {}
 
 void OrganGroup::step(ContactBook& book, double dt_s) noexcept {
-  for (std::size_t i = 0; i < organs_.size(); ++i)
-    organs_[i].model->step({.presses = book.loads(static_cast<std::uint32_t>(i)), .cuts = {}}, dt_s);
+  for (std::uint32_t i = 0; i < organs_.size(); ++i)
+    organs_[i].model->step({.presses = book.loads(i), .cuts = book.cuts(i)}, dt_s);
   if (!collision_.run()) faults_.raise("organs meet in more places than there is room for");
-  for (ServedOrgan& served : organs_) heed(served);
+  for (std::uint32_t i = 0; i < organs_.size(); ++i) {
+    heed(i, book);
+    book.now_at(i, organs_[i].model->view().topology_version);
+  }
 }
 
-void OrganGroup::reset() noexcept {
-  for (ServedOrgan& served : organs_) served.model->reset();
+void OrganGroup::reset(ContactBook& book) noexcept {
+  for (std::uint32_t i = 0; i < organs_.size(); ++i) reset(i, book);
 }
 
-void OrganGroup::heed(ServedOrgan& served) noexcept {
+void OrganGroup::reset(std::uint32_t organ, ContactBook& book) noexcept {
+  OrganModel& model = *organs_[organ].model;
+  model.reset();
+  book.begins_at(organ, model.view().topology_version);
+}
+
+void OrganGroup::heed(std::uint32_t organ, ContactBook& book) noexcept {
+  ServedOrgan& served = organs_[organ];
   const ModelStatus status = served.model->status();
   const std::string_view what = status.diverged ? "diverged, back to rest" : status.fault;
   if (what.empty()) return;
-  if (status.diverged) served.model->reset();
+  if (status.diverged) reset(organ, book);
   char line[runtime::FaultList::kTextSize + 1];
   std::snprintf(line, sizeof line, "organ %s: %.*s", served.source->organ.name.c_str(),
                 static_cast<int>(what.size()), what.data());

@@ -17,9 +17,9 @@ class OrganGroup {
   /// `faults` outlives this.
   OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faults);
 
-  /// `book` has advanced to this moment.
+  /// `book` has advanced to this moment, and learns the versions that the organs are at.
   void step(ContactBook& book, double dt_s) noexcept;
-  void reset() noexcept;
+  void reset(ContactBook& book) noexcept;
 
   const std::vector<ServedOrgan>& organs() const { return organs_; }
   /// Over all organs.
@@ -30,7 +30,8 @@ class OrganGroup {
   double simulated_s() const;
 
  private:
-  void heed(ServedOrgan& served) noexcept;
+  void reset(std::uint32_t organ, ContactBook& book) noexcept;
+  void heed(std::uint32_t organ, ContactBook& book) noexcept;
 
   std::vector<ServedOrgan> organs_;
   runtime::FaultList& faults_;

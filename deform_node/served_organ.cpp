@@ -20,7 +20,6 @@ OrganNumbers numbers_of(const node::OrganSource& source) {
   return {.node_of_file = organ.mesh.nodes_of_file(),
           .surface_of_node = organ.surface.of_node,
           .pinned = physics::pinned_nodes(organ.fixed),
-          .topology_version = 0,
           .reach_m = reach_of(source.rest),
           .compliance = organ.compliance ? &*organ.compliance : nullptr};
 }

@@ -26,8 +26,7 @@ std::set<Edge> open_edges(std::span<const Triangle> triangles) {
 
 }  // namespace
 
-BaredSkin::BaredSkin(std::vector<Triangle> bared, std::span<const Vec3f> rest,
-                     std::span<const std::uint8_t> burnt, int level)
+BaredSkin::BaredSkin(std::vector<Triangle> bared, std::span<const Vec3f> rest, int level)
     : triangles_(std::move(bared)) {
   number_nodes(rest.size());
   positions_.resize(node_.size());
@@ -38,7 +37,13 @@ BaredSkin::BaredSkin(std::vector<Triangle> bared, std::span<const Vec3f> rest,
   find_rim();
   mesh_.triangles = refinement_.triangles();
   mesh_.vertices.resize(refinement_.vertex_count());
-  set_patterns(rest, burnt);
+  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+    const auto& [node, weight] = refinement_.places()[i];
+    Vec3f& at = mesh_.vertices[i].rest;
+    at = Vec3f::Zero();
+    for (std::size_t c = 0; c < 3; ++c)
+      at += weight[static_cast<int>(c)] * rest[node_[static_cast<std::size_t>(node[c])]];
+  }
 }
 
 void BaredSkin::number_nodes(std::size_t node_count) {
@@ -52,19 +57,6 @@ void BaredSkin::number_nodes(std::size_t node_count) {
         node_.push_back(t[c]);
       }
       numbered[c] = place;
-    }
-  }
-}
-
-void BaredSkin::set_patterns(std::span<const Vec3f> rest, std::span<const std::uint8_t> burnt) {
-  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
-    const SurfaceRefinement::Place& place = refinement_.places()[i];
-    Vertex& drawn = mesh_.vertices[i];
-    drawn.rest = Vec3f::Zero();
-    for (int c = 0; c < 3; ++c) {
-      const auto s = static_cast<std::size_t>(node_[static_cast<std::size_t>(place.node[c])]);
-      drawn.rest += place.weight[c] * rest[s];
-      drawn.charring += place.weight[c] * static_cast<float>(burnt[s]);
     }
   }
 }
@@ -109,6 +101,12 @@ void BaredSkin::relax(std::span<Vec3f> positions) {
       if (count[b] > 0) position = 0.5f * (position + sum[b] / count[b]);
     }
   }
+}
+
+void BaredSkin::spread(std::span<const float> of_nodes, float Vertex::*field) {
+  std::vector<float> own;
+  for (const SurfaceId s : node_) own.push_back(of_nodes[static_cast<std::size_t>(s)]);
+  refinement_.spread(own, field, mesh_.vertices);
 }
 
 void BaredSkin::deform(std::span<const Vec3f> positions, std::span<const Vec3f> normals,

@@ -10,9 +10,8 @@ namespace omentum::render {
 class BaredSkin {
  public:
   BaredSkin() = default;  // nothing lies bare
-  /// `bared`: outward, numbered as `rest` and `burnt` are, [S'], with the whole organ's nodes first.
-  BaredSkin(std::vector<geometry::Triangle> bared, std::span<const Vec3f> rest,
-            std::span<const std::uint8_t> burnt, int level);
+  /// `bared`: outward, numbered as `rest` is, [S'].
+  BaredSkin(std::vector<geometry::Triangle> bared, std::span<const Vec3f> rest, int level);
 
   /// Takes the teeth off what is drawn: a cut runs between tetrahedra, tissue parts along a line. Every node
   /// goes towards its neighbours, kRelaxations times half of the way; those of the rim along it. `positions`:
@@ -24,13 +23,15 @@ class BaredSkin {
   void deform(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
               std::span<const float> openness);
 
+  /// One value of each node, [S'], to a field of the vertices.
+  void spread(std::span<const float> of_nodes, float Vertex::*field);
+
   const std::vector<geometry::Triangle>& triangles() const { return triangles_; }
   const MeshData& mesh() const { return mesh_; }
 
  private:
   void find_rim();
   void number_nodes(std::size_t node_count);
-  void set_patterns(std::span<const Vec3f> rest, std::span<const std::uint8_t> burnt);
 
   std::vector<geometry::Triangle> triangles_;        // by the organ's nodes
   std::vector<geometry::SurfaceId> node_;            // [B], the organ's node of each of these

@@ -30,8 +30,8 @@ CutShape OrganCut::shape() const {
   return shape;
 }
 
-std::vector<std::uint8_t> OrganCut::burnt_nodes() const {
-  std::vector<std::uint8_t> burnt(node_count(), 0);
+std::vector<float> OrganCut::burnt_nodes() const {
+  std::vector<float> burnt(node_count(), 0.0f);
   for (std::size_t bit = 0; bit < 8 * burnt_.size(); ++bit) {
     if ((burnt_[bit / 8] >> bit % 8 & 1u) == 0) continue;
     for (const geometry::NodeId n : mesh_.tetrahedra[bit]) {

@@ -14,7 +14,7 @@ struct CutShape {
   std::vector<geometry::Vec3> rest;       // [S'], m
   std::vector<std::uint8_t> gone;         // [F], 1: that triangle of the whole surface is no more
   std::vector<geometry::Triangle> bared;  // outward
-  std::vector<std::uint8_t> burnt;        // [S'], 1: a tetrahedron at this node was burnt away
+  std::vector<float> burnt;               // [S'], 1: a tetrahedron at this node was burnt away; else 0
 };
 
 /// Brings mesh and removed set to a surface. Its books take memory by the size of the mesh: make one only for
@@ -31,7 +31,7 @@ class OrganCut {
   CutShape shape() const;
 
  private:
-  std::vector<std::uint8_t> burnt_nodes() const;
+  std::vector<float> burnt_nodes() const;
 
   const geometry::TetraMesh& mesh_;
   const geometry::Surface& whole_;

@@ -58,6 +58,8 @@ class OrganDrawing {
   [[nodiscard]] virtual CutOutcome cut(const RemovedSet& removed, std::size_t /*node_count*/) {
     return removed.whole() ? CutOutcome::kSame : CutOutcome::kMisfit;
   }
+  /// Whether vertices have their strain (surface_strain.h) from here on, those of the last state too.
+  virtual void map_strain(bool /*on*/) {}
   /// As many vertices and triangles as ever.
   virtual const MeshData& mesh() const = 0;
   /// Which triangles of mesh() the last cut() changed.

@@ -2,6 +2,7 @@
 
 #include "geometry/precondition.h"
 #include "render_node/surface_shading.h"
+#include "render_node/surface_strain.h"
 
 #include <Eigen/Geometry>
 
@@ -48,8 +49,9 @@ void OrganSkin::cut(const CutShape& shape) {
   closed_ = left_;
   closed_.insert(closed_.end(), shape.bared.begin(), shape.bared.end());
   set_nodes(shape);
-  char_skin(shape.burnt);
-  bared_ = BaredSkin(shape.bared, rest_, shape.burnt, std::min(level_, refinement_level(closed_.size())));
+  bared_ = BaredSkin(shape.bared, rest_, std::min(level_, refinement_level(closed_.size())));
+  refinement_.spread(shape.burnt, &Vertex::charring, mesh_.vertices);
+  bared_.spread(shape.burnt, &Vertex::charring);
 }
 
 void OrganSkin::take_away(const std::vector<std::uint8_t>& gone) {
@@ -84,16 +86,6 @@ void OrganSkin::set_nodes(const CutShape& shape) {
   smooth_normals(closed_, rest_, rest_normals_);
 }
 
-void OrganSkin::char_skin(const std::vector<std::uint8_t>& burnt) {
-  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
-    const SurfaceRefinement::Place& place = refinement_.places()[i];
-    float& charring = mesh_.vertices[i].charring;
-    charring = 0;
-    for (int c = 0; c < 3; ++c)
-      charring += place.weight[c] * static_cast<float>(burnt[static_cast<std::size_t>(place.node[c])]);
-  }
-}
-
 void OrganSkin::deform(std::span<const float> displacements) {
   geometry::require(displacements.size() == 3 * rest_.size(), "three values for each node");
   float largest_squared = 0;
@@ -114,6 +106,19 @@ void OrganSkin::deform(std::span<const float> displacements) {
   }
   refinement_.apply(drawn_, normals_, openness_, mesh_.vertices);
   bared_.deform(drawn_, normals_, openness_);
+  if (maps_strain_) show_strain();
+}
+
+void OrganSkin::map_strain(bool on) {
+  maps_strain_ = on;
+  if (on) show_strain();
+}
+
+void OrganSkin::show_strain() {
+  strain_.resize(rest_.size());
+  surface_strain(closed_, rest_, positions_, strain_);
+  refinement_.spread(strain_, &Vertex::strain, mesh_.vertices);
+  bared_.spread(strain_, &Vertex::strain);
 }
 
 }  // namespace omentum::render

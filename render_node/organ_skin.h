@@ -27,6 +27,10 @@ class OrganSkin {
   /// `displacements`: x, y, z of each node, m.
   void deform(std::span<const float> displacements);
 
+  /// From here on vertices have their strain, which costs a pass over the surface for each state. Shows the
+  /// last state anew.
+  void map_strain(bool on);
+
   const MeshData& mesh() const { return mesh_; }
   /// What lies bare; without triangles where nothing does.
   const MeshData& bared() const { return bared_.mesh(); }
@@ -44,8 +48,8 @@ class OrganSkin {
 
  private:
   void take_away(const std::vector<std::uint8_t>& gone);
-  void char_skin(const std::vector<std::uint8_t>& burnt);
   void set_nodes(const CutShape& shape);
+  void show_strain();
 
   std::vector<geometry::Triangle> triangles_;  // of the whole organ
   std::vector<geometry::Triangle> left_;       // of them
@@ -55,7 +59,8 @@ class OrganSkin {
   // of the nodes: normals_ of the skin alone, closed_normals_ of all that there is
   std::vector<Vec3f> rest_, rest_normals_, positions_, normals_, closed_normals_;
   std::vector<Vec3f> drawn_;  // positions_, without the teeth of a cut
-  std::vector<float> openness_;
+  std::vector<float> openness_, strain_;
+  bool maps_strain_ = false;
   int level_;
   SurfaceRefinement refinement_;
   BaredSkin bared_;

@@ -1,6 +1,7 @@
 #include "render_node/panel.h"
 
 #include "render_node/scene_view.h"
+#include "render_node/surface_strain.h"
 
 #include <imgui.h>
 
@@ -202,10 +203,33 @@ void organ_line(const OrganRow& row) {
   }
 }
 
+// The map's colours from left to right, with what they mean at both ends.
+void strain_scale() {
+  ImGui::TextUnformatted("strain  0");
+  ImGui::SameLine();
+  const std::string most = format("%.0f %%", 100.0 * static_cast<double>(kFullStrain));
+  const float height = ImGui::GetFontSize();
+  const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(most.c_str()).x -
+                      ImGui::GetStyle().ItemSpacing.x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float step = width / static_cast<float>(kStrainColourCount - 1);
+  for (std::size_t i = 0; i + 1 < kStrainColourCount; ++i) {
+    const float left = at.x + step * static_cast<float>(i);
+    const ImU32 from = ImGui::GetColorU32(display(strain_colours()[i]));
+    const ImU32 to = ImGui::GetColorU32(display(strain_colours()[i + 1]));
+    ImGui::GetWindowDrawList()->AddRectFilledMultiColor({left, at.y}, {left + step, at.y + height}, from, to,
+                                                        to, from);
+  }
+  ImGui::Dummy({width, height});
+  ImGui::SameLine();
+  right_aligned(most.c_str());
+}
+
 void organs(const PanelView& view) {
   ImGui::TextUnformatted("deepest dent");
   ImGui::SameLine();
   right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  if (view.strain) strain_scale();
   if (view.real_time_factor > 0) {
     ImGui::TextUnformatted("real time");
     ImGui::SameLine();
@@ -245,12 +269,13 @@ PanelActions buttons(const PanelView& view) {
   actions.reset = ImGui::Button("Reset", {third, 0});
   ImGui::SameLine();
   actions.clear_fault = ImGui::Button("Clear fault", {third, 0});
-  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers;
+  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers, strain = view.strain;
   actions.switch_camera = ImGui::Checkbox("endoscope", &endoscope);
   ImGui::SameLine();
   actions.switch_arrows = ImGui::Checkbox("arrows", &arrows);
   ImGui::SameLine();
   actions.switch_markers = ImGui::Checkbox("nodes", &markers);
+  actions.switch_strain = ImGui::Checkbox("strain (key S)", &strain);
   ImGui::TextDisabled("drag: turn   right drag: move   wheel: zoom");
   return actions;
 }

@@ -53,7 +53,7 @@ struct PanelView {
   double time_s = 0;
   bool paused = false;
   bool interactive = false;  // somebody could press a button
-  bool endoscope = false, arrows = true, markers = true;
+  bool endoscope = false, arrows = true, markers = true, strain = false;
   std::vector<NodeRow> nodes;
   std::vector<ToolRow> tools;
   // from a pose to its force, as the device says, and from its arrival here to the end of the frame that
@@ -70,7 +70,7 @@ struct PanelView {
 /// What the person pressed.
 struct PanelActions {
   bool start = false, pause = false, reset = false, clear_fault = false;
-  bool switch_camera = false, switch_arrows = false, switch_markers = false;
+  bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_strain = false;
 };
 
 /// Linear elasticity is trusted up to this share of the mesh's size (Cotin 1999, section 3-3).

@@ -110,6 +110,7 @@ void RenderLoop::frame(bool last) {
   const Input input = renderer_.begin_frame();
   closed_ = closed_ || input.close;
   steer(input);
+  if (input.switch_strain) switch_strain();
   if (!options_.no_panel) obey(lay_out_panel(panel_view(begin_ns)));
   if (due.indent) take_close_up(*dent);
   draw(due.numbered);
@@ -169,6 +170,12 @@ void RenderLoop::obey(const PanelActions& actions) {
   choices_.endoscope ^= actions.switch_camera;
   choices_.arrows ^= actions.switch_arrows;
   choices_.markers ^= actions.switch_markers;
+  if (actions.switch_strain) switch_strain();
+}
+
+void RenderLoop::switch_strain() {
+  choices_.strain = !choices_.strain;
+  view_.map_strain(choices_.strain);
 }
 
 void RenderLoop::command(std::uint32_t command) {
@@ -182,6 +189,7 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   panel.endoscope = choices_.endoscope;
   panel.arrows = choices_.arrows;
   panel.markers = choices_.markers;
+  panel.strain = choices_.strain;
   watch_.describe(view_, now_ns, panel);
   return panel;
 }

@@ -61,6 +61,7 @@ class RenderLoop {
   void finish_frame(std::int64_t begin_ns, bool for_disk);
   void steer(const Input& input);
   void obey(const PanelActions& actions);
+  void switch_strain();
   void command(std::uint32_t command);
   PanelView panel_view(std::int64_t now_ns) const;
   void tell_status(std::int64_t now_ns);

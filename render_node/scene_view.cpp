@@ -113,6 +113,14 @@ bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<con
   return true;
 }
 
+void SceneView::map_strain(bool on) {
+  for (const auto& [drawing, mesh, bared] : organs_) {
+    drawing->map_strain(on);
+    renderer_.update_vertices(mesh, drawing->mesh().vertices);
+    if (bared) renderer_.update_vertices(*bared, drawing->bared()->vertices);
+  }
+}
+
 void SceneView::show_cut(DrawnOrgan& organ) {
   for (const auto& [first, count] : organ.drawing->changed())
     renderer_.update_triangles(organ.mesh, first,
@@ -195,9 +203,12 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const auto& [drawing, mesh, bared] : organs_) {
     const bool is_cut = bared && drawing->removed_count() > 0;
+    const Look skin = is_cut ? Look::kCut : Look::kTissue;
     frame.items.push_back(
-        {mesh, is_cut ? Look::kCut : Look::kTissue, Mat4f::Identity(), drawing->material()});
-    if (is_cut) frame.items.push_back({*bared, Look::kBared, Mat4f::Identity(), drawing->bared_material()});
+        {mesh, choices.strain ? Look::kStrain : skin, Mat4f::Identity(), drawing->material()});
+    if (is_cut)
+      frame.items.push_back({*bared, choices.strain ? Look::kStrain : Look::kBared, Mat4f::Identity(),
+                             drawing->bared_material()});
   }
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;

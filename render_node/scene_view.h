@@ -27,6 +27,7 @@ struct ViewChoices {
   Camera orbit;
   bool endoscope = false;
   bool arrows = true;
+  bool strain = false;   // organs as a map of their strain, after SceneView::map_strain
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
 };
 
@@ -46,6 +47,9 @@ class SceneView {
   /// The organ as a state has it, of which `removed` is gone. False: it has no such states; nothing was
   /// changed.
   [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values);
+
+  /// Whether organs tell their strain from here on: ViewChoices::strain shows it.
+  void map_strain(bool on);
 
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;

@@ -109,6 +109,15 @@ void SurfaceRefinement::apply(std::span<const Vec3f> positions, std::span<const 
   }
 }
 
+void SurfaceRefinement::spread(std::span<const float> of_nodes, float Vertex::*field,
+                               std::span<Vertex> out) const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto& [node, weight] = places_[i];
+    out[i].*field = 0;
+    for (int c = 0; c < 3; ++c) out[i].*field += weight[c] * of_nodes[static_cast<std::size_t>(node[c])];
+  }
+}
+
 int refinement_level(std::size_t triangle_count) {
   const double level =
       std::sqrt(kDrawnTriangles / static_cast<double>(std::max<std::size_t>(triangle_count, 1)));

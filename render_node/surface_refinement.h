@@ -32,6 +32,8 @@ class SurfaceRefinement {
   /// Everything that changes from frame to frame: position, normal, openness; `rest` is left alone.
   void apply(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
              std::span<const float> openness, std::span<Vertex> out) const;
+  /// One value of each node, [S], to a field of the vertices.
+  void spread(std::span<const float> of_nodes, float Vertex::*field, std::span<Vertex> out) const;
   /// The curved position of one vertex.
   Vec3f curved(std::size_t vertex, std::span<const Vec3f> positions, std::span<const Vec3f> normals) const;
 

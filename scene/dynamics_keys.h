@@ -7,7 +7,7 @@
 namespace omentum::scene {
 
 /// The keys beside `model` of one of [[organs]].
-DynamicsSpec read_dynamics(TomlSection& organ);
+DynamicsSpec read_dynamics(TomlSection& organ, const std::string& model);
 /// Where tissue tears: keys of an organ, and of a region with a material of its own.
 TearSpec read_tears(TomlSection& section);
 

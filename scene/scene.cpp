@@ -47,7 +47,7 @@ void read_model(TomlSection& s, OrganSpec& organ) {
   s.read_word("model", organ.model, kOptional, words);
   const OrganModelWord& chosen = *std::ranges::find(kOrganModels, organ.model, &OrganModelWord::word);
   organ.kind = chosen.kind;
-  if (chosen.feel == Feel::kLocalModels) organ.dynamics = read_dynamics(s);
+  if (chosen.feel == Feel::kLocalModels) organ.dynamics = read_dynamics(s, organ.model);
 }
 
 RegionSpec read_region(TomlSection& s, bool tears) {

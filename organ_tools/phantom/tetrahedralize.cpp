@@ -98,7 +98,7 @@ MeshSize plate_size() {
 }
 
 MeshSize cylinder_size() {
-  return {225, 270, 800, 980, 0.0125};
+  return {225, 270, 800, 980, 0.0155};
 }
 
 geometry::TetraMesh tetrahedralize(const ImplicitShape& shape, const MeshSize& size) {

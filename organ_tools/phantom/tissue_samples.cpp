@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kEdgeRounding = 0.002;  // m
 const Vec3 kPlateHalf{0.1, 0.1, 0.005};
-constexpr double kCylinderRadius = 0.02, kCylinderHalf = 0.08;
+constexpr double kCylinderRadius = 0.03, kCylinderHalf = 0.06;
 
 // Of a body whose sides are `beyond` away along axes at right angles, both or all three: the distance to its
 // rounded edges outside, to the nearest side inside.
@@ -34,7 +34,7 @@ double cylinder_distance(const Vec3& p) {
 }
 
 ImplicitShape cylinder() {
-  return {"cylinder", cylinder_distance, {{-0.025, -0.025, -0.165}, {0.025, 0.025, 0.005}}};
+  return {"cylinder", cylinder_distance, {{-0.035, -0.035, -0.125}, {0.035, 0.035, 0.005}}};
 }
 
 }  // namespace omentum::phantom

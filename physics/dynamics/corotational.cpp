@@ -54,8 +54,10 @@ void place(TetPack& pack, int lane, const geometry::Tetrahedron& nodes, const Co
 
 }  // namespace
 
-Corotational::Corotational(const geometry::TetraMesh& mesh, const MaterialMap& material)
-    : packs_((mesh.tetrahedra.size() + kTetLanes - 1) / kTetLanes),
+Corotational::Corotational(const geometry::TetraMesh& mesh, const MaterialMap& material,
+                           const kernels::LawKernels& unit)
+    : kernels_(&unit),
+      packs_((mesh.tetrahedra.size() + kTetLanes - 1) / kTetLanes),
       tangents_(packs_.size()),
       in_(mesh.positions.size()),
       out_(mesh.positions.size()) {
@@ -72,15 +74,15 @@ Corotational::Corotational(const geometry::TetraMesh& mesh, const MaterialMap& m
 }
 
 void Corotational::forces(std::span<const double> u, std::span<double> f) noexcept {
-  kernels::pad(u, in_.data());
+  kernels::pad(u.data(), in_.size(), in_.data());
   std::ranges::fill(out_, kernels::PaddedNode{});
-  kernels::add_corotational_forces(packs_.data(), pack_count(), in_.data(), out_.data());
-  kernels::unpad(out_.data(), f);
+  kernels_->add_corotational_forces(packs_.data(), pack_count(), in_.data(), out_.data());
+  kernels::unpad(out_.data(), out_.size(), f.data());
 }
 
 double Corotational::energy(std::span<const double> u) const noexcept {
-  kernels::pad(u, in_.data());
-  return kernels::corotational_energy(packs_.data(), pack_count(), in_.data());
+  kernels::pad(u.data(), in_.size(), in_.data());
+  return kernels_->corotational_energy(packs_.data(), pack_count(), in_.data());
 }
 
 void Corotational::remove(geometry::TetId t) noexcept {
@@ -99,16 +101,16 @@ void Corotational::add(geometry::TetId t) noexcept {
 }
 
 void Corotational::linearize(std::span<const double> u, Tangent tangent) noexcept {
-  kernels::pad(u, in_.data());
-  kernels::linearize_corotational(packs_.data(), pack_count(), in_.data(), tangent == Tangent::kExact,
-                                  tangents_.data());
+  kernels::pad(u.data(), in_.size(), in_.data());
+  kernels_->linearize_corotational(packs_.data(), pack_count(), in_.data(), tangent == Tangent::kExact,
+                                   tangents_.data());
 }
 
 void Corotational::product(std::span<const double> v, std::span<double> f) const noexcept {
-  kernels::pad(v, in_.data());
+  kernels::pad(v.data(), in_.size(), in_.data());
   std::ranges::fill(out_, kernels::PaddedNode{});
-  kernels::add_corotational_product(packs_.data(), tangents_.data(), pack_count(), in_.data(), out_.data());
-  kernels::unpad(out_.data(), f);
+  kernels_->add_corotational_product(packs_.data(), tangents_.data(), pack_count(), in_.data(), out_.data());
+  kernels::unpad(out_.data(), out_.size(), f.data());
 }
 
 Eigen::Matrix3d Corotational::rotation(geometry::TetId t) const noexcept {

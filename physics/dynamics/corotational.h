@@ -1,8 +1,8 @@
 // Linear elasticity in a frame that turns with each tetrahedron: large rotations, small strains.
 #pragma once
 
-#include "physics/dynamics/corotational_kernel.h"
 #include "physics/dynamics/force_law.h"
+#include "physics/dynamics/law_kernels.h"
 #include "physics/material_map.h"
 
 #include <Eigen/Dense>
@@ -32,7 +32,9 @@ enum class Tangent {
 /// The rotations come from F alone, so that forces do not depend on what was before. One thread.
 class Corotational final : public ForceLaw {
  public:
-  Corotational(const geometry::TetraMesh& mesh, const MaterialMap& material);
+  /// `unit`: what computes.
+  Corotational(const geometry::TetraMesh& mesh, const MaterialMap& material,
+               const kernels::LawKernels& unit = *kernels::law_kernels()[0]);
 
   void forces(std::span<const double> u, std::span<double> f) noexcept override;
   double energy(std::span<const double> u) const noexcept override;
@@ -51,6 +53,7 @@ class Corotational final : public ForceLaw {
  private:
   int pack_count() const noexcept { return static_cast<int>(packs_.size()); }
 
+  const kernels::LawKernels* kernels_;
   std::vector<kernels::TetPack> packs_;
   std::vector<kernels::TetTangent> tangents_;
   std::vector<double> two_mu_volume_, lambda_volume_;  // [T], N m: what add() brings back

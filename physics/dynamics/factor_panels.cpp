@@ -1,5 +1,7 @@
 #include "physics/dynamics/factor_panels.h"
 
+#include "physics/dynamics/flush_tiny.h"
+
 #include <algorithm>
 
 namespace omentum::physics {
@@ -115,6 +117,7 @@ void FactorPanels::backward(const Supernode& s, float* x, float* scratch) const 
 }
 
 void FactorPanels::solve(float* x, float* scratch) const noexcept {
+  const FlushTiny flush;
   for (const Supernode& s : supernodes_) forward(s, x, scratch);
   for (std::int32_t p = 0; p < size(); ++p) x[p] *= inverse_pivots_[p];
   for (std::size_t s = supernodes_.size(); s-- > 0;) backward(supernodes_[s], x, scratch);

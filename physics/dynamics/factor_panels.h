@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/dynamics/factor_kernels.h"
+#include "physics/dynamics/huge_pages.h"
 #include "physics/stiffness_factor.h"
 
 #include <cstdint>
@@ -57,7 +58,7 @@ class FactorPanels {
   /// One supernode's share of L^-1 x; and of L^-T x.
   void forward(const Supernode& s, float* x, float* scratch) const noexcept;
   void backward(const Supernode& s, float* x, float* scratch) const noexcept;
-  /// D at `position`, as solves use it.
+  /// 1 / D at `position`, as solves use it.
   float inverse_pivot(std::int32_t position) const { return inverse_pivots_[position]; }
 
   /// What solves keep of the diagonal tiles of a supernode, after its columns or pivots changed.
@@ -87,7 +88,7 @@ class FactorPanels {
   std::vector<std::int32_t> supernode_of_;  // [n]
   std::vector<std::int32_t> rows_;
   std::vector<Strip> strips_;
-  std::vector<Column> high_, low_;
+  std::vector<Column, HugePages<Column>> high_, low_;
   std::vector<Inverses> inverses_;     // [strips]
   std::vector<double> pivots_;         // [n] D
   std::vector<float> inverse_pivots_;  // [n]

@@ -30,7 +30,8 @@ class ImplicitStep final : public LargeStep {
 
   double step_s() const override { return step_s_; }
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
-  /// The same with the forces of another law than the factor's own; K is then what its stiffness is near.
+  /// The same with the forces of another law than the factor's own. Stable as long as no stiffness of the law
+  /// is above 4/3 of K's in any direction: not for a co-rotational law once the body has turned.
   [[nodiscard]] bool step(BodyState& state, ForceLaw& law, std::span<const double> external) noexcept;
   /// u^T K u / 2.
   double elastic_energy(std::span<const double> u) noexcept override;

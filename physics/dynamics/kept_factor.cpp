@@ -1,10 +1,11 @@
 #include "physics/dynamics/kept_factor.h"
 
 #include "physics/dynamics/element_root.h"
+#include "physics/dynamics/flush_tiny.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 namespace omentum::physics {
 
@@ -37,13 +38,14 @@ std::vector<std::int32_t> free_components(const FreeDofs& free) {
 struct KeptFactor::Assembled {
   FreeDofs free;
   Stiffness stiffness;
-  StiffnessFactor factor;
+  std::optional<StiffnessFactor> factor;  // none where everything is held
 
   Assembled(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
             std::span<const double> mass, const SystemWeights& weights)
-      : free(free_dofs(fixed)),
-        stiffness(assemble_stiffness(mesh, material)),
-        factor(system_of(stiffness, mass, weights), free) {}
+      : free(free_dofs(fixed)), stiffness(assemble_stiffness(mesh, material)) {
+    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free);
+  }
+  Supernodes supernodes() const { return factor ? factor->supernodes() : Supernodes{}; }
 };
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
@@ -59,23 +61,24 @@ KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& mater
       material_(material),
       mass_(mass),
       weights_(weights),
-      stiffness_(assembled.stiffness),
-      neighbour_(stiffness_.neighbour.begin(), stiffness_.neighbour.end()),
-      uncut_stiffness_(stiffness_.block),
+      start_(assembled.stiffness.start),
+      neighbour_(assembled.stiffness.neighbour.begin(), assembled.stiffness.neighbour.end()),
+      block_(assembled.stiffness.block.begin(), assembled.stiffness.block.end()),
+      uncut_block_(block_),
       component_(assembled.free.count),
       position_(assembled.free.index.size(), -1),
-      panels_(assembled.factor.supernodes()),
+      panels_(assembled.supernodes()),
       uncut_(panels_),
       downdate_(panels_),
       changed_(panels_.supernodes().size()),
-      scratch_(panels_.most_rows() / kTileRows),
+      scratch_(std::max(1, panels_.most_rows() / kTileRows)),
       x_(panels_.size()),
       residual_(position_.size()),
       correction_(position_.size()),
       columns_(static_cast<std::size_t>(3 * most_compliance_nodes) * panels_.size()),
       on_way_(panels_.supernodes().size()) {
   const std::vector<std::int32_t> components = free_components(assembled.free);
-  const Supernodes order = assembled.factor.supernodes();
+  const Supernodes order = assembled.supernodes();
   for (std::int32_t p = 0; p < order.size; ++p) {
     component_[p] = components[order.permutation[p]];
     position_[component_[p]] = p;
@@ -98,11 +101,9 @@ void KeptFactor::subtract_element(geometry::TetId t) noexcept {
   const ElementTensors element = element_tensors(corners_of(mesh_, t), material_.of(mesh_, t));
   const geometry::Tetrahedron& tet = mesh_.tetrahedra[t];
   for (int j = 0; j < 4; ++j) {
-    const auto row = stiffness_.neighbour.begin() + stiffness_.start[tet[j]];
-    const auto row_end = stiffness_.neighbour.begin() + stiffness_.start[tet[j] + 1];
+    const auto row = neighbour_.begin() + start_[tet[j]], row_end = neighbour_.begin() + start_[tet[j] + 1];
     for (int k = 0; k < 4; ++k)
-      stiffness_.block[std::lower_bound(row, row_end, tet[k]) - stiffness_.neighbour.begin()] -=
-          element[j][k];
+      block_[std::lower_bound(row, row_end, tet[k]) - neighbour_.begin()] -= element[j][k];
   }
 }
 
@@ -123,7 +124,7 @@ bool KeptFactor::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
 }
 
 void KeptFactor::restore() noexcept {
-  std::ranges::copy(uncut_stiffness_, stiffness_.block.begin());
+  std::ranges::copy(uncut_block_, block_.begin());
   for (std::size_t s = 0; s < changed_.size(); ++s) {
     if (changed_[s] == 0) continue;
     panels_.copy(panels_.supernodes()[s], uncut_);
@@ -146,8 +147,8 @@ void KeptFactor::solve(std::span<const double> b, std::span<double> x) noexcept 
 }
 
 void KeptFactor::holding_forces(std::span<const double> u, std::span<double> f) const noexcept {
-  kernels::multiply_block_rows(stiffness_.start.data(), neighbour_.data(), stiffness_.block.front().data(),
-                               stiffness_.node_count(), u.data(), f.data());
+  kernels::multiply_block_rows(start_.data(), neighbour_.data(), block_.front().data(), node_count(),
+                               u.data(), f.data());
 }
 
 void KeptFactor::multiply(std::span<const double> x, std::span<double> y) const noexcept {
@@ -175,6 +176,7 @@ void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
 
 // With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
 void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
+  const FlushTiny flush;
   mark_ways(nodes);
   const std::size_t width = 3 * nodes.size(), n = x_.size();
   for (std::size_t r = 0; r < width; ++r) {

@@ -52,8 +52,8 @@ class KeptFactor {
   /// What A is made of, and entries of its factor.
   const SystemWeights& weights() const { return weights_; }
   std::size_t entry_count() const { return panels_.entry_count(); }
-  /// Nodes and degrees of freedom that are free.
-  std::int32_t node_count() const { return stiffness_.node_count(); }
+  /// Nodes; degrees of freedom that are free.
+  std::int32_t node_count() const { return static_cast<std::int32_t>(mass_.size()); }
   std::int32_t free_count() const { return panels_.size(); }
   /// Whether a support holds component `c` of the [3N].
   bool is_held(std::size_t c) const { return position_[c] < 0; }
@@ -70,11 +70,11 @@ class KeptFactor {
   MaterialMap material_;
   std::vector<double> mass_;  // [N]
   SystemWeights weights_;
-  Stiffness stiffness_;                           // of what is left
-  std::vector<std::int32_t> neighbour_;           // [B] as the kernels read it
-  std::vector<Eigen::Matrix3d> uncut_stiffness_;  // [B]
-  std::vector<std::int32_t> component_;           // [n] which of 3N stands at each position
-  std::vector<std::int32_t> position_;            // [3N]; -1: held
+  using Blocks = std::vector<Eigen::Matrix3d, HugePages<Eigen::Matrix3d>>;
+  std::vector<std::int32_t> start_, neighbour_;  // rows of K (Stiffness)
+  Blocks block_, uncut_block_;                   // [B] of what is left, and of all
+  std::vector<std::int32_t> component_;          // [n] which of 3N stands at each position
+  std::vector<std::int32_t> position_;           // [3N]; -1: held
   FactorPanels panels_, uncut_;
   FactorDowndate downdate_;
   std::vector<std::uint8_t> changed_;  // [S] supernodes that differ from the uncut ones

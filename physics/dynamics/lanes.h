@@ -1,5 +1,5 @@
-// Eight doubles as one value, and the vectors of nodes carried into and out of them. For kernel files only
-// (omentum_native): whoever else includes it compiles it for another instruction set.
+// Eight doubles as one value, and the vectors of nodes carried into and out of them. For the loops that are
+// compiled for each vector unit (law_kernels.h), and nobody else.
 #pragma once
 
 #include "physics/dynamics/padded_nodes.h"
@@ -15,7 +15,7 @@ typedef double Lanes __attribute__((vector_size(kPack * sizeof(double))));
 typedef long long LaneMask __attribute__((vector_size(kPack * sizeof(double))));  // -1: true, 0: false
 
 // Always inlined: a vector that is passed in a register would change with the instruction set.
-#define OMENTUM_LANES_INLINE inline __attribute__((always_inline))
+#define OMENTUM_LANES_INLINE static inline __attribute__((always_inline))
 
 OMENTUM_LANES_INLINE const Lanes& lanes_at(const double* aligned) {
   return *reinterpret_cast<const Lanes*>(aligned);

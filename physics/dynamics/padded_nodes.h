@@ -1,8 +1,7 @@
 // Three components of each node as vector units like them. No inline functions: kernel files include it.
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <cstddef>
 
 namespace omentum::physics::kernels {
 
@@ -11,10 +10,10 @@ struct alignas(32) PaddedNode {
   double v[4];
 };
 
-/// values[3 N] into nodes[N]; the fourth of each is left as it is.
-void pad(std::span<const double> values, PaddedNode* nodes) noexcept;
+/// values[count][3] into nodes[count]; the fourth of each is left as it is.
+void pad(const double* values, std::size_t count, PaddedNode* nodes) noexcept;
 
-/// nodes[N] into values[3 N].
-void unpad(const PaddedNode* nodes, std::span<double> values) noexcept;
+/// nodes[count] into values[count][3].
+void unpad(const PaddedNode* nodes, std::size_t count, double* values) noexcept;
 
 }  // namespace omentum::physics::kernels

@@ -46,8 +46,10 @@ void place(SpringPack& pack, std::size_t lane, const Side& side, const geometry:
 
 }  // namespace
 
-SpringMesh::SpringMesh(const geometry::TetraMesh& mesh, const MaterialMap& material, SpringFit fit)
-    : edges_of_(mesh.tetrahedra.size()),
+SpringMesh::SpringMesh(const geometry::TetraMesh& mesh, const MaterialMap& material, SpringFit fit,
+                       const kernels::LawKernels& unit)
+    : kernels_(&unit),
+      edges_of_(mesh.tetrahedra.size()),
       left_(mesh.tetrahedra.size(), 1),
       u_(mesh.positions.size()),
       f_(mesh.positions.size()) {
@@ -68,15 +70,15 @@ SpringMesh::SpringMesh(const geometry::TetraMesh& mesh, const MaterialMap& mater
 }
 
 void SpringMesh::forces(std::span<const double> u, std::span<double> f) noexcept {
-  kernels::pad(u, u_.data());
+  kernels::pad(u.data(), u_.size(), u_.data());
   std::ranges::fill(f_, kernels::PaddedNode{});
-  kernels::add_spring_forces(packs_.data(), static_cast<int>(packs_.size()), u_.data(), f_.data());
-  kernels::unpad(f_.data(), f);
+  kernels_->add_spring_forces(packs_.data(), static_cast<int>(packs_.size()), u_.data(), f_.data());
+  kernels::unpad(f_.data(), f_.size(), f.data());
 }
 
 double SpringMesh::energy(std::span<const double> u) const noexcept {
-  kernels::pad(u, u_.data());
-  return kernels::spring_energy(packs_.data(), static_cast<int>(packs_.size()), u_.data());
+  kernels::pad(u.data(), u_.size(), u_.data());
+  return kernels_->spring_energy(packs_.data(), static_cast<int>(packs_.size()), u_.data());
 }
 
 void SpringMesh::remove(geometry::TetId t) noexcept {

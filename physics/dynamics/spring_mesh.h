@@ -2,8 +2,8 @@
 #pragma once
 
 #include "physics/dynamics/force_law.h"
+#include "physics/dynamics/law_kernels.h"
 #include "physics/dynamics/spring_fit.h"
-#include "physics/dynamics/spring_kernel.h"
 #include "physics/material_map.h"
 
 #include <vector>
@@ -17,8 +17,10 @@ namespace omentum::physics {
 /// thread.
 class SpringMesh final : public ForceLaw {
  public:
+  /// `unit`: what computes.
   SpringMesh(const geometry::TetraMesh& mesh, const MaterialMap& material,
-             SpringFit fit = SpringFit::kLeastSquares);
+             SpringFit fit = SpringFit::kLeastSquares,
+             const kernels::LawKernels& unit = *kernels::law_kernels()[0]);
 
   void forces(std::span<const double> u, std::span<double> f) noexcept override;
   double energy(std::span<const double> u) const noexcept override;
@@ -36,6 +38,7 @@ class SpringMesh final : public ForceLaw {
   void sum_shares(std::int32_t edge) noexcept;
   void set_left(geometry::TetId t, bool left) noexcept;
 
+  const kernels::LawKernels* kernels_;
   std::vector<kernels::SpringPack> packs_;
   std::vector<std::array<std::int32_t, 6>> edges_of_;  // [T]
   std::vector<std::int32_t> start_;                    // [edges+1] into `shares_`

@@ -17,9 +17,10 @@ constexpr double kRate_hz = 100;
 class CutLoopTest : public testing::Test {
  protected:
   CutLoopTest() {
-    options_.node.scene = block_.scene_with("mesh = ", "model = \"tensor-mass\"\ncut_delay_s = 0\nmesh = ");
+    options_.node.scene = block_.scene_with(
+        "mesh = ", "model = \"tensor-mass\"\ncut_delay_s = 0\ncut_rate_per_s = 1e6\nmesh = ");
     node_ = std::make_unique<test::StagedLoop<DeformLoop>>(kRate_hz, options_, bus_.opener());
-    node_->pass(1);
+    node_->pass(1.1);
   }
 
   static msg::Edge edge_at(double y) { return {{0.05, y, 0.12}, {0.05, y, 0.04}}; }
@@ -69,6 +70,7 @@ TEST_F(CutLoopTest, AStrokeBecomesATopologyAndAStateThatNumbersBaredNodes) {
   const auto state = bus_.newest<msg::OrganState>();
   EXPECT_EQ(state->topology_version, topology.version);
   EXPECT_EQ(state->node_count, editor.surface_nodes().size());
+  node_->pass(0.5);
   EXPECT_EQ(node_->end(), "");
   EXPECT_EQ(node_->loop().report()["removed_tetrahedra"], editor.removed_count());
   EXPECT_GT(node_->loop().report()["real_time_factor"], 0.5);

@@ -17,6 +17,7 @@ using ::testing::HasSubstr;
 constexpr double kTick_s = 0.01;
 constexpr double kLength_m = 0.12;
 
+// the last one has explicit integrators only
 constexpr std::array kDynamic{"tensor-mass", "corotational", "spring-mass"};
 constexpr std::array kExplicit{"symplectic", "euler", "rk4"};
 
@@ -70,11 +71,12 @@ class DynamicMakerTest : public testing::Test {
 TEST_F(DynamicMakerTest, AllIntegratorsOfALawComeToTheSameRest) {
   spec_.dynamics->mass_damping_per_s = 10;
   for (const std::string model : kDynamic) {
-    const auto implicit = make(model, "implicit");
-    pass(*implicit, 5);
-    const double expected = sag(*implicit);
+    const auto first = make(model, "symplectic");
+    pass(*first, 5);
+    const double expected = sag(*first);
     EXPECT_GT(expected, 0.001) << model;
-    for (const std::string integrator : kExplicit) {
+    for (const std::string integrator : {"implicit", "euler", "rk4"}) {
+      if (model == "spring-mass" && integrator == "implicit") continue;
       const auto other = make(model, integrator);
       pass(*other, 5);
       EXPECT_NEAR(sag(*other), expected, 1e-3 * expected) << model << ", " << integrator;
@@ -84,7 +86,7 @@ TEST_F(DynamicMakerTest, AllIntegratorsOfALawComeToTheSameRest) {
 
 // The linear law lengthens what turns; in turning frames a beam that hangs down keeps its length.
 TEST_F(DynamicMakerTest, ACorotationalBeamHangsDownAndComesToRest) {
-  source_.organ.material = physics::Material{.young_pa = 1500, .poisson = 0.3, .density_kg_m3 = 1000};
+  source_.organ.material = physics::Material{.young_pa = 4000, .poisson = 0.3, .density_kg_m3 = 1000};
   const auto turning = make("corotational", "implicit"), linear = make("tensor-mass", "implicit");
   pass(*turning, 10);
   pass(*linear, 10);
@@ -103,7 +105,9 @@ TEST_F(DynamicMakerTest, AStepThatIsNotStableIsRefusedWithItsLine) {
       EXPECT_THAT(refusal(model, integrator),
                   AllOf(HasSubstr("scene.toml:7: step_s: found 0.02, expected less than"),
                         HasSubstr("\"" + integrator + "\"")));
-    EXPECT_EQ(refusal(model, "implicit"), "accepted");
+    if (model != "spring-mass") {
+      EXPECT_EQ(refusal(model, "implicit"), "accepted");
+    }
   }
 }
 
@@ -116,6 +120,7 @@ TEST_F(DynamicMakerTest, ForwardEulerNeedsDamping) {
 TEST_F(DynamicMakerTest, CutAndResetEveryLawIsWhatItWas) {
   for (const std::string model : kDynamic) {
     for (const std::string integrator : {"implicit", "symplectic"}) {
+      if (model == "spring-mass" && integrator == "implicit") continue;
       const auto cut = make(model, integrator), never = make(model, integrator);
       const CutStroke stroke{.tool = 0,
                              .cut = 1,

@@ -34,14 +34,15 @@ class DynamicModelTest : public testing::Test {
   }
 
   DynamicParts parts(double step_s = 0.005) {
-    return {.mesh = mesh_,
-            .material = material_,
+    const SteppedBody body{mesh_,
+                           material_,
+                           {.mass = physics::lumped_masses(mesh_, material_),
+                            .fixed = fixed_,
+                            .mass_damping_per_s = 5,
+                            .stiffness_damping_s = 0.01}};
+    return {.body = body,
             .uncut_surface = surface_.node,
-            .inertia = {.mass = physics::lumped_masses(mesh_, material_),
-                        .fixed = fixed_,
-                        .mass_damping_per_s = 5,
-                        .stiffness_damping_s = 0.01},
-            .stepper = {.law = nullptr, .scheme = {}, .step_s = step_s},
+            .stepper = make_implicit_stepper(body, step_s),
             .tears = std::vector<physics::TearLimits>(mesh_.tetrahedra.size()),
             .cut_delay_s = 0,
             .cut_rate_per_s = 1e6};
@@ -92,19 +93,23 @@ TEST_F(DynamicModelTest, StepsThatDoNotDivideATickFollowTheClock) {
   EXPECT_EQ(model.status().steps, 1000u);
 }
 
+// The hand's place is that of the force; what it says of the force itself is 30 % off.
 TEST_F(DynamicModelTest, UnderAPressItComesToTheDirectSolution) {
-  DynamicModel model(parts());
   const NodeId pressed = nearest({kLength_m, kThick_m / 2, kThick_m});
-  const std::array<NodeId, 1> nodes{pressed};
-  const std::array<Vec3, 1> forces{Vec3(0.01, 0.02, -0.1)};
-  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = forces, .forces = forces};
-  pass(model, 10, {.presses = {&load, 1}, .cuts = {}});
-
+  const Vec3 force(0.01, 0.02, -0.1);
   const physics::FreeDofs dofs = physics::free_dofs(fixed_);
   const physics::Stiffness K = physics::assemble_stiffness(mesh_, material_);
   Eigen::MatrixXd f = Eigen::MatrixXd::Zero(dofs.count, 1);
-  for (int axis = 0; axis < 3; ++axis) f(dofs.of(pressed, axis), 0) = forces[0][axis];
+  for (int axis = 0; axis < 3; ++axis) f(dofs.of(pressed, axis), 0) = force[axis];
   const Eigen::MatrixXd u = physics::StiffnessFactor(K, dofs).solve(f);
+
+  DynamicModel model(parts());
+  const std::array<NodeId, 1> nodes{pressed};
+  const std::array<Vec3, 1> said{Vec3(0.7 * force)};
+  std::array<Vec3, 1> place;
+  for (int axis = 0; axis < 3; ++axis) place[0][axis] = u(dofs.of(pressed, axis), 0);
+  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = place, .forces = said};
+  pass(model, 10, {.presses = {&load, 1}, .cuts = {}});
   const double largest = u.cwiseAbs().maxCoeff();
   for (const NodeId n : surface_.node)
     for (int axis = 0; axis < 3; ++axis) {
@@ -244,49 +249,51 @@ TEST_F(DynamicModelTest, AForceOnWhatIsGoneDoesNothing) {
 }
 
 // What the hand is told is what the next step does.
+// A hand that presses harder, as far as the local model lets it come by that, ends the step where it
+// foretold.
 TEST_F(DynamicModelTest, ALocalModelForetellsTheNextStep) {
-  DynamicModel model(parts(kTick_s)), pushed(parts(kTick_s));
+  DynamicModel model(parts(kTick_s));
   const std::array<NodeId, 1> nodes{nearest({kLength_m, kThick_m / 2, kThick_m})};
-  const std::array<Vec3, 1> forces{Vec3(0.01, 0.02, -0.1)};
-  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = forces, .forces = forces};
-  pass(model, 0.2, {.presses = {&load, 1}, .cuts = {}});
-  pass(pushed, 0.2, {.presses = {&load, 1}, .cuts = {}});
-  LocalPatch patch(DynamicModel::kPatchNodes);
-  ASSERT_TRUE(model.local_model({mesh_.positions[nodes[0]], 0.015}, patch));
+  const std::array<Vec3, 1> forces{Vec3(0.01, 0.02, -0.1)}, place{Vec3(1e-4, 2e-4, -1e-3)};
+  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = place, .forces = forces};
+  pass(model, 0.05, {.presses = {&load, 1}, .cuts = {}});
+  LocalPatch patch(BodyStepper::kPatchNodes);
+  ASSERT_TRUE(model.local_model({0, mesh_.positions[nodes[0]], 0.015}, patch));
 
-  std::size_t at = 0;
-  while (at < patch.node_count && patch.nodes[at] != static_cast<std::uint32_t>(mesh_.file_node[nodes[0]]))
-    ++at;
+  const auto pressed = std::ranges::find(patch.nodes, static_cast<std::uint32_t>(mesh_.file_node[nodes[0]]));
+  const auto at = static_cast<std::size_t>(pressed - patch.nodes.begin());
   ASSERT_LT(at, patch.node_count);
-  EXPECT_EQ(patch.forces[at], forces[0]);
-  const Vec3 more(0, 0, -0.05);
-  const std::array<Vec3, 1> larger{Vec3(forces[0] + more)};
-  const ToolLoad harder{.tool = 0, .nodes = nodes, .displacements = larger, .forces = larger};
-  model.step({.presses = {&load, 1}, .cuts = {}}, kTick_s);
-  pushed.step({.presses = {&harder, 1}, .cuts = {}}, kTick_s);
+  const Vec3 more(0.01, 0, -0.05);
   const auto C = [&](std::size_t row, std::size_t column) {
     const std::size_t r = std::min(row, column), c = std::max(row, column), n = patch.node_count;
     return patch.compliance[r * (6 * n - r - 1) / 2 + c];
   };
+  const auto foretold = [&](std::size_t i) {
+    Vec3 x = patch.positions[i] + kTick_s * patch.velocities[i];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t of = 0; of < 3; ++of)
+        x[static_cast<int>(axis)] += C(3 * i + axis, 3 * at + of) * more[static_cast<int>(of)];
+    return x;
+  };
+  const std::array<Vec3, 1> harder{Vec3(patch.forces[at] + more)},
+      deeper{Vec3(foretold(at) - mesh_.positions[nodes[0]])};
+  const ToolLoad next{.tool = 0, .nodes = nodes, .displacements = deeper, .forces = harder};
+  model.step({.presses = {&next, 1}, .cuts = {}}, kTick_s);
   for (std::size_t i = 0; i < patch.node_count; ++i) {
     const NodeId n(static_cast<std::size_t>(patch.nodes[i]));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double foretold = C(3 * i + axis, 3 * at + 2) * more.z();
-      const double is = shown(pushed, n)[static_cast<Eigen::Index>(axis)] -
-                        shown(model, n)[static_cast<Eigen::Index>(axis)];
-      EXPECT_NEAR(is, foretold, 1e-7);
-    }
+    const Vec3 is = mesh_.positions[n] + shown(model, n);
+    EXPECT_LE((is - foretold(i)).norm(), 1e-7) << is.transpose() << " for " << foretold(i).transpose();
   }
 }
 
 TEST_F(DynamicModelTest, ALocalModelIsOfTheCutSurface) {
   DynamicModel model(parts());
   const Vec3 inside(0.05, kThick_m / 2, kThick_m / 2);
-  LocalPatch patch(DynamicModel::kPatchNodes);
-  EXPECT_FALSE(model.local_model({inside, 0.01}, patch));
+  LocalPatch patch(BodyStepper::kPatchNodes);
+  EXPECT_FALSE(model.local_model({0, inside, 0.01}, patch));
   const CutStroke stroke = stroke_at(0.05);
   model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
-  ASSERT_TRUE(model.local_model({inside, 0.02}, patch));
+  ASSERT_TRUE(model.local_model({0, inside, 0.02}, patch));
   EXPECT_EQ(patch.topology_version, 1u);
   EXPECT_GT(patch.triangle_count, 0u);
   for (std::size_t i = 0; i < patch.triangle_count; ++i)
@@ -298,12 +305,12 @@ TEST_F(DynamicModelTest, NothingOfItTakesMemory) {
   weak.gravity_m_s2 = Vec3(20, 0, -5);
   for (physics::TearLimits& limits : weak.tears) limits.edge_elongation = 0.1;
   DynamicModel model(std::move(weak));
-  LocalPatch patch(DynamicModel::kPatchNodes);
+  LocalPatch patch(BodyStepper::kPatchNodes);
   const std::size_t before = test::heap_allocations();
   for (int i = 0; i < 30; ++i) {
     const CutStroke stroke = stroke_at(0.03 + 0.002 * i);
     model.step({.presses = {}, .cuts = {&stroke, i % 3 == 0 ? 1u : 0u}}, kTick_s);
-    (void)model.local_model({Vec3(0.05, 0.02, kThick_m), 0.02}, patch);
+    (void)model.local_model({0, Vec3(0.05, 0.02, kThick_m), 0.02}, patch);
     if (i == 20) model.reset();
   }
   EXPECT_EQ(test::heap_allocations(), before);

@@ -163,7 +163,7 @@ TEST_F(OrganGroupTest, OrgansThatMeetPushEachOtherApart) {
 TEST_F(OrganGroupTest, ResetBringsAllToRestAndKeepsTheCounts) {
   press(0, {0, 0, -1});
   group_.step(book_, kTick_s);
-  group_.reset();
+  group_.reset(book_);
   EXPECT_EQ(mass(0).position(), Vec3::Zero());
   EXPECT_EQ(group_.steps(), 2u);
 }

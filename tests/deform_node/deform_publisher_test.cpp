@@ -175,7 +175,7 @@ TEST_F(PublisherTest, WhatWasRefusedIsToldAgainAndNoStateLeavesBefore) {
 /// Tool 0 at the toy.
 class LocalPublisherTest : public PublisherTest {
  protected:
-  ToolPlace tool_at(const Vec3& tip) const { return {0, {tip, kPatchRadius_m}}; }
+  ToolPlace tool_at(const Vec3& tip) const { return {0, {0, tip, kPatchRadius_m}}; }
   void offer(LocalPublisher& publisher, const Vec3& tip, std::int64_t now_ns) {
     const ToolPlace place = tool_at(tip);
     publisher.offer({&place, 1}, {&echo_, 1}, now_ns);

@@ -112,6 +112,7 @@ TEST(OrganCut, HeatIsSeenWhereItTookTissueOnly) {
   for (std::size_t s = 0; s < shape.node.size(); ++s) {
     if (shape.burnt[s] == 0) continue;
     ++burnt;
+    EXPECT_EQ(shape.burnt[s], 1);
     EXPECT_LE(shape.rest[s].y(), 0.5 * kBoxSide_m + kFloat);
     EXPECT_GE(shape.rest[s].z(), 0.5 * kBoxSide_m - kFloat);
   }

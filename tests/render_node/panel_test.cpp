@@ -8,8 +8,6 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include <limits>
-
 namespace omentum::render {
 namespace {
 
@@ -96,16 +94,6 @@ TEST(PanelView, FaultsNameTheirNode) {
   msg::NodeStatus status = status_of(msg::NODE_DEFORM, 1);
   status.faults = {"contact of an unknown node"};
   EXPECT_THAT(all_faults({{status, 0}}), ElementsAre("deform: contact of an unknown node"));
-}
-
-TEST(PanelView, RealTimeIsThatOfTheServerThatSpeaks) {
-  msg::NodeStatus serving = status_of(msg::NODE_DEFORM, 1), hand = status_of(msg::NODE_HAPTIC, 1);
-  serving.real_time_factor = 0.7;
-  hand.real_time_factor = 5;
-  EXPECT_EQ(real_time_factor({{serving, 0}, {hand, 0}}, 0), 0.7);
-  EXPECT_EQ(real_time_factor({{serving, 0}}, 60 * kSecond), 0) << "silent";
-  serving.real_time_factor = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(real_time_factor({{serving, 0}}, 0), 0);
 }
 
 TEST(PanelView, ForceStateInWords) {

@@ -209,6 +209,17 @@ TEST_F(RenderLoopTest, DrawsACutOfTheOrganThatItLoaded) {
   EXPECT_EQ(close()["unmatched_states"], 0);
 }
 
+TEST_F(RenderLoopTest, TheMapOfStrainHasAButtonAndAKey) {
+  const auto map = Contains(Field(&DrawItem::look, Look::kStrain));
+  start();
+  frames(1);
+  EXPECT_THAT(renderer_.frames.back().items, testing::Not(map));
+  click("strain (key S)");
+  EXPECT_THAT(renderer_.frames.back().items, map);
+  frame({.switch_strain = true});
+  EXPECT_THAT(renderer_.frames.back().items, testing::Not(map));
+}
+
 TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {
   start();
   frames(1000);

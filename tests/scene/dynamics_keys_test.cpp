@@ -85,6 +85,12 @@ TEST(DynamicsKeys, WhatCannotBeIsRefusedWithItsLine) {
   }
 }
 
+TEST(DynamicsKeys, SpringsAreMovedOnExplicitlyAlone) {
+  EXPECT_EQ(load_scene(with("model = \"spring-mass\"")).organs[0].dynamics->integrator, "symplectic");
+  EXPECT_THAT(message_of(with("model = \"spring-mass\"\nintegrator = \"implicit\"")),
+              HasSubstr(":5: organs[0].integrator: found "));
+}
+
 TEST(DynamicsKeys, ARegionOfADynamicOrganTearsByItself) {
   const auto scene_of = [](const std::string& model) {
     const auto file = with("model = \"" + model + "\"");

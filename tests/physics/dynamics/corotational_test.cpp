@@ -178,6 +178,26 @@ TEST_F(CorotationalTest, StepAllocatesNothing) {
   EXPECT_EQ(heap_allocations(), before);
 }
 
+TEST_F(CorotationalTest, EveryVectorUnitFindsTheSame) {
+  const Eigen::Matrix3d whole = turned(100, Vec3(1, 1, 0)), flat = whole * Vec3(1, 1, 0).asDiagonal();
+  for (const Eigen::Matrix3d& A : {whole, flat}) {
+    const Vector u = affine(mesh, A, Vec3::Zero()) + random_vector(size, 0.1 * kEdge, 5);
+    const Vector f = force_of(law, u), v = random_vector(size, 1, 2);
+    Vector product(size), other_product(size);
+    law.linearize(view(u), Tangent::kExact);
+    law.product(view(v), view(product));
+    for (const kernels::LawKernels* const* unit = kernels::law_kernels(); *unit != nullptr; ++unit) {
+      Corotational other(mesh, kTissue, **unit);
+      EXPECT_LE((force_of(other, u) - f).norm(), kRounding * f.norm()) << (*unit)->name;
+      EXPECT_NEAR(other.energy(view(u)), law.energy(view(u)), kRounding * law.energy(view(u)))
+          << (*unit)->name;
+      other.linearize(view(u), Tangent::kExact);
+      other.product(view(v), view(other_product));
+      EXPECT_LE((other_product - product).norm(), kRounding * product.norm()) << (*unit)->name;
+    }
+  }
+}
+
 // One tetrahedron that is let go: x <- x + f / (a stiffness above its own), until it is at rest.
 class CollapsedElementTest : public testing::TestWithParam<std::string> {
  protected:

@@ -15,6 +15,9 @@ using test::Values;
 
 const Vec3 kGravity(0.5, -9, 3);
 
+// What float cannot hold any more, squared: a body that has swung out.
+constexpr double kNothing_j = 1e-60;
+
 Values weight_of(const Inertia& inertia) {
   Values f(3 * inertia.mass.size());
   for (std::size_t c = 0; c < f.size(); ++c) f[c] = inertia.mass[c / 3] * kGravity[static_cast<int>(c % 3)];
@@ -82,16 +85,20 @@ TEST(ImplicitStepTest, EnergyNeverGrowsByMoreThanTheWorkCutsIncluded) {
   }
 }
 
-TEST(ImplicitStepTest, WithoutForcesEnergyOnlyFalls) {
+TEST(ImplicitStepTest, WithoutForcesEnergyOnlyFallsForAMinute) {
   const HeldBody body = test::held_box();
-  ImplicitStep stepper(body.mesh, test::kTissue, body.inertia, {.step_s = 2e-3});
+  const std::vector<TetId> order = body.any_order();
+  ImplicitStep stepper(body.mesh, test::kTissue, body.inertia, {.step_s = 5e-3});
   BodyState state = struck(body);
   const Values nothing(body.components());
   double before = energy(stepper, body, state);
-  for (int i = 0; i < 2000; ++i) {
+  for (std::size_t i = 0; i < 12000; ++i) {
+    if (i % 100 == 50) {
+      ASSERT_TRUE(stepper.remove({&order[i / 100], 1}));
+    }
     ASSERT_TRUE(stepper.step(state, nothing));
     const double after = energy(stepper, body, state);
-    ASSERT_LE(after, before * (1 + 1e-9)) << i;
+    ASSERT_LE(after, before * (1 + 1e-9) + kNothing_j) << i;
     before = after;
   }
 }

@@ -159,6 +159,17 @@ TEST(KeptFactorTest, WhatWouldFloatWithoutMassIsSaid) {
   EXPECT_TRUE(factor.remove({order.data(), 1}));
 }
 
+TEST(KeptFactorTest, WhereEverythingIsHeldNothingMoves) {
+  HeldBody body = test::held_box();
+  std::ranges::fill(body.inertia.fixed, kPinned);
+  KeptFactor factor = kept(body);
+  EXPECT_TRUE(factor.remove(body.any_order()));
+  Values x(body.components(), 1);
+  factor.solve(Values(x.size(), 1), x);
+  EXPECT_EQ(x, Values(x.size(), 0));
+  factor.restore();
+}
+
 TEST(KeptFactorTest, NothingIsTakenFromTheHeap) {
   const HeldBody body = test::held_box();
   KeptFactor factor = kept(body);

@@ -119,6 +119,15 @@ TEST_F(SpringMeshTest, EndsInOnePlaceTakeNoForceFromEachOther) {
   EXPECT_TRUE(f.allFinite());
 }
 
+TEST_F(SpringMeshTest, EveryVectorUnitFindsTheSame) {
+  const Vector u = random_vector(size, 0.2 * kEdge, 8), f = force_of(law, u);
+  for (const kernels::LawKernels* const* unit = kernels::law_kernels(); *unit != nullptr; ++unit) {
+    SpringMesh other(mesh, kTissue, SpringFit::kLeastSquares, **unit);
+    EXPECT_LE((force_of(other, u) - f).norm(), kRounding * f.norm()) << (*unit)->name;
+    EXPECT_NEAR(other.energy(view(u)), law.energy(view(u)), kRounding * law.energy(view(u))) << (*unit)->name;
+  }
+}
+
 TEST_F(SpringMeshTest, StepAllocatesNothing) {
   Vector u = random_vector(size, 0.1 * kEdge, 8), f(size);
   const std::size_t before = heap_allocations();

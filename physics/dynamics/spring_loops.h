@@ -1,8 +1,9 @@
-// Nothing but loops on raw pointers and no library header with inline functions: compiled for this machine's
-// vector unit (omentum_native).
-#include "physics/dynamics/spring_kernel.h"
+// What the springs' kernels of all vector units are made of. Nothing but loops on raw pointers, and no
+// library header with inline functions: what the linker keeps of those may be of any instruction set.
+#pragma once
 
 #include "physics/dynamics/lanes.h"
+#include "physics/dynamics/law_kernels.h"
 
 namespace omentum::physics::kernels {
 
@@ -22,8 +23,6 @@ OMENTUM_LANES_INLINE void stretch(const SpringPack& pack, const PaddedNode* u, S
   s.along[2] = lanes_at(pack.rest[2]) + (to.z - from.z);
   s.length = square_root(s.along[0] * s.along[0] + s.along[1] * s.along[1] + s.along[2] * s.along[2]);
 }
-
-}  // namespace
 
 void add_spring_forces(const SpringPack* packs, int count, const PaddedNode* u, PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
@@ -59,5 +58,7 @@ double spring_energy(const SpringPack* packs, int count, const PaddedNode* u) no
   for (int l = 0; l < kPack; ++l) total += sum[l];
   return total;
 }
+
+}  // namespace
 
 }  // namespace omentum::physics::kernels

@@ -1,8 +1,9 @@
-// Nothing but loops on raw pointers and no library header with inline functions: compiled for this machine's
-// vector unit (omentum_native).
-#include "physics/dynamics/corotational_kernel.h"
+// What the co-rotational kernels of all vector units are made of. Nothing but loops on raw pointers, and no
+// library header with inline functions: what the linker keeps of those may be of any instruction set.
+#pragma once
 
 #include "physics/dynamics/lanes.h"
+#include "physics/dynamics/law_kernels.h"
 
 namespace omentum::physics::kernels {
 
@@ -225,8 +226,6 @@ OMENTUM_LANES_INLINE void tangent_stress(const TetPack& pack, const TetTangent& 
   times(R, Q, P);
 }
 
-}  // namespace
-
 void add_corotational_forces(const TetPack* packs, int count, const PaddedNode* u, PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
     const TetPack& pack = packs[i];
@@ -277,5 +276,7 @@ void add_corotational_product(const TetPack* packs, const TetTangent* tangents, 
     scatter(packs[i], P, f);
   }
 }
+
+}  // namespace
 
 }  // namespace omentum::physics::kernels
