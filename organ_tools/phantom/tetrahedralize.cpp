@@ -98,7 +98,7 @@ MeshSize plate_size() {
 }
 
 MeshSize cylinder_size() {
-  return {225, 270, 800, 980, 0.017, 0.75};
+  return {238, 262, 840, 940, 0.0172, 0.7};
 }
 
 geometry::TetraMesh tetrahedralize(const ImplicitShape& shape, const MeshSize& size) {
