@@ -139,6 +139,18 @@ TEST_F(DynamicModelTest, AStrokeRemovesWhatItMeetsAndBaresNodes) {
   EXPECT_EQ(model.view().topology_version, 1u);
 }
 
+TEST_F(DynamicModelTest, ItTellsWhatACutCostsInTissue) {
+  DynamicModel model(parts());
+  const CutStroke stroke = stroke_at(0.05), beside = stroke_at(0.5);
+  model.step({.presses = {}, .cuts = {&beside, 1}}, kTick_s);
+  EXPECT_EQ(model.status().cuts.way_m, 0);
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  EXPECT_DOUBLE_EQ(model.status().cuts.way_m, 2);
+  const double share =
+      static_cast<double>(model.status().removed_tetrahedra) / static_cast<double>(mesh_.tetrahedra.size());
+  EXPECT_NEAR(model.status().cuts.lost_m3, share * kLength_m * kThick_m * kThick_m, 1e-12);
+}
+
 TEST_F(DynamicModelTest, TissueBurnsThroughAfterItsDelay) {
   DynamicParts slow = parts();
   slow.cut_delay_s = 0.045;
