@@ -78,7 +78,7 @@ void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept
   for (const CutStroke& stroke : strokes) {
     const std::span<const TetId> met = swept_.find({stroke.from, stroke.to});
     burning_.meet(met, editor_);
-    if (std::ranges::any_of(met, [&](TetId t) { return !editor_.is_removed(t); }))
+    if (!met.empty())
       status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
   }
   const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);

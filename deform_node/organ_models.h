@@ -56,7 +56,7 @@ struct OrganView {
 
 /// What cutting edges did to an organ.
 struct CutAccount {
-  double way_m = 0;    // of their middles, where they met tissue
+  double way_m = 0;    // of their middles, through the organ as it was before any cut
   double lost_m3 = 0;  // tissue that went for it: burnt, and what then hung on a node or an edge
 };
 
