@@ -4,6 +4,8 @@
 #include "transport/messages.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <algorithm>
 
@@ -76,6 +78,21 @@ struct OwnedSurface {
   ElasticSurface elastic;
 };
 
+// In which direction tissue pushes: the normals of the organ's own shape, as DeformedSurface has them, turned
+// as the patch has turned. Those of the shape without forces would be a funnel's, since most of a dent is by
+// the organ's own motion.
+std::vector<Vec3> normals_of(const LocalPatch& patch, const ElasticSurface& elastic) {
+  if (patch.at_rest.empty()) return geometry::surface_normals(elastic.surface, elastic.rest);
+  const auto columns = [](const std::vector<Vec3>& points) {
+    return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3, std::ssize(points));
+  };
+  const Eigen::Matrix3d turn =
+      Eigen::umeyama(columns(patch.at_rest), columns(elastic.rest), false).topLeftCorner<3, 3>();
+  std::vector<Vec3> normals = geometry::surface_normals(elastic.surface, patch.at_rest);
+  for (Vec3& normal : normals) normal = turn * normal;
+  return normals;
+}
+
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
 }
@@ -90,6 +107,7 @@ class LocalBody final : private OwnedSurface, public DeformedSurface {
         begin_(elastic.rest),
         velocities_(patch.velocities),
         at_rest_(patch.at_rest.empty() ? begin_ : patch.at_rest),
+        pushes_(normals_of(patch, elastic)),
         apart_(begin_.size(), Vec3::Zero()),
         drifts_(begin_.size()) {
     velocities_.resize(begin_.size(), Vec3::Zero());
@@ -137,11 +155,14 @@ class LocalBody final : private OwnedSurface, public DeformedSurface {
   void find_place(const SurfacePoint& point, Place& place) noexcept override {
     DeformedSurface::find_place(point, place);
     const geometry::Triangle& t = surface().triangles[point.triangle];
+    Vec3 push = Vec3::Zero();
     for (int v = 0; v < 3; ++v) {
+      push += point.barycentric[v] * pushes_[static_cast<std::size_t>(t[v])];
       const Drift& of_node = drifts_[static_cast<std::size_t>(t[v])];
       place.drift.way += point.barycentric[v] * of_node.way;
       place.drift.blend += point.barycentric[v] * of_node.blend;
     }
+    if (push.squaredNorm() > 0) place.normal = push.normalized();
   }
 
   std::optional<SurfacePoint> point_among(std::span<const std::uint32_t> file_nodes,
@@ -170,6 +191,7 @@ class LocalBody final : private OwnedSurface, public DeformedSurface {
   std::int64_t arrival_ns_, replaced_ns_ = 0;
   std::vector<Vec3> begin_, velocities_;  // [n] without forces: where it was at its arrival, m, and m/s
   std::vector<Vec3> at_rest_;             // [n] in the organ's file, m
+  std::vector<Vec3> pushes_;              // [n] normals, unit
   std::vector<Vec3> apart_;               // [n] to where the replaced one stood, m
   std::vector<Drift> drifts_;             // [n] in this tick
   double left_ = 0;                       // of the way between both
