@@ -44,7 +44,7 @@ class DynamicModel final : public OrganModel {
   void drop_what_fell() noexcept;
   /// Those that are there, and what then has to go. Returns them all.
   std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
-  void advance(double dt_s) noexcept;
+  void advance(int steps) noexcept;
   using Step = decltype(&BodyStepper::step);
   /// False: the energy afterwards cannot be.
   bool run(int steps, Step step) noexcept;

@@ -10,17 +10,18 @@ class Exploding final : public BodyStepper {
   explicit Exploding(bool also_shorter) : also_shorter_(also_shorter) {}
 
   double step_s() const override { return kTick_s; }
-  std::optional<double> step(physics::BodyState& state, std::span<const double>) noexcept override {
+  std::optional<double> step(physics::BodyState& state, BodyLoads&) noexcept override {
     state.v.back() = 1e3;
     return 0;
   }
-  std::optional<double> step_shorter(physics::BodyState& state, std::span<const double> f) noexcept override {
+  std::optional<double> step_shorter(physics::BodyState& state, BodyLoads& f) noexcept override {
     return also_shorter_ ? step(state, f) : 0;
   }
   double elastic_energy(std::span<const double>) noexcept override { return 0; }
   bool remove(std::span<const geometry::TetId>) noexcept override { return true; }
   void restore(std::span<const geometry::TetId>) noexcept override {}
   void compliance(std::span<const NodeId>, std::span<float>) noexcept override {}
+  void foresee(const physics::BodyState&, std::span<const double>, std::span<double>) noexcept override {}
 
  private:
   bool also_shorter_;
