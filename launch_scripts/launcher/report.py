@@ -17,7 +17,8 @@ FIELDS = {
     "haptic_node": {"loop": NO_LOOP, "force_n": {"mean": 0.0, "max": 0.0},
                     "contacts": {"ticks_in_contact": 0, "nodes_max": 0}, "faults": []},
     "deform_node": {"loop": NO_LOOP, "states": 0, "steps": 0, "removed_tetrahedra": 0, "faults": []},
-    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "closed": False, "faults": []},
+    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "closed": False,
+                    "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
 MEETING_S = 5.0  # two Fast participants may need 2.9 s to find each other, and haptic_node listens for one
