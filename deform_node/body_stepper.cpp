@@ -33,12 +33,28 @@ physics::ImplicitStep implicit_of(const SteppedBody& body, double step_s) {
 
 class ImplicitStepper final : public BodyStepper {
  public:
-  ImplicitStepper(const SteppedBody& body, double step_s) : implicit_(implicit_of(body, step_s)) {}
+  ImplicitStepper(const SteppedBody& body, double step_s)
+      : inertia_(body.inertia),
+        implicit_(implicit_of(body, step_s)),
+        impulse_(3 * body.inertia.mass.size()) {}
 
   double step_s() const override { return implicit_.step_s(); }
   Work step(BodyState& state, std::span<const double> external) noexcept override {
     if (!implicit_.step(state, external)) return {};
     return work_of(external, state, step_s());
+  }
+  // the equation of physics::ImplicitStep, without a trace in it
+  void held_motion(const BodyState& state, std::span<const double> external,
+                   std::span<double> motion) noexcept override {
+    const double dt = step_s(), reach = dt + inertia_.stiffness_damping_s;
+    for (std::size_t c = 0; c < impulse_.size(); ++c) motion[c] = state.u[c] + reach * state.v[c];
+    implicit_.factor().holding_forces(motion, impulse_);
+    for (std::size_t c = 0; c < impulse_.size(); ++c) {
+      const double drag = inertia_.mass_damping_per_s * inertia_.mass[c / 3] * state.v[c];
+      impulse_[c] = dt * (external[c] - impulse_[c] - drag);
+    }
+    implicit_.factor().solve_roughly(impulse_, motion);
+    for (std::size_t c = 0; c < impulse_.size(); ++c) motion[c] += state.v[c];
   }
   double elastic_energy(std::span<const double> u) noexcept override { return implicit_.elastic_energy(u); }
   bool remove(std::span<const TetId> tetrahedra) noexcept override { return implicit_.remove(tetrahedra); }
@@ -48,7 +64,9 @@ class ImplicitStepper final : public BodyStepper {
   }
 
  private:
+  physics::Inertia inertia_;
   physics::ImplicitStep implicit_;
+  std::vector<double> impulse_;  // workspace, [3N]
 };
 
 class WarpedStepper final : public BodyStepper {

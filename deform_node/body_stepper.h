@@ -5,6 +5,7 @@
 #include "physics/dynamics/explicit_step.h"
 #include "physics/dynamics/force_law.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,6 +41,13 @@ class BodyStepper {
   }
   /// J, of what is left.
   virtual double elastic_energy(std::span<const double> u) noexcept = 0;
+
+  /// How all nodes move on while the external forces stay: their way in the next step over its time, [3N],
+  /// m/s. What a body of another kind answers is its velocity now.
+  virtual void held_motion(const physics::BodyState& state, std::span<const double> /*external*/,
+                           std::span<double> motion) noexcept {
+    std::copy(state.v.begin(), state.v.end(), motion.begin());
+  }
 
   /// Precondition of both: exactly those are there, or gone. False: the factor is of no use any more.
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;

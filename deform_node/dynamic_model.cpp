@@ -55,7 +55,9 @@ DynamicModel::DynamicModel(DynamicParts parts)
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
-      block_(std::make_unique<std::vector<float>>(9 * kPatchNodes * kPatchNodes)) {
+      block_(std::make_unique<std::vector<float>>(9 * kPatchNodes * kPatchNodes)),
+      motion_(std::make_unique<Motion>()) {
+  motion_->v.resize(state_.v.size());
   gone_.reserve(mesh_.tetrahedra.size());
   fallen_.reserve(mesh_.tetrahedra.size());
 }
@@ -170,6 +172,7 @@ void DynamicModel::reset() noexcept {
 }
 
 void DynamicModel::show() noexcept {
+  motion_->is_new = false;
   float* value = values_.data();
   for (const NodeId n : editor_.surface_nodes())
     for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(state_.u[3 * n + axis]);
@@ -185,11 +188,12 @@ OrganView DynamicModel::view() const noexcept {
 
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   if (!gatherer_->gather(place, editor_, state_.u, patch)) return false;
+  if (!std::exchange(motion_->is_new, true)) stepper_->held_motion(state_, loads_.external(), motion_->v);
   const std::span<const NodeId> nodes = gatherer_->nodes();
   patch.topology_version = version_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]);
-    patch.velocities[i] = at(state_.v, nodes[i]);
+    patch.velocities[i] = at(motion_->v, nodes[i]);
     patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
   }
   const std::size_t rows = 3 * nodes.size();

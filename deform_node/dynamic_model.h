@@ -70,6 +70,11 @@ class DynamicModel final : public OrganModel {
   std::vector<float> values_;                   // [3N], of them 3 for each node of the surface
   std::unique_ptr<PatchGatherer> gatherer_;     // workspace of local_model()
   std::unique_ptr<std::vector<float>> block_;
+  struct Motion {
+    std::vector<double> v;  // [3N], m/s, under the forces of this tick
+    bool is_new = false;
+  };
+  std::unique_ptr<Motion> motion_;
 };
 
 }  // namespace omentum::deform
