@@ -66,7 +66,7 @@ std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double
 /// Explicit steps. Nothing yields within one of them, and none has an equation whose solution would say how:
 /// what a hand feels of the body is the compliance at rest over kFeltStep_s, the time between two local
 /// models, s.
-inline constexpr double kFeltStep_s = 0.005;
+inline constexpr double kFeltStep_s = 0.01;
 std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body,
                                                    std::unique_ptr<physics::ForceLaw> law,
                                                    physics::ExplicitScheme scheme, double step_s);
