@@ -67,11 +67,12 @@ class LargeStepper final : public BodyStepper {
 class ExplicitStepper final : public BodyStepper {
  public:
   ExplicitStepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law, physics::ExplicitScheme scheme,
-                  double step_s)
+                  double step_s, bool is_felt)
       : inertia_(body.inertia),
         law_(std::move(law)),
         explicit_(scheme, inertia_),
         step_s_(step_s),
+        is_felt_(is_felt),
         felt_(body.mesh, body.material, inertia_,
               {.step_s = kFeltStep_s, .most_compliance_nodes = kPatchNodes}),
         imposed_(inertia_.mass.size(), kMaxTools),
@@ -99,6 +100,7 @@ class ExplicitStepper final : public BodyStepper {
     for (const TetId t : removed) law_->add(t);
     felt_.restore();
   }
+  bool is_felt() const override { return is_felt_; }
   double felt_s() const override { return felt_.step_s(); }
   void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
     felt_.compliance(nodes, block);
@@ -123,6 +125,7 @@ class ExplicitStepper final : public BodyStepper {
   std::unique_ptr<ForceLaw> law_;
   physics::ExplicitStep explicit_;
   double step_s_;
+  bool is_felt_;
   physics::ImplicitStep felt_;
   physics::ImposedPress imposed_;
   BodyState ahead_;  // of which only u counts
@@ -140,8 +143,9 @@ std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double
 }
 
 std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law,
-                                                   physics::ExplicitScheme scheme, double step_s) {
-  return std::make_unique<ExplicitStepper>(body, std::move(law), scheme, step_s);
+                                                   physics::ExplicitScheme scheme, double step_s,
+                                                   bool is_linear_at_rest) {
+  return std::make_unique<ExplicitStepper>(body, std::move(law), scheme, step_s, is_linear_at_rest);
 }
 
 }  // namespace omentum::deform

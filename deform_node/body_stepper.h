@@ -46,6 +46,8 @@ class BodyStepper {
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore(std::span<const geometry::TetId> removed) noexcept = 0;
 
+  /// False: no hand feels it, and nothing of the three below is asked for.
+  virtual bool is_felt() const { return true; }
   /// What a hand feels within so long, s: displacement of `nodes` per force held, [3n x 3n], m/N, symmetric;
   /// and where the body will be if all forces stay as they are, [3N].
   virtual double felt_s() const { return step_s(); }
@@ -65,8 +67,10 @@ std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double
 /// Nothing yields within one of them, and none has an equation whose solution would say how: what a hand
 /// feels of the body is the compliance at rest over kFeltStep_s, the time between two local models, s.
 inline constexpr double kFeltStep_s = 0.005;
+/// That is the compliance of linear elasticity: a body of another law at rest, such as springs, is not felt.
 std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body,
                                                    std::unique_ptr<physics::ForceLaw> law,
-                                                   physics::ExplicitScheme scheme, double step_s);
+                                                   physics::ExplicitScheme scheme, double step_s,
+                                                   bool is_linear_at_rest = true);
 
 }  // namespace omentum::deform

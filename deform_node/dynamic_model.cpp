@@ -72,7 +72,10 @@ DynamicModel::DynamicModel(DynamicParts parts)
 }
 
 ModelSizes DynamicModel::sizes() const {
-  return {.values = values_.size(), .removed_bytes = burnt_.size(), .local_nodes = kPatchNodes, .spheres = 0};
+  return {.values = values_.size(),
+          .removed_bytes = burnt_.size(),
+          .local_nodes = stepper_->is_felt() ? kPatchNodes : 0,
+          .spheres = 0};
 }
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -198,7 +201,7 @@ OrganView DynamicModel::view() const noexcept {
 }
 
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
-  if (!gatherer_->gather(place, editor_, state_.u, patch)) return false;
+  if (!stepper_->is_felt() || !gatherer_->gather(place, editor_, state_.u, patch)) return false;
   const std::span<const NodeId> nodes = gatherer_->nodes();
   if (!felt_->is_foreseen) stepper_->foresee(state_, loads_.external(), felt_->u);
   felt_->is_foreseen = true;
