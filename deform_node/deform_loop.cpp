@@ -27,6 +27,12 @@ void say_once(bool& said, const char* what) {
   if (!std::exchange(said, true)) std::cerr << "deform_node: " << what << std::endl;
 }
 
+nlohmann::json to_json(const CutAccount& cuts) {
+  const double way_cm = 1e2 * cuts.way_m, lost_cm3 = 1e6 * cuts.lost_m3;
+  return {
+      {"way_cm", way_cm}, {"lost_cm3", lost_cm3}, {"lost_cm3_per_cm", way_cm > 0 ? lost_cm3 / way_cm : 0}};
+}
+
 }  // namespace
 
 DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
@@ -188,6 +194,7 @@ nlohmann::json DeformLoop::report() const {
           {"steps", organs_.steps()},
           {"removed_tetrahedra", organs_.removed_tetrahedra()},
           {"repaired_tetrahedra", organs_.repaired_tetrahedra()},
+          {"cuts", to_json(organs_.cuts())},
           {"real_time_factor", time_.overall()},
           {"faults", faults_.lines()}};
 }

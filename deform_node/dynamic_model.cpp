@@ -27,6 +27,12 @@ double length_of(const geometry::TetraMesh& mesh) {
   return box.diagonal().norm();
 }
 
+double volume_of(const geometry::TetraMesh& mesh, TetId t) {
+  const auto& [a, b, c, d] = mesh.tetrahedra[t];
+  const auto& x = mesh.positions;
+  return geometry::signed_volume(x[a], x[b], x[c], x[d]);
+}
+
 Vec3 at(const std::vector<double>& components, NodeId n) {
   return Eigen::Map<const Vec3>(components.data() + 3 * n);
 }
@@ -71,10 +77,15 @@ void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
 
 void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
   if (!strokes.empty()) swept_.follow(state_.u);
-  for (const CutStroke& stroke : strokes) burning_.meet(swept_.find({stroke.from, stroke.to}), editor_);
+  for (const CutStroke& stroke : strokes) {
+    const std::span<const TetId> met = swept_.find({stroke.from, stroke.to});
+    burning_.meet(met, editor_);
+    if (!met.empty())
+      status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
+  }
   const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
   for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
-  remove(burnt);
+  for (const TetId t : remove(burnt)) status_.cuts.lost_m3 += volume_of(mesh_, t);
 }
 
 void DynamicModel::check(double dt_s) noexcept {
@@ -94,16 +105,17 @@ void DynamicModel::drop_what_fell() noexcept {
   remove(fallen_);
 }
 
-void DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
-  if (tetrahedra.empty()) return;
+std::span<const TetId> DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
+  if (tetrahedra.empty()) return {};
   const geometry::Removal removal = editor_.remove(tetrahedra);
   gone_.assign(removal.asked.begin(), removal.asked.end());
   gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
   gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
-  if (gone_.empty()) return;
+  if (gone_.empty()) return {};
   ++version_;
   status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
   forgo_gone();
+  return gone_;
 }
 
 void DynamicModel::forgo_gone() noexcept {

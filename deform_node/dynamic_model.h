@@ -45,8 +45,8 @@ class DynamicModel final : public OrganModel {
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
   void check(double dt_s) noexcept;
   void drop_what_fell() noexcept;
-  /// Those that are there, and what then has to go.
-  void remove(std::span<const geometry::TetId> tetrahedra) noexcept;
+  /// Those that are there, and what then has to go. Returns them all.
+  std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   /// What the editor took, `gone_`, goes off the body.
   void forgo_gone() noexcept;
   void list_removed() noexcept;

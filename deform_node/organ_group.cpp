@@ -82,6 +82,16 @@ std::uint32_t OrganGroup::repaired_tetrahedra() const {
   return repaired;
 }
 
+CutAccount OrganGroup::cuts() const {
+  CutAccount all;
+  for (const ServedOrgan& served : organs_) {
+    const CutAccount own = served.model->status().cuts;
+    all.way_m += own.way_m;
+    all.lost_m3 += own.lost_m3;
+  }
+  return all;
+}
+
 double OrganGroup::simulated_s() const {
   double slowest_s = 0;
   for (const ServedOrgan& served : organs_) {

@@ -31,6 +31,7 @@ class OrganGroup {
   std::uint64_t steps() const;
   std::uint32_t removed_tetrahedra() const;
   std::uint32_t repaired_tetrahedra() const;
+  CutAccount cuts() const;
   /// What the slowest organ lived through, s; 0 where none has a time of its own.
   double simulated_s() const;
 

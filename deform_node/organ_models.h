@@ -54,13 +54,20 @@ struct OrganView {
   std::span<const std::uint8_t> burnt_bits{};    // those of them that an edge burnt away, likewise
 };
 
+/// What cutting edges did to an organ.
+struct CutAccount {
+  double way_m = 0;    // of their middles, through the organ as it was before any cut
+  double lost_m3 = 0;  // tissue that went for it: burnt, and what then hung on a node or an edge
+};
+
 /// What a model says of itself. Counters count since the start, over resets.
 struct ModelStatus {
   std::uint64_t steps = 0;
   double simulated_s = 0;                 // what it lived through; 0: it has no time of its own
   std::uint32_t removed_tetrahedra = 0;   // now
   std::uint32_t repaired_tetrahedra = 0;  // of them, what hung on one node or edge and nobody cut
-  bool diverged = false;                  // its state is beyond help: it must be reset, and not be published
+  CutAccount cuts{};
+  bool diverged = false;     // its state is beyond help: it must be reset, and not be published
   std::string_view fault{};  // of this step, a text that lives as long as the program; empty: none
 };
 

@@ -3,6 +3,7 @@
 #include "render_node/surface_shading.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace omentum::render {
@@ -33,6 +34,7 @@ BaredSkin::BaredSkin(std::vector<Triangle> bared, std::span<const Vec3f> rest, i
   normals_.assign(node_.size(), Vec3f::UnitZ());
   around_.resize(node_.size());
   openness_.resize(node_.size());
+  reach_.resize(node_.size());
   refinement_ = SurfaceRefinement(own_, static_cast<std::int32_t>(node_.size()), level);
   find_rim();
   mesh_.triangles = refinement_.triangles();
@@ -83,23 +85,36 @@ void BaredSkin::find_rim() {
         if (!on_rim[static_cast<std::size_t>(t[c])]) pulls_.push_back({t[c], other});
     }
   }
+  pull_count_.assign(node_.size(), 0);
+  for (const auto& [drawn, to] : pulls_) ++pull_count_[static_cast<std::size_t>(drawn)];
 }
 
 void BaredSkin::relax(std::span<Vec3f> positions) {
+  for (std::size_t b = 0; b < node_.size(); ++b)
+    positions_[b] = positions[static_cast<std::size_t>(node_[b])];
+  find_reach();
+  const std::vector<Vec3f> start = positions_;
   std::vector<Vec3f>& sum = around_;  // free until deform()
-  std::vector<float>& count = openness_;
   for (int k = 0; k < kRelaxations; ++k) {
     std::fill(sum.begin(), sum.end(), Vec3f::Zero());
-    std::fill(count.begin(), count.end(), 0.0f);
-    for (const auto& [drawn, to] : pulls_) {
-      sum[static_cast<std::size_t>(drawn)] +=
-          positions[static_cast<std::size_t>(node_[static_cast<std::size_t>(to)])];
-      ++count[static_cast<std::size_t>(drawn)];
-    }
-    for (std::size_t b = 0; b < node_.size(); ++b) {
-      Vec3f& position = positions[static_cast<std::size_t>(node_[b])];
-      if (count[b] > 0) position = 0.5f * (position + sum[b] / count[b]);
-    }
+    for (const auto& [drawn, to] : pulls_)
+      sum[static_cast<std::size_t>(drawn)] += positions_[static_cast<std::size_t>(to)];
+    for (std::size_t b = 0; b < node_.size(); ++b)
+      if (pull_count_[b] > 0) positions_[b] = 0.5f * (positions_[b] + sum[b] / pull_count_[b]);
+  }
+  for (std::size_t b = 0; b < node_.size(); ++b) {
+    const Vec3f moved = positions_[b] - start[b];
+    const float share = std::min(1.0f, reach_[b] / std::max(moved.norm(), std::numeric_limits<float>::min()));
+    positions[static_cast<std::size_t>(node_[b])] = start[b] + share * moved;
+  }
+}
+
+void BaredSkin::find_reach() {
+  std::fill(reach_.begin(), reach_.end(), 0.0f);
+  for (const auto& [drawn, to] : pulls_) {
+    const auto d = static_cast<std::size_t>(drawn);
+    reach_[d] +=
+        kMostMoved / pull_count_[d] * (positions_[static_cast<std::size_t>(to)] - positions_[d]).norm();
   }
 }
 

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
                             "and tear, a plate and a cylinder; in metres.");
   std::string part = "liver", size;
   std::filesystem::path mesh_file, labels_file;
-  line.option("--part", part, "liver, gallbladder (700-1,000 nodes), plate (700-820) or cylinder (225-270)")
+  line.option("--part", part, "liver, gallbladder (700-1,000 nodes), plate (700-820) or cylinder (238-262)")
       .one_of({"liver", "gallbladder", "plate", "cylinder"})
       .show_default();
   line.option("--size", size, "of the liver: paper (the default: 1,500-1,800 nodes) or fine (above 16,000)")

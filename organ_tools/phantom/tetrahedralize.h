@@ -10,7 +10,8 @@ namespace omentum::phantom {
 struct MeshSize {
   std::size_t fewest_nodes, most_nodes;
   std::size_t fewest_tetrahedra, most_tetrahedra;
-  double first_edge_m;  // where the search for the right edge length starts
+  double first_edge_m;   // where the search for the right edge length starts
+  double cell_size = 1;  // bound on tetrahedra over that on facets: below 1 the inside is finer
 };
 
 /// The liver's. The papers' size: 1,500-1,800 nodes, 6,500-8,000 tetrahedra.

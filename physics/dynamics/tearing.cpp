@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace omentum::physics {
 
@@ -26,6 +27,16 @@ Eigen::Matrix3d edges_from_first(const Places& x) {
   Eigen::Matrix3d D;
   D << x[1] - x[0], x[2] - x[0], x[3] - x[0];
   return D;
+}
+
+std::array<double, 6> edge_lengths(const Places& x) {
+  std::array<double, 6> length_m;
+  for (std::size_t e = 0; e < 6; ++e) length_m[e] = (x[kEdges[e][1]] - x[kEdges[e][0]]).norm();
+  return length_m;
+}
+
+double mean(const std::array<double, 6>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / 6;
 }
 
 // Tension has the positive sign.
@@ -50,39 +61,50 @@ Tearing::Tearing(const geometry::TetraMesh& mesh, const MaterialMap& material,
     Places x;
     for (std::size_t c = 0; c < 4; ++c) x[c] = mesh.positions[mesh.tetrahedra[i][c]];
     const Material& of_t = material.of(mesh, t);
-    rest_.push_back({edges_from_first(x).inverse(), of_t.lambda(), of_t.mu(), limits[i]});
+    rest_.push_back({edges_from_first(x).inverse(), edge_lengths(x), of_t.lambda(), of_t.mu(), limits[i]});
   }
   loaded_.reserve(mesh.tetrahedra.size());
   chosen_.reserve(mesh.tetrahedra.size());
 }
 
-TetStrain Tearing::strain(TetId t, std::span<const double> displacements) const noexcept {
-  Places x;
+struct Tearing::Deformed {
   std::array<double, 6> elongation;
+  double volume_ratio;
+  Eigen::Matrix3d stress_pa;
+};
+
+Tearing::Deformed Tearing::deform(TetId t, std::span<const double> displacements) const noexcept {
+  Places x;
+  Deformed now;
   for (std::size_t c = 0; c < 4; ++c) {
     const geometry::NodeId n = mesh_.tetrahedra[t][c];
     x[c] = mesh_.positions[n] + Eigen::Map<const Vec3>(displacements.data() + 3 * n);
   }
-  for (std::size_t e = 0; e < 6; ++e) {
-    const auto [a, b] = kEdges[e];
-    const auto& nodes = mesh_.tetrahedra[t];
-    elongation[e] = (x[b] - x[a]).norm() / (mesh_.positions[nodes[b]] - mesh_.positions[nodes[a]]).norm() - 1;
-  }
   const Rest& rest = rest_[t];
+  const std::array<double, 6> length_m = edge_lengths(x);
+  for (std::size_t e = 0; e < 6; ++e) now.elongation[e] = length_m[e] / rest.length_m[e] - 1;
   const Eigen::Matrix3d F = edges_from_first(x) * rest.inverse;
   const Eigen::Matrix3d E = 0.5 * (F.transpose() * F - Eigen::Matrix3d::Identity());
-  const Eigen::Matrix3d S = rest.lambda_pa * E.trace() * Eigen::Matrix3d::Identity() + 2 * rest.mu_pa * E;
-  double sum = 0;
-  for (const double of_edge : elongation) sum += of_edge;
-  return {std::abs(F.determinant() - 1), sum / 6, *std::ranges::max_element(elongation),
-          largest_principal(S)};
+  now.volume_ratio = F.determinant();
+  now.stress_pa = rest.lambda_pa * E.trace() * Eigen::Matrix3d::Identity() + 2 * rest.mu_pa * E;
+  return now;
+}
+
+TetStrain Tearing::strain(TetId t, std::span<const double> displacements) const noexcept {
+  const Deformed now = deform(t, displacements);
+  return {std::abs(now.volume_ratio - 1), mean(now.elongation), *std::ranges::max_element(now.elongation),
+          largest_principal(now.stress_pa)};
 }
 
 double Tearing::load(TetId t, std::span<const double> displacements) const noexcept {
   const TearLimits& limits = rest_[t].limits;
-  const TetStrain now = strain(t, displacements);
-  return std::max({now.volume_change / limits.volume_change, now.mean_elongation / limits.mean_elongation,
-                   now.edge_elongation / limits.edge_elongation, now.stress_pa / limits.stress_pa});
+  const Deformed now = deform(t, displacements);
+  const double shape = std::max({std::abs(now.volume_ratio - 1) / limits.volume_change,
+                                 mean(now.elongation) / limits.mean_elongation,
+                                 *std::ranges::max_element(now.elongation) / limits.edge_elongation});
+  // no principal stress is above the norm, and most tissue is far from its limit
+  if (now.stress_pa.norm() <= limits.stress_pa) return shape;
+  return std::max(shape, largest_principal(now.stress_pa) / limits.stress_pa);
 }
 
 bool Tearing::meets_chosen(TetId t) const noexcept {

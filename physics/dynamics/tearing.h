@@ -46,7 +46,8 @@ class Tearing {
 
  private:
   struct Rest {
-    Eigen::Matrix3d inverse;  // of the three edges from corner 0, 1/m
+    Eigen::Matrix3d inverse;         // of the three edges from corner 0, 1/m
+    std::array<double, 6> length_m;  // of the edges
     double lambda_pa, mu_pa;
     TearLimits limits;
   };
@@ -55,6 +56,9 @@ class Tearing {
     geometry::TetId t;
   };
 
+  struct Deformed;
+
+  Deformed deform(geometry::TetId t, std::span<const double> displacements) const noexcept;
   double load(geometry::TetId t, std::span<const double> displacements) const noexcept;
   bool meets_chosen(geometry::TetId t) const noexcept;
   void choose(geometry::TetId t) noexcept;

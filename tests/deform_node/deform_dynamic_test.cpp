@@ -1,16 +1,9 @@
-#include "deform_node/dynamic_model.h"
+#include "tests/deform_node/dynamic_beam.h"
 
-#include "geometry/surface.h"
 #include "physics/stiffness_factor.h"
 #include "tests/support/heap_count.h"
-#include "tests/support/meshes.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <numeric>
 
 namespace omentum::deform {
 namespace {
@@ -18,66 +11,6 @@ namespace {
 using geometry::TetId;
 using ::testing::Each;
 using ::testing::ElementsAreArray;
-
-constexpr double kTick_s = 0.01;
-constexpr double kLength_m = 0.12, kThick_m = 0.04;
-constexpr physics::Material kTissue{.young_pa = 20000, .poisson = 0.4, .density_kg_m3 = 1000};
-
-/// A beam that is held at x = 0, and its model.
-class DynamicModelTest : public testing::Test {
- protected:
-  DynamicModelTest() {
-    for (const Vec3& x : mesh_.positions) {
-      fixed_.push_back(x.x() < 1e-9 ? physics::kPinned : 0);
-      pinned_.push_back(fixed_.back() != 0);
-    }
-    surface_ = geometry::extract_surface(mesh_, pinned_);
-  }
-
-  DynamicParts parts(double step_s = 0.005) {
-    const SteppedBody body{mesh_,
-                           material_,
-                           {.mass = physics::lumped_masses(mesh_, material_),
-                            .fixed = fixed_,
-                            .mass_damping_per_s = 5,
-                            .stiffness_damping_s = 0.01}};
-    return {.body = body,
-            .uncut_surface = surface_.node,
-            .stepper = make_implicit_stepper(body, step_s),
-            .tears = std::vector<physics::TearLimits>(mesh_.tetrahedra.size()),
-            .cut_delay_s = 0,
-            .cut_rate_per_s = 1e6};
-  }
-  NodeId nearest(const Vec3& x) const {
-    const auto less = [&](const Vec3& a, const Vec3& b) { return (a - x).norm() < (b - x).norm(); };
-    const auto found = std::min_element(mesh_.positions.begin(), mesh_.positions.end(), less);
-    return NodeId(static_cast<std::size_t>(found - mesh_.positions.begin()));
-  }
-  static void pass(DynamicModel& model, double seconds, const TickLoads& loads = {}) {
-    for (int i = 0; i < std::lround(seconds / kTick_s); ++i) model.step(loads, kTick_s);
-  }
-  /// Right through the beam at `x`.
-  static CutStroke stroke_at(double x) {
-    return {.tool = 0,
-            .cut = 1,
-            .from = {Vec3(x, -1, -1), Vec3(x, -1, 1)},
-            .to = {Vec3(x, 1, -1), Vec3(x, 1, 1)}};
-  }
-  Vec3 shown(const DynamicModel& model, NodeId n) const {
-    return Eigen::Map<const Eigen::Vector3f>(model.view().values.data() + 3 * surface_.of_node[n])
-        .cast<double>();
-  }
-  static int count_bits(std::span<const std::uint8_t> bits) {
-    return std::accumulate(bits.begin(), bits.end(), 0,
-                           [](int sum, std::uint8_t b) { return sum + std::popcount(b); });
-  }
-
-  geometry::TetraMesh mesh_ = test::make_box_mesh(6, 2, 2, Vec3(kLength_m, kThick_m, kThick_m));
-  physics::MaterialMap material_{kTissue};
-  physics::FixedComponents fixed_;
-  std::vector<bool> pinned_;
-  geometry::Surface surface_;
-};
 
 TEST_F(DynamicModelTest, AtRestItStaysAtRest) {
   DynamicModel model(parts());
@@ -142,6 +75,18 @@ TEST_F(DynamicModelTest, AStrokeRemovesWhatItMeetsAndBaresNodes) {
   EXPECT_EQ(editor.piece_count(), 2) << "a fast stroke leaves no bridge";
   pass(model, 0.1);
   EXPECT_EQ(model.view().topology_version, 1u);
+}
+
+TEST_F(DynamicModelTest, ItTellsWhatACutCostsInTissue) {
+  DynamicModel model(parts());
+  const CutStroke stroke = stroke_at(0.05), beside = stroke_at(0.5);
+  model.step({.presses = {}, .cuts = {&beside, 1}}, kTick_s);
+  EXPECT_EQ(model.status().cuts.way_m, 0);
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  EXPECT_DOUBLE_EQ(model.status().cuts.way_m, 2);
+  const double share =
+      static_cast<double>(model.status().removed_tetrahedra) / static_cast<double>(mesh_.tetrahedra.size());
+  EXPECT_NEAR(model.status().cuts.lost_m3, share * kLength_m * kThick_m * kThick_m, 1e-12);
 }
 
 TEST_F(DynamicModelTest, TissueBurnsThroughAfterItsDelay) {
@@ -274,58 +219,6 @@ TEST_F(DynamicModelTest, AForceOnWhatIsGoneDoesNothing) {
   model.step({.presses = {&load, 1}, .cuts = {&all, 1}}, kTick_s);
   EXPECT_EQ(shown(model, nodes[0]), before);
   EXPECT_FALSE(model.status().diverged);
-}
-
-// What the hand is told is what the next step does.
-// A hand that presses harder, as far as the local model lets it come by that, ends the step where it
-// foretold.
-TEST_F(DynamicModelTest, ALocalModelForetellsTheNextStep) {
-  DynamicModel model(parts(kTick_s));
-  const std::array<NodeId, 1> nodes{nearest({kLength_m, kThick_m / 2, kThick_m})};
-  const std::array<Vec3, 1> forces{Vec3(0.01, 0.02, -0.1)}, place{Vec3(1e-4, 2e-4, -1e-3)};
-  const ToolLoad load{.tool = 0, .nodes = nodes, .displacements = place, .forces = forces};
-  pass(model, 0.05, {.presses = {&load, 1}, .cuts = {}});
-  LocalPatch patch(BodyStepper::kPatchNodes);
-  ASSERT_TRUE(model.local_model({0, mesh_.positions[nodes[0]], 0.015}, patch));
-
-  const auto pressed = std::ranges::find(patch.nodes, static_cast<std::uint32_t>(mesh_.file_node[nodes[0]]));
-  const auto at = static_cast<std::size_t>(pressed - patch.nodes.begin());
-  ASSERT_LT(at, patch.node_count);
-  const Vec3 more(0.01, 0, -0.05);
-  const auto C = [&](std::size_t row, std::size_t column) {
-    const std::size_t r = std::min(row, column), c = std::max(row, column), n = patch.node_count;
-    return patch.compliance[r * (6 * n - r - 1) / 2 + c];
-  };
-  const auto foretold = [&](std::size_t i) {
-    Vec3 x = patch.positions[i] + kTick_s * patch.velocities[i];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t of = 0; of < 3; ++of)
-        x[static_cast<int>(axis)] += C(3 * i + axis, 3 * at + of) * more[static_cast<int>(of)];
-    return x;
-  };
-  const std::array<Vec3, 1> harder{Vec3(patch.forces[at] + more)},
-      deeper{Vec3(foretold(at) - mesh_.positions[nodes[0]])};
-  const ToolLoad next{.tool = 0, .nodes = nodes, .displacements = deeper, .forces = harder};
-  model.step({.presses = {&next, 1}, .cuts = {}}, kTick_s);
-  for (std::size_t i = 0; i < patch.node_count; ++i) {
-    const NodeId n(static_cast<std::size_t>(patch.nodes[i]));
-    const Vec3 is = mesh_.positions[n] + shown(model, n);
-    EXPECT_LE((is - foretold(i)).norm(), 1e-7) << is.transpose() << " for " << foretold(i).transpose();
-  }
-}
-
-TEST_F(DynamicModelTest, ALocalModelIsOfTheCutSurface) {
-  DynamicModel model(parts());
-  const Vec3 inside(0.05, kThick_m / 2, kThick_m / 2);
-  LocalPatch patch(BodyStepper::kPatchNodes);
-  EXPECT_FALSE(model.local_model({0, inside, 0.01}, patch));
-  const CutStroke stroke = stroke_at(0.05);
-  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
-  ASSERT_TRUE(model.local_model({0, inside, 0.02}, patch));
-  EXPECT_EQ(patch.topology_version, 1u);
-  EXPECT_GT(patch.triangle_count, 0u);
-  for (std::size_t i = 0; i < patch.triangle_count; ++i)
-    for (const std::uint8_t corner : patch.triangles[i]) EXPECT_LT(corner, patch.node_count);
 }
 
 TEST_F(DynamicModelTest, NothingOfItTakesMemory) {

@@ -215,6 +215,31 @@ TEST(CutOrgan, WhoJoinsAfterThreeHundredCutsDrawsWhatTheFirstDraws) {
   EXPECT_EQ(first.view.removed_count(0), late.view.removed_count(0));
 }
 
+TEST(CutOrgan, ALonePieceKeepsItsSizeAndItsPlace) {
+  Stage stage;
+  Cutter cutter(stage.shape);
+  const auto inside = static_cast<std::size_t>(
+      std::find_if(stage.shape.mesh->tetrahedra.begin(), stage.shape.mesh->tetrahedra.end(),
+                   [&](const geometry::Tetrahedron& t) {
+                     return std::none_of(t.begin(), t.end(), [&](geometry::NodeId n) {
+                       return stage.shape.surface.of_node[static_cast<std::size_t>(n)].valid();
+                     });
+                   }) -
+      stage.shape.mesh->tetrahedra.begin());
+  ASSERT_LT(inside, stage.shape.mesh->tetrahedra.size());
+  std::vector<geometry::TetId> others;
+  Eigen::AlignedBox3f piece, drawn;
+  for (std::size_t t = 0; t < stage.shape.mesh->tetrahedra.size(); ++t)
+    if (t != inside) others.emplace_back(t);
+  for (const geometry::NodeId n : stage.shape.mesh->tetrahedra[inside])
+    piece.extend(stage.shape.mesh->positions[n].cast<float>());
+  cutter.remove(others);
+  ASSERT_TRUE(stage.show(cutter));
+  for (const Vertex& v : stage.mesh(Look::kBared).vertices) drawn.extend(v.position);
+  EXPECT_GT(drawn.sizes().minCoeff(), 0.35f * piece.sizes().minCoeff());
+  EXPECT_LT((drawn.center() - piece.center()).norm(), 0.35f * piece.sizes().norm());
+}
+
 TEST(CutOrgan, EverythingMayBeCutAway) {
   Stage stage;
   Cutter cutter(stage.shape);
