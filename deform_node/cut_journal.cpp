@@ -28,7 +28,9 @@ constexpr std::uint64_t kHighest = std::uint64_t{1} << 62;
 constexpr std::uintmax_t kMostBytes = msg::MAX_ORGANS * (4 * msg::MAX_REMOVED_BYTES + 4096);
 
 [[noreturn]] void refuse(const std::string& place, const std::string& found, const std::string& expected) {
-  throw std::runtime_error(place + ": found " + scene::printable(found) + ", expected " + expected);
+  constexpr std::size_t kMostQuoted = 80;  // characters of what anybody may have written
+  throw std::runtime_error(place + ": found " + scene::printable(found.substr(0, kMostQuoted)) +
+                           ", expected " + expected);
 }
 
 std::string digits_of(const std::vector<std::uint8_t>& bits, std::size_t bytes) {

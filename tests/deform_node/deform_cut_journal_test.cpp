@@ -125,6 +125,12 @@ TEST_F(CutJournalTest, WhatIsNoJournalAtAllIsRefused) {
   expect_whole(read_journal(file_, scene_));
 }
 
+TEST_F(CutJournalTest, WhatStrangersWroteIsQuotedInPart) {
+  const JournalContents contents = read_with("5ce9e", std::string(100'000, 'x') + "\\n");
+  expect_whole(contents);
+  EXPECT_LT(contents.flaw.size(), 400u);
+}
+
 TEST_F(CutJournalTest, AFlawIsAFault) {
   files::write_whole(file_, "{");
   testing::internal::CaptureStderr();
