@@ -11,6 +11,7 @@ namespace omentum::deform {
 
 namespace {
 
+using geometry::NodeId;
 using geometry::TetId;
 using physics::BodyState;
 using physics::ForceLaw;
@@ -50,7 +51,13 @@ class LargeStepper final : public BodyStepper {
   double elastic_energy(std::span<const double> u) noexcept override { return large_->elastic_energy(u); }
   bool remove(std::span<const TetId> tetrahedra) noexcept override { return large_->remove(tetrahedra); }
   void restore(std::span<const TetId> /*removed*/) noexcept override { large_->restore(); }
-  physics::LargeStep& felt() noexcept override { return *large_; }
+  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
+    large_->compliance(nodes, block);
+  }
+  void foresee(const BodyState& state, std::span<const double> external,
+               std::span<double> u) noexcept override {
+    large_->foresee(state, external, u);
+  }
 
  private:
   std::unique_ptr<physics::LargeStep> large_;
@@ -65,14 +72,20 @@ class ExplicitStepper final : public BodyStepper {
         law_(std::move(law)),
         explicit_(scheme, inertia_),
         step_s_(step_s),
-        felt_(implicit_of(body, kFeltStep_s)) {}
+        felt_(body.mesh, body.material, inertia_,
+              {.step_s = kFeltStep_s, .most_compliance_nodes = kPatchNodes}),
+        imposed_(inertia_.mass.size(), kMaxTools),
+        ahead_(physics::state_at_rest(inertia_.mass.size())) {}
 
   double step_s() const override { return step_s_; }
+  void prepare() noexcept override { until_felt_s_ = 0; }
   Work step(BodyState& state, BodyLoads& loads) noexcept override {
+    follow(state, loads);
     return finite(explicit_.step(*law_, loads.external(), step_s_, state));
   }
   Work step_shorter(BodyState& state, BodyLoads& loads) noexcept override {
     double work_j = 0;
+    follow(state, loads);
     for (int i = 0; i < kShorter; ++i)
       work_j += explicit_.step(*law_, loads.external(), step_s_ / kShorter, state);
     return finite(work_j);
@@ -80,22 +93,40 @@ class ExplicitStepper final : public BodyStepper {
   double elastic_energy(std::span<const double> u) noexcept override { return law_->energy(u); }
   bool remove(std::span<const TetId> tetrahedra) noexcept override {
     for (const TetId t : tetrahedra) law_->remove(t);
-    return felt_->remove(tetrahedra);
+    return felt_.remove(tetrahedra);
   }
   void restore(std::span<const TetId> removed) noexcept override {
     for (const TetId t : removed) law_->add(t);
-    felt_->restore();
+    felt_.restore();
   }
-  physics::LargeStep& felt() noexcept override { return *felt_; }
+  double felt_s() const override { return felt_.step_s(); }
+  void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
+    felt_.compliance(nodes, block);
+  }
+  void foresee(const BodyState& state, std::span<const double> external,
+               std::span<double> u) noexcept override {
+    felt_.foresee(state, *law_, external, u);
+  }
 
  private:
+  // How strong presses are until the body can be where hands want it.
+  void follow(const BodyState& state, BodyLoads& loads) noexcept {
+    until_felt_s_ -= step_s_;
+    if (until_felt_s_ > 0 || loads.presses().empty()) return;
+    until_felt_s_ = kFeltStep_s;
+    felt_.foresee(state, *law_, loads.weights(), ahead_.u);
+    loads.act(imposed_.impose(felt_, loads.presses(), ahead_));
+  }
   static Work finite(double work_j) { return std::isfinite(work_j) ? Work(work_j) : std::nullopt; }
 
   physics::Inertia inertia_;
   std::unique_ptr<ForceLaw> law_;
   physics::ExplicitStep explicit_;
   double step_s_;
-  std::unique_ptr<physics::LargeStep> felt_;
+  physics::ImplicitStep felt_;
+  physics::ImposedPress imposed_;
+  BodyState ahead_;  // of which only u counts
+  double until_felt_s_ = 0;
 };
 
 }  // namespace

@@ -30,6 +30,8 @@ class BodyStepper {
   virtual ~BodyStepper() = default;
 
   virtual double step_s() const = 0;
+  /// Before the steps of a tick under new loads.
+  virtual void prepare() noexcept {}
   /// One step under `loads`, which are told how strong presses became. Their work, J; nothing where the
   /// result is not finite.
   virtual std::optional<double> step(physics::BodyState& state, BodyLoads& loads) noexcept = 0;
@@ -44,8 +46,12 @@ class BodyStepper {
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore(std::span<const geometry::TetId> removed) noexcept = 0;
 
-  /// What a hand feels: how the body yields to forces, and where it goes if they stay as they are.
-  virtual physics::LargeStep& felt() noexcept = 0;
+  /// What a hand feels within so long, s: displacement of `nodes` per force held, [3n x 3n], m/N, symmetric;
+  /// and where the body will be if all forces stay as they are, [3N].
+  virtual double felt_s() const { return step_s(); }
+  virtual void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept = 0;
+  virtual void foresee(const physics::BodyState& state, std::span<const double> external,
+                       std::span<double> u) noexcept = 0;
 };
 
 /// Backward Euler for linear elasticity; presses are imposed (physics/dynamics/imposed_press.h). Throws as
@@ -55,9 +61,9 @@ std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, doub
 /// Backward Euler for co-rotational tissue (physics/dynamics/warped_step.h).
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s);
 
-/// Explicit steps, under the forces that hands say. Nothing yields within one of them, and none has an
-/// equation whose solution would say how: what a hand feels of the body is the compliance at rest over
-/// kFeltStep_s, the time between two local models, s.
+/// Explicit steps. Presses are made as strong as would bring the body where hands want it within kFeltStep_s.
+/// Nothing yields within one of them, and none has an equation whose solution would say how: what a hand
+/// feels of the body is the compliance at rest over kFeltStep_s, the time between two local models, s.
 inline constexpr double kFeltStep_s = 0.005;
 std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body,
                                                    std::unique_ptr<physics::ForceLaw> law,

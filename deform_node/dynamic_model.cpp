@@ -37,6 +37,15 @@ Vec3 at(const std::vector<double>& components, NodeId n) {
   return Eigen::Map<const Vec3>(components.data() + 3 * n);
 }
 
+// What is held does not yield, and a hand's matrix has to be definite: supports yield a millionth of what
+// else does.
+void stiffen_supports(std::span<float> compliance, std::size_t rows) {
+  float most = 0;
+  for (std::size_t r = 0; r < rows; ++r) most = std::max(most, compliance[r * rows + r]);
+  const float held = most > 0 ? 1e-6F * most : 1e-7F;
+  for (std::size_t r = 0; r < rows; ++r) compliance[r * rows + r] = std::max(compliance[r * rows + r], held);
+}
+
 }  // namespace
 
 DynamicModel::DynamicModel(DynamicParts parts)
@@ -68,10 +77,15 @@ ModelSizes DynamicModel::sizes() const {
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
   status_.fault = {};
-  loads_.press(loads.presses, editor_);
+  const double step_s = stepper_->step_s();
+  ahead_s_ += dt_s;
+  const auto steps = static_cast<int>(ahead_s_ / step_s + kRounding);
+  ahead_s_ -= steps * step_s;
+  // not in a tick without a step: a local model says the forces that brought the surface where it is
+  if (steps > 0) loads_.press(loads.presses, editor_);
   cut(loads.cuts, dt_s);
   check(dt_s);
-  advance(dt_s);
+  if (steps > 0 && !status_.diverged) advance(steps);
   show();
 }
 
@@ -127,14 +141,11 @@ void DynamicModel::forgo_gone() noexcept {
       if (editor_.uses(n) == 0) Eigen::Map<Vec3>(state_.v.data() + 3 * n).setZero();
 }
 
-void DynamicModel::advance(double dt_s) noexcept {
-  ahead_s_ += dt_s;
-  const auto steps = static_cast<int>(ahead_s_ / stepper_->step_s() + kRounding);
-  if (status_.diverged || steps == 0) return;
-  ahead_s_ -= steps * stepper_->step_s();
+void DynamicModel::advance(int steps) noexcept {
   std::ranges::copy(state_.u, before_.u.begin());
   std::ranges::copy(state_.v, before_.v.begin());
   const physics::EnergyWatch watch = watch_;
+  stepper_->prepare();
   status_.diverged = !run(steps, &BodyStepper::step);
   if (status_.diverged) {
     std::swap(state_, before_);
@@ -208,18 +219,19 @@ OrganView DynamicModel::view() const noexcept {
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   if (!gatherer_->gather(place, editor_, state_.u, patch)) return false;
   const std::span<const NodeId> nodes = gatherer_->nodes();
-  physics::LargeStep& felt = stepper_->felt();
-  if (!felt_->is_foreseen) felt.foresee(state_, loads_.external(), felt_->u);
+  if (!felt_->is_foreseen) stepper_->foresee(state_, loads_.external(), felt_->u);
   felt_->is_foreseen = true;
   patch.topology_version = version_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]);
-    patch.velocities[i] = (at(felt_->u, nodes[i]) - at(state_.u, nodes[i])) / felt.step_s();
+    const Vec3 u = at(state_.u, nodes[i]);
+    patch.velocities[i] = (at(felt_->u, nodes[i]) - u) / stepper_->felt_s();
+    patch.positions[i] = mesh_.positions[nodes[i]] + u + ahead_s_ * patch.velocities[i];
     patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
   }
   const std::size_t rows = 3 * nodes.size();
   const std::span<float> block = std::span(felt_->compliance).first(rows * rows);
-  felt.compliance(nodes, block);
+  stepper_->compliance(nodes, block);
+  stiffen_supports(block, rows);
   float* upper = patch.compliance.data();
   for (std::size_t r = 0; r < rows; ++r)
     upper = std::copy(block.begin() + static_cast<std::ptrdiff_t>(r * rows + r),

@@ -50,7 +50,7 @@ class DynamicModel final : public OrganModel {
   /// What the editor took, `gone_`, goes off the body.
   void forgo_gone() noexcept;
   void list_removed() noexcept;
-  void advance(double dt_s) noexcept;
+  void advance(int steps) noexcept;
   using Step = decltype(&BodyStepper::step);
   /// False: the energy afterwards cannot be.
   bool run(int steps, Step step) noexcept;

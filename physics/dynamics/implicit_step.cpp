@@ -41,6 +41,18 @@ void ImplicitStep::foresee(const BodyState& state, std::span<const double> exter
                            std::span<double> u) noexcept {
   look_ahead(state);
   find_own_forces();
+  end_of(state, external, u);
+}
+
+void ImplicitStep::foresee(const BodyState& state, ForceLaw& law, std::span<const double> external,
+                           std::span<double> u) noexcept {
+  look_ahead(state);
+  law.forces(ahead_, forces_);
+  end_of(state, external, u);
+}
+
+void ImplicitStep::end_of(const BodyState& state, std::span<const double> external,
+                          std::span<double> u) noexcept {
   find_impulse(state, external);
   factor_.solve_roughly(impulse_, change_);
   for (std::size_t c = 0; c < u.size(); ++c) u[c] = state.u[c] + step_s_ * (state.v[c] + change_[c]);

@@ -43,9 +43,11 @@ class ImplicitStep final : public LargeStep {
   /// dt^2 A^-1.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
   void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override;
-  /// Of the factor's own law.
   void foresee(const BodyState& state, std::span<const double> external,
                std::span<double> u) noexcept override;
+  /// The same with the forces of another law.
+  void foresee(const BodyState& state, ForceLaw& law, std::span<const double> external,
+               std::span<double> u) noexcept;
 
   KeptFactor& factor() { return factor_; }
 
@@ -53,6 +55,7 @@ class ImplicitStep final : public LargeStep {
   void look_ahead(const BodyState& state) noexcept;
   void find_own_forces() noexcept;
   void find_impulse(const BodyState& state, std::span<const double> external) noexcept;
+  void end_of(const BodyState& state, std::span<const double> external, std::span<double> u) noexcept;
   bool finish(BodyState& state, std::span<const double> external) noexcept;
 
   Inertia inertia_;

@@ -41,9 +41,9 @@ std::span<const double> ImposedPress::impose(LargeStep& stepper, std::span<const
   count_ = presses.size();
   for (std::size_t p = 0; p < count_; ++p) {
     for (std::size_t i = 0; i < presses[p].nodes.size(); ++i)
-      Eigen::Map<Vec3>(pattern_.data() + 3 * presses[p].nodes[i]) += presses[p].forces[i];
+      Vec3::Map(&pattern_[3 * presses[p].nodes[i]]) += presses[p].forces[i];
     stepper.yield_to(pattern_, yields_[p]);
-    for (const geometry::NodeId n : presses[p].nodes) Eigen::Map<Vec3>(pattern_.data() + 3 * n).setZero();
+    for (const geometry::NodeId n : presses[p].nodes) Vec3::Map(&pattern_[3 * n]).setZero();
   }
   for (std::size_t p = 0; p < count_; ++p) {
     lacking_[p] = wanted(presses[p]) - along(presses[p], state.u);

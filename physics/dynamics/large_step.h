@@ -28,7 +28,7 @@ class LargeStep {
   virtual void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept = 0;
   /// That of all nodes for given forces, m.
   virtual void yield_to(std::span<const double> forces, std::span<double> yield) noexcept = 0;
-  /// Where the next step would end under `external` forces, to what one solve finds. Nothing is changed.
+  /// Where the next step would end under `external` forces. Nothing is changed.
   virtual void foresee(const BodyState& state, std::span<const double> external,
                        std::span<double> u) noexcept = 0;
 };

@@ -50,12 +50,13 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
       direction_(ahead_.size()),
       product_(ahead_.size()),
       turned_(ahead_.size()),
+      lacking_(ahead_.size()),
       residual_(ahead_.size()) {}
 
 bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
   linearize(state);
   add_impulse(state, external, residual_);
-  solve();
+  solve(residual_, change_);
   add(1, change_, state.v);
   add(options_.step_s, state.v, state.u);
   return std::isfinite(dot(state.v, state.v));
@@ -64,9 +65,9 @@ bool WarpedStep::step(BodyState& state, std::span<const double> external) noexce
 void WarpedStep::foresee(const BodyState& state, std::span<const double> external,
                          std::span<double> u) noexcept {
   linearize(state);
-  std::ranges::copy(residual_, direction_.begin());
-  add_impulse(state, external, direction_);
-  precondition(direction_, change_);
+  std::ranges::copy(residual_, lacking_.begin());
+  add_impulse(state, external, lacking_);
+  solve(lacking_, change_);
   for (std::size_t c = 0; c < u.size(); ++c) u[c] = state.u[c] + options_.step_s * (state.v[c] + change_[c]);
 }
 
@@ -123,22 +124,22 @@ void WarpedStep::precondition(std::span<const double> residual, std::span<double
     Vec3::Map(&x[3 * n]) = (rotation_[n] * Vec3::Map(&x[3 * n])).eval();
 }
 
-// Conjugate gradients on change_, from zero; what is lacking stays in residual_.
-void WarpedStep::solve() noexcept {
-  std::ranges::fill(change_, 0.0);
-  const double enough2 = options_.tolerance * options_.tolerance * dot(residual_, residual_);
+// Conjugate gradients from zero; what x still lacks stays in `lacking`.
+void WarpedStep::solve(std::span<double> lacking, std::span<double> x) noexcept {
+  std::ranges::fill(x, 0.0);
+  const double enough2 = options_.tolerance * options_.tolerance * dot(lacking, lacking);
   double along_before = 0;
   for (iterations_ = 0; iterations_ < options_.most_iterations; ++iterations_) {
-    if (!(dot(residual_, residual_) > enough2)) return;
-    precondition(residual_, ahead_);
-    const double along = dot(residual_, ahead_);
+    if (!(dot(lacking, lacking) > enough2)) return;
+    precondition(lacking, ahead_);
+    const double along = dot(lacking, ahead_);
     for (std::size_t c = 0; c < direction_.size(); ++c)
       direction_[c] = ahead_[c] + (iterations_ == 0 ? 0 : along / along_before * direction_[c]);
     along_before = along;
     multiply(direction_, product_);
     const double length = along / dot(direction_, product_);
-    add(length, direction_, change_);
-    add(-length, product_, residual_);
+    add(length, direction_, x);
+    add(-length, product_, lacking);
   }
 }
 
@@ -160,8 +161,10 @@ void WarpedStep::restore() noexcept {
 }
 
 void WarpedStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {
-  precondition(forces, yield);
-  for (double& y : yield) y *= options_.step_s * options_.step_s;
+  const double dt = options_.step_s;
+  for (std::size_t c = 0; c < lacking_.size(); ++c)
+    lacking_[c] = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3)) ? 0.0 : dt * dt * forces[c];
+  solve(lacking_, yield);
 }
 
 void WarpedStep::compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {

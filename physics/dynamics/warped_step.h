@@ -43,7 +43,6 @@ class WarpedStep final : public LargeStep {
   /// Those of the body at rest, turned at each node as of the last step.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
   void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override;
-  /// The first iteration of a step.
   void foresee(const BodyState& state, std::span<const double> external,
                std::span<double> u) noexcept override;
 
@@ -58,7 +57,7 @@ class WarpedStep final : public LargeStep {
                    std::span<double> lacking) noexcept;
   void multiply(std::span<const double> x, std::span<double> y) noexcept;
   void precondition(std::span<const double> residual, std::span<double> x) noexcept;
-  void solve() noexcept;
+  void solve(std::span<double> lacking, std::span<double> x) noexcept;
 
   const geometry::TetraMesh& mesh_;
   Inertia inertia_;
@@ -69,6 +68,7 @@ class WarpedStep final : public LargeStep {
   std::vector<Eigen::Matrix3d> rotation_;                      // [N] Q
   std::vector<double> ahead_, forces_;                         // [3N]
   std::vector<double> change_, direction_, product_, turned_;  // [3N]
+  std::vector<double> lacking_;                                // [3N] of an equation that is no step's
   std::vector<double> residual_;  // [3N] what the last step's equation lacks, N s
   int iterations_ = 0;
 };
