@@ -41,8 +41,9 @@ DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& o
       organs_(load_organs(scene_, options.models), faults_),
       book_(numbers_of_all(organs_.organs()), bounds_of(scene_), faults_),
       loop_(loop),
-      start_ns_(loop_.now_ns()),
       loaded_(node::loaded_scene(scene_, describe(organs_.organs()))),
+      journal_(open_journal()),
+      start_ns_(loop_.now_ns()),
       orders_(start_ns_),
       refusal_(loop),
       own_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
@@ -56,6 +57,14 @@ DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& o
   open_readers();
 }
 
+std::unique_ptr<CutJournal> DeformLoop::open_journal() {
+  if (options_.journal.empty()) return nullptr;
+  auto journal =
+      std::make_unique<CutJournal>(options_.journal, journal_scene(loaded_.hash, organs_.organs()), faults_);
+  organs_.take_up(journal->read(), book_);
+  return journal;
+}
+
 void DeformLoop::open_writers() {
   const auto on_wake = [this](std::function<void()> work) { return loop_.on_wake(std::move(work)); };
   const transport::Profile profile = transport::parse_profile(options_.node.profile);
@@ -64,8 +73,9 @@ void DeformLoop::open_writers() {
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   publisher_ = std::make_unique<StatePublisher>(
-      StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_}, organs_.organs(),
-      nodes_per_block(profile), node::to_message(loaded_, scene_.name), own_, faults_, on_wake);
+      StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_, journal_.get()},
+      organs_.organs(), nodes_per_block(profile), node::to_message(loaded_, scene_.name), own_, faults_,
+      on_wake);
   if (offers_local_models(organs_.organs())) {
     local_writer_ = bus_->writer<msg::LocalModel>();
     local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(),
@@ -108,7 +118,10 @@ void DeformLoop::serve_or_stand_by() {
 }
 
 void DeformLoop::take_up() {
-  if (role_ == Role::kStandingBy) say_once(told_serving_, "the other one fell silent, this one serves");
+  if (role_ == Role::kStandingBy) {
+    say_once(told_serving_, "the other one fell silent, this one serves");
+    if (journal_) organs_.take_up(journal_->read(), book_);  // the other one may have cut on
+  }
   time_.note(loop_.now_ns(), organs_.simulated_s(), true);
   book_.forget_cuts(loop_.now_ns());
   role_ = Role::kServing;

@@ -20,7 +20,8 @@ namespace omentum::deform {
 /// What deform_node's command line asks for, and the models that its scenes may choose from.
 struct DeformOptions {
   runtime::NodeOptions node;
-  double rate_hz = 100;  // faster than any screen, slow beside a step (docs/topics.md promises 60)
+  std::filesystem::path journal;  // of cuts; empty: a node that is started again begins with whole organs
+  double rate_hz = 100;           // faster than any screen, slow beside a step (docs/topics.md promises 60)
   std::span<const ModelEntry> models = model_table();
 };
 
@@ -42,6 +43,8 @@ class DeformLoop {
   void require_written();
 
  private:
+  /// Null where none is asked for.
+  std::unique_ptr<CutJournal> open_journal();
   void open_writers();
   void open_readers();
   void serve_or_stand_by();
@@ -60,8 +63,9 @@ class DeformLoop {
   ContactBook book_;
   runtime::Pace& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
-  std::int64_t start_ns_;
   node::LoadedScene loaded_;
+  std::unique_ptr<CutJournal> journal_;
+  std::int64_t start_ns_;
   node::SessionOrders orders_;
   node::Refusal refusal_;
   std::uint64_t states_ = 0;

@@ -130,14 +130,18 @@ std::span<const TetId> DynamicModel::remove(std::span<const TetId> tetrahedra) n
   gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
   if (gone_.empty()) return {};
   ++version_;
-  status_.removed_tetrahedra = static_cast<std::uint32_t>(editor_.removed_count());
   status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
+  forgo_gone();
+  return gone_;
+}
+
+void DynamicModel::forgo_gone() noexcept {
+  status_.removed_tetrahedra = static_cast<std::uint32_t>(editor_.removed_count());
   if (!stepper_->remove(gone_)) status_.diverged = true;
   loads_.lighten(gone_, editor_);
   for (const TetId t : gone_)
     for (const NodeId n : mesh_.tetrahedra[t])
       if (editor_.uses(n) == 0) Eigen::Map<Vec3>(state_.v.data() + 3 * n).setZero();
-  return gone_;
 }
 
 void DynamicModel::advance(int steps) noexcept {
@@ -166,10 +170,14 @@ bool DynamicModel::run(int steps, Step step) noexcept {
   return watch_.accepts(energy_j, steps * stepper_->step_s());
 }
 
-void DynamicModel::reset() noexcept {
+void DynamicModel::list_removed() noexcept {
   gone_.clear();
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
     if (editor_.is_removed(TetId(t))) gone_.push_back(TetId(t));
+}
+
+void DynamicModel::reset() noexcept {
+  list_removed();
   if (!gone_.empty()) ++version_;
   stepper_->restore(gone_);
   editor_.restore();
@@ -182,6 +190,17 @@ void DynamicModel::reset() noexcept {
   ahead_s_ = until_check_s_ = 0;
   status_.removed_tetrahedra = status_.repaired_tetrahedra = 0;
   status_.diverged = false;
+  show();
+}
+
+void DynamicModel::take_up(std::span<const std::uint8_t> removed_bits,
+                           std::span<const std::uint8_t> burnt_bits, std::uint64_t version) noexcept {
+  reset();
+  editor_.set_removed(removed_bits);
+  list_removed();
+  if (!gone_.empty()) forgo_gone();
+  std::copy_n(burnt_bits.begin(), std::min(burnt_bits.size(), burnt_.size()), burnt_.begin());
+  version_ = version;
   show();
 }
 

@@ -34,6 +34,9 @@ class DynamicModel final : public OrganModel {
   ModelSizes sizes() const override;
   void step(const TickLoads& loads, double dt_s) noexcept override;
   void reset() noexcept override;
+  /// What hung and was repaired is not told apart from the rest: it counts as none.
+  void take_up(std::span<const std::uint8_t> removed_bits, std::span<const std::uint8_t> burnt_bits,
+               std::uint64_t version) noexcept override;
   OrganView view() const noexcept override;
   ModelStatus status() const noexcept override { return status_; }
   bool local_model(const PatchPlace& place, LocalPatch& patch) const noexcept override;
@@ -44,6 +47,9 @@ class DynamicModel final : public OrganModel {
   void drop_what_fell() noexcept;
   /// Those that are there, and what then has to go. Returns them all.
   std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
+  /// What the editor took, `gone_`, goes off the body.
+  void forgo_gone() noexcept;
+  void list_removed() noexcept;
   void advance(int steps) noexcept;
   using Step = decltype(&BodyStepper::step);
   /// False: the energy afterwards cannot be.

@@ -1,5 +1,6 @@
 #include "deform_node/organ_group.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -36,6 +37,19 @@ void OrganGroup::reset(std::uint32_t organ, ContactBook& book) noexcept {
   OrganModel& model = *organs_[organ].model;
   model.reset();
   book.begins_at(organ, model.view().topology_version);
+}
+
+void OrganGroup::take_up(const std::vector<OrganCuts>& cuts, ContactBook& book) noexcept {
+  for (std::uint32_t i = 0; i < organs_.size(); ++i) {
+    OrganModel& model = *organs_[i].model;
+    const OrganView now = model.view();
+    const bool is_there =
+        now.topology_version == cuts[i].version && std::ranges::equal(now.removed_bits, cuts[i].removed_bits);
+    if (cuts[i].version == 0 || is_there) continue;
+    const std::uint64_t version = std::max(cuts[i].version, now.topology_version + 1);
+    model.take_up(cuts[i].removed_bits, cuts[i].burnt_bits, version);
+    book.begins_at(i, model.view().topology_version);
+  }
 }
 
 void OrganGroup::heed(std::uint32_t organ, ContactBook& book) noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/organ_collision.h"
+#include "deform_node/organ_cuts.h"
 #include "deform_node/served_organ.h"
 #include "runtime/faults.h"
 
@@ -20,6 +21,10 @@ class OrganGroup {
   /// `book` has advanced to this moment, and learns the versions that the organs are at.
   void step(ContactBook& book, double dt_s) noexcept;
   void reset(ContactBook& book) noexcept;
+  /// Goes on with what another deform_node left of each organ: at rest, in the same version, or in a later
+  /// one where this node has used it for another set. Not in a step: a large cut takes as long as it took to
+  /// make.
+  void take_up(const std::vector<OrganCuts>& cuts, ContactBook& book) noexcept;
 
   const std::vector<ServedOrgan>& organs() const { return organs_; }
   /// Over all organs.

@@ -94,6 +94,11 @@ class OrganModel {
   /// Back to rest, and whole.
   virtual void reset() noexcept = 0;
 
+  /// At rest, with exactly these tetrahedra removed, as a model of the same organ left them in another
+  /// process. `version` is above its own. An organ that cannot be cut ignores it.
+  virtual void take_up(std::span<const std::uint8_t> /*removed_bits*/,
+                       std::span<const std::uint8_t> /*burnt_bits*/, std::uint64_t /*version*/) noexcept {}
+
   virtual OrganView view() const noexcept = 0;
   virtual ModelStatus status() const noexcept = 0;
 

@@ -1,16 +1,22 @@
 // An organ with masses in the whole loop: strokes come in, topologies and states go out.
 #include "deform_node/deform_loop.h"
 
+#include "files/whole_file.h"
 #include "geometry/mesh_editor.h"
 #include "tests/support/block_scene.h"
 #include "tests/support/fake_bus.h"
+#include "tests/support/process.h"
 #include "tests/support/staged_loop.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace omentum::deform {
 namespace {
+
+using ::testing::Each;
+using ::testing::HasSubstr;
 
 constexpr double kRate_hz = 100;
 
@@ -19,6 +25,13 @@ class CutLoopTest : public testing::Test {
   CutLoopTest() {
     options_.node.scene = block_.scene_with(
         "mesh = ", "model = \"tensor-mass\"\ncut_delay_s = 0\ncut_rate_per_s = 1e6\nmesh = ");
+    start();
+  }
+
+  /// In place of the one that runs: it leaves, as a killed one does.
+  void start() {
+    node_.reset();
+    bus_.take_all<msg::Topology>();
     node_ = std::make_unique<test::StagedLoop<DeformLoop>>(kRate_hz, options_, bus_.opener());
     node_->pass(1.1);
   }
@@ -103,6 +116,89 @@ TEST_F(CutLoopTest, APressedOrganYieldsAndTellsTheHandOfItsSurface) {
   EXPECT_GT(model->nodes.size(), 3u);
   EXPECT_EQ(model->compliance.size(), 3 * model->nodes.size() * (3 * model->nodes.size() + 1) / 2);
   EXPECT_EQ(node_->end(), "");
+}
+
+class CutJournalLoopTest : public CutLoopTest {
+ protected:
+  CutJournalLoopTest() {
+    options_.journal = block_.file("cuts.json");
+    start();
+  }
+  /// What a node says first that is started now.
+  msg::Topology topology_after_restart() {
+    start();
+    const auto told = bus_.take_all<msg::Topology>();
+    return told.empty() ? msg::Topology{} : told.front();
+  }
+};
+
+TEST_F(CutJournalLoopTest, ARestartedNodeGoesOnWithTheSameCutsAndVersions) {
+  cut(1);
+  const msg::Topology before = newest_topology();
+  const std::size_t nodes = bus_.newest<msg::OrganState>()->node_count;
+  const msg::Topology after = topology_after_restart();
+  EXPECT_EQ(after.version, before.version);
+  EXPECT_EQ(after.removed_bits, before.removed_bits);
+  EXPECT_EQ(after.burnt_bits, before.burnt_bits);
+  EXPECT_EQ(bus_.newest<msg::OrganState>()->topology_version, before.version);
+  EXPECT_EQ(bus_.newest<msg::OrganState>()->node_count, nodes);
+  reset();
+  EXPECT_EQ(newest_topology().version, before.version + 1);
+  EXPECT_EQ(node_->end(), "");
+}
+
+TEST_F(CutJournalLoopTest, AfterAResetARestartedNodeIsWholeInTheSameVersion) {
+  cut(1);
+  reset();
+  const msg::Topology before = newest_topology();
+  const msg::Topology after = topology_after_restart();
+  EXPECT_EQ(after.version, before.version);
+  EXPECT_THAT(after.removed_bits, Each(0));
+  EXPECT_THAT(after.burnt_bits, Each(0));
+}
+
+TEST_F(CutJournalLoopTest, WhatCannotBeUsedLeavesAWholeOrganInAHigherVersionAndAFault) {
+  cut(1);
+  const msg::Topology before = newest_topology();
+  node_.reset();
+  std::filesystem::resize_file(options_.journal, std::filesystem::file_size(options_.journal) / 2);
+  const msg::Topology after = topology_after_restart();
+  EXPECT_GT(after.version, before.version);
+  EXPECT_THAT(after.removed_bits, Each(0));
+  EXPECT_EQ(node_->end(), "");
+  EXPECT_THAT(node_->loop().report()["faults"].dump(), HasSubstr("journal cannot be used"));
+  EXPECT_EQ(topology_after_restart().version, after.version) << "the journal is a whole one again";
+}
+
+// While a node stands by, the other one cuts on.
+TEST_F(CutJournalLoopTest, WhoTakesOverGoesOnWithWhatTheOtherOneCut) {
+  cut(1);
+  const msg::Topology cut_by_other = newest_topology();
+  const std::string journal = test::read_text(options_.journal);
+  std::filesystem::remove(options_.journal);
+  start();
+  msg::NodeStatus other{};
+  other.kind = msg::NODE_DEFORM;
+  other.instance = 1;
+  other.rate_hz = kRate_hz;
+  for (int i = 0; i < 20; ++i) {
+    other.ticks += 10;
+    bus_.post(other);
+    node_->tick(10);
+  }
+  files::write_whole(options_.journal, journal);
+  bus_.take_all<msg::Topology>();
+  node_->pass(3);
+  EXPECT_EQ(newest_topology().version, cut_by_other.version);
+  EXPECT_EQ(newest_topology().removed_bits, cut_by_other.removed_bits);
+  EXPECT_EQ(node_->end(), "");
+}
+
+TEST_F(CutLoopTest, WithoutAJournalARestartedNodeBeginsWhole) {
+  cut(1);
+  start();
+  EXPECT_EQ(newest_topology().version, 0u);
+  EXPECT_THAT(newest_topology().removed_bits, Each(0));
 }
 
 }  // namespace

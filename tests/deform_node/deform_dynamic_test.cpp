@@ -10,6 +10,7 @@ namespace {
 
 using geometry::TetId;
 using ::testing::Each;
+using ::testing::ElementsAreArray;
 
 TEST_F(DynamicModelTest, AtRestItStaysAtRest) {
   DynamicModel model(parts());
@@ -171,6 +172,33 @@ TEST_F(DynamicModelTest, AResetMakesItWholeInAHigherVersion) {
   pass(never, 0.5, {.presses = {&load, 1}, .cuts = {}});
   for (std::size_t i = 0; i < never.view().values.size(); ++i)
     EXPECT_NEAR(model.view().values[i], never.view().values[i], 1e-8);
+}
+
+// What it lived through and lost before counts for nothing.
+TEST_F(DynamicModelTest, TakenUpItMovesAsTheOneThatWasCutDoes) {
+  const auto heavy = [&] {
+    DynamicParts heavy = parts();
+    heavy.gravity_m_s2 = Vec3(0, 0, -9.81);
+    return heavy;
+  };
+  DynamicModel cut(heavy()), other(heavy());
+  const CutStroke stroke = stroke_at(0.07);
+  cut.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  const std::vector<std::uint8_t> removed(cut.view().removed_bits.begin(), cut.view().removed_bits.end());
+  const std::vector<std::uint8_t> burnt(cut.view().burnt_bits.begin(), cut.view().burnt_bits.end());
+  const CutStroke elsewhere = stroke_at(0.03);
+  other.step({.presses = {}, .cuts = {&elsewhere, 1}}, kTick_s);
+  other.take_up(removed, burnt, 300);
+  EXPECT_EQ(other.view().topology_version, 300u);
+  EXPECT_THAT(other.view().removed_bits, ElementsAreArray(removed));
+  EXPECT_THAT(other.view().burnt_bits, ElementsAreArray(burnt));
+  EXPECT_EQ(other.view().values.size(), cut.view().values.size());
+  EXPECT_THAT(other.view().values, Each(0.0F));
+  EXPECT_EQ(other.status().removed_tetrahedra, cut.status().removed_tetrahedra);
+
+  pass(cut, 0.2), pass(other, 0.2 + kTick_s);  // a stroke is cut before its tick passes
+  for (std::size_t i = 0; i < cut.view().values.size(); ++i)
+    EXPECT_NEAR(other.view().values[i], cut.view().values[i], 1e-5 * kLength_m);
 }
 
 TEST_F(DynamicModelTest, AForceOnWhatIsGoneDoesNothing) {

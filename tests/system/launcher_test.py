@@ -608,6 +608,18 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertNotIn("deform_node", self.ended("deform_node", 0).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 2).restarts)
 
+    def test_a_session_has_one_journal_of_cuts_for_every_deform_node_and_none_from_before(self):
+        def journal():
+            made = session.Session.__new__(session.Session)
+            made.options = options.parse([str(HOLD), "--headless"])
+            made.scene, made.headless, made.domain = HOLD, True, mock.Mock(number=1)
+            made.folder = tempfile.TemporaryDirectory()
+            self.addCleanup(made.folder.cleanup)
+            command, = (node.command for node in made.make_nodes() if node.name == "deform_node")
+            return pathlib.Path(command[command.index("--journal") + 1])
+        self.assertFalse(journal().exists())
+        self.assertNotEqual(journal(), journal())
+
     def test_stolen_time_is_a_share_of_the_time_since_the_watch_began(self):
         stat = self.folder / "stat"
         stat.write_text("cpu  900 0 50 8000 10 0 0 40 500 0\ncpu0 1 2 3\n")
