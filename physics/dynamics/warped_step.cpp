@@ -7,10 +7,6 @@ namespace omentum::physics {
 
 namespace {
 
-SystemWeights weights_of(const Inertia& inertia, double dt) {
-  return {1 + dt * inertia.mass_damping_per_s, dt * dt + dt * inertia.stiffness_damping_s};
-}
-
 double dot(std::span<const double> a, std::span<const double> b) noexcept {
   return Eigen::Map<const Eigen::VectorXd>(a.data(), static_cast<Eigen::Index>(a.size()))
       .dot(Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size())));
@@ -55,7 +51,10 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
 bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
   linearize(state);
   add_impulse(state, external, residual_);
-  solve();
+  if (!solve()) {
+    std::ranges::fill(residual_, 0.0);
+    return false;
+  }
   add(1, change_, state.v);
   add(options_.step_s, state.v, state.u);
   return std::isfinite(dot(state.v, state.v));
@@ -123,13 +122,13 @@ void WarpedStep::precondition(std::span<const double> residual, std::span<double
     Vec3::Map(&x[3 * n]) = (rotation_[n] * Vec3::Map(&x[3 * n])).eval();
 }
 
-// Conjugate gradients on change_, from zero; what is lacking stays in residual_.
-void WarpedStep::solve() noexcept {
+// Conjugate gradients on change_, from zero; what is lacking stays in residual_. False: that is no number.
+bool WarpedStep::solve() noexcept {
   std::ranges::fill(change_, 0.0);
-  const double enough2 = options_.tolerance * options_.tolerance * dot(residual_, residual_);
+  double left2 = dot(residual_, residual_);
+  const double enough2 = options_.tolerance * options_.tolerance * left2;
   double along_before = 0;
-  for (iterations_ = 0; iterations_ < options_.most_iterations; ++iterations_) {
-    if (!(dot(residual_, residual_) > enough2)) return;
+  for (iterations_ = 0; iterations_ < options_.most_iterations && left2 > enough2; ++iterations_) {
     precondition(residual_, ahead_);
     const double along = dot(residual_, ahead_);
     for (std::size_t c = 0; c < direction_.size(); ++c)
@@ -139,7 +138,9 @@ void WarpedStep::solve() noexcept {
     const double length = along / dot(direction_, product_);
     add(length, direction_, change_);
     add(-length, product_, residual_);
+    left2 = dot(residual_, residual_);
   }
+  return std::isfinite(left2);
 }
 
 bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {

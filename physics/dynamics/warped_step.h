@@ -58,7 +58,7 @@ class WarpedStep final : public LargeStep {
                    std::span<double> lacking) noexcept;
   void multiply(std::span<const double> x, std::span<double> y) noexcept;
   void precondition(std::span<const double> residual, std::span<double> x) noexcept;
-  void solve() noexcept;
+  bool solve() noexcept;
 
   const geometry::TetraMesh& mesh_;
   Inertia inertia_;
