@@ -1,5 +1,7 @@
 #include "deform_node/dynamic_model.h"
 
+#include "node_common/organ_reach.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -14,18 +16,10 @@ constexpr std::size_t kPatchNodes = BodyStepper::kPatchNodes;
 constexpr double kTearCheck_s = 1.0 / 60;
 // Of one check: a crack runs by hundreds of tetrahedra a second, and each check leaves time for a step.
 constexpr std::size_t kMostTorn = 4;
-// What fell so many lengths of the organ is out of everybody's sight.
-constexpr double kReach = 2;
 // Below this no eye and no hand finds a motion, J: a gram at 1 mm/s.
 constexpr double kUnnoticed_j = 5e-10;
 // A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
 constexpr double kRounding = 1e-9;
-
-double length_of(const geometry::TetraMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& x : mesh.positions) box.extend(x);
-  return box.diagonal().norm();
-}
 
 double volume_of(const geometry::TetraMesh& mesh, TetId t) {
   const auto& [a, b, c, d] = mesh.tetrahedra[t];
@@ -60,7 +54,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       swept_(mesh_),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
-      reach_m_(kReach * length_of(mesh_)),
+      reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
@@ -188,7 +182,7 @@ void DynamicModel::reset() noexcept {
   std::ranges::fill(state_.u, 0.0);
   std::ranges::fill(state_.v, 0.0);
   ahead_s_ = until_check_s_ = 0;
-  status_.removed_tetrahedra = status_.repaired_tetrahedra = 0;
+  status_.removed_tetrahedra = 0;
   status_.diverged = false;
   show();
 }

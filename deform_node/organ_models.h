@@ -60,12 +60,12 @@ struct CutAccount {
   double lost_m3 = 0;  // tissue that went for it: burnt, and what then hung on a node or an edge
 };
 
-/// What a model says of itself. Counters count since the start, over resets.
+/// What a model says of itself. Counters count since the start, over resets, unless they say otherwise.
 struct ModelStatus {
   std::uint64_t steps = 0;
   double simulated_s = 0;                 // what it lived through; 0: it has no time of its own
-  std::uint32_t removed_tetrahedra = 0;   // now
-  std::uint32_t repaired_tetrahedra = 0;  // of them, what hung on one node or edge and nobody cut
+  std::uint32_t removed_tetrahedra = 0;   // now: a reset brings them back
+  std::uint32_t repaired_tetrahedra = 0;  // removed because they hung on one node or edge; nobody cut them
   CutAccount cuts{};
   bool diverged = false;     // its state is beyond help: it must be reset, and not be published
   std::string_view fault{};  // of this step, a text that lives as long as the program; empty: none

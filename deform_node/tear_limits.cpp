@@ -1,5 +1,7 @@
 #include "deform_node/tear_limits.h"
 
+#include "geometry/boxes.h"
+
 #include <algorithm>
 
 namespace omentum::deform {
@@ -28,8 +30,7 @@ bool holds(const scene::RegionSpec& region, const geometry::TetraMesh& mesh, Tet
   if (region.label) return !mesh.regions.empty() && mesh.regions[t] == *region.label;
   const Vec3 at = centre_of(mesh, t);
   if (!region.ball.empty()) return (at - Vec3(region.ball.data())).norm() <= region.ball[3];
-  const Vec3 low(region.box.data()), high(region.box.data() + 3);
-  return (at.array() >= low.array()).all() && (at.array() <= high.array()).all();
+  return geometry::in_box(at, Vec3(region.box.data()), Vec3(region.box.data() + 3));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Which tetrahedra of a mesh are left.
 #pragma once
 
+#include "geometry/tetra_bits.h"
 #include "geometry/tetra_links.h"
 
 #include <cstdint>
@@ -24,10 +25,7 @@ class RemainingTetrahedra {
 
   const TetraLinks& links() const noexcept { return links_; }
 
-  bool has(TetId t) const noexcept {
-    const std::size_t i = static_cast<std::size_t>(t);
-    return ((bits_[i / 8] >> (i % 8)) & 1) == 0;
-  }
+  bool has(TetId t) const noexcept { return !is_set(bits_, t); }
 
   /// Whether the neighbour is one, and left.
   bool has_neighbour(TetId t) const noexcept { return t.valid() && has(t); }

@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_setup.h"
 
+#include "node_common/organ_reach.h"
 #include "node_common/organ_source.h"
 #include "runtime/memory_limit.h"
 #include "transport/messages.h"
@@ -56,9 +57,7 @@ LocalOrgan local_organ(const node::OrganSource& source, std::uint32_t organ) {
   const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   for (const geometry::NodeId n : mesh.nodes_of_file())
     local.rest_of_file_node.push_back(n.valid() ? mesh.positions[n] : none);
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : mesh.positions) box.extend(p);
-  local.reach_m = box.diagonal().norm();
+  local.reach_m = node::reach_m(mesh.positions);
   return local;
 }
 

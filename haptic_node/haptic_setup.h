@@ -15,7 +15,7 @@ namespace omentum::haptic {
 struct LocalOrgan {
   std::uint32_t organ = 0;              // index into the scene's
   std::vector<Vec3> rest_of_file_node;  // [nodes of the mesh file] in W, m; NaN where the mesh has none
-  double reach_m = 0;                   // no model takes a node farther: the organ's own size
+  double reach_m = 0;                   // no model takes a node farther (organ_reach.h)
 };
 
 struct HapticSetup {

@@ -3,9 +3,13 @@
 #include "node_common/vectors.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace omentum::haptic {
 namespace {
+
+// Of one patch: a making thread that is so far behind is flooded by more than deform_node.
+constexpr std::size_t kMostWaiting = 16;
 
 constexpr auto kSilence_ns = static_cast<std::int64_t>(1e9 * kModelSilence_s);
 
@@ -45,7 +49,7 @@ std::optional<std::string> reason_against(const LocalPatch& patch, const LocalOr
       return "node " + std::to_string(patch.nodes[n]) + ", which the mesh file does not have";
     const Vec3& rest = organ.rest_of_file_node[patch.nodes[n]];
     if (!((patch.positions[n] - rest).norm() <= organ.reach_m))
-      return "a node farther from its rest than the organ is large";
+      return "a node farther from its rest than tissue gets";
   }
   return std::nullopt;
 }
@@ -71,19 +75,21 @@ void LocalModels::hear(const msg::LocalModel& model) {
   heard_.fetch_add(1, std::memory_order_relaxed);
   Patch* const patch = patch_of(model);
   if (!patch) return;
-  const std::int64_t now_ns = clock_.now_ns();
-  if (const char* why = too_late(model, now_ns, *patch)) {
-    drop(why);
-    return;
-  }
-  patch->heard_ns = organs_[model.organ].heard_ns = now_ns;
-  patch->seq = model.seq;
-  organs_[model.organ].version = model.topology_version;
-  Heard& draft = patch->newest.draft();
-  draft.model = model;
-  draft.arrival_ns = now_ns;
-  patch->newest.post();
+  if (!patch->waiting.push({model, clock_.now_ns()})) drop("more of them than can be looked at");
   making_->wake();
+}
+
+bool LocalModels::Waiting::push(Heard heard) {
+  const std::lock_guard lock(mutex_);
+  const bool fits = heard_.size() < kMostWaiting;
+  if (!fits) heard_.erase(heard_.begin());
+  heard_.push_back(std::move(heard));
+  return fits;
+}
+
+std::vector<LocalModels::Heard> LocalModels::Waiting::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(heard_, {});
 }
 
 LocalModels::Patch* LocalModels::patch_of(const msg::LocalModel& model) {
@@ -100,15 +106,6 @@ LocalModels::Patch* LocalModels::patch_of(const msg::LocalModel& model) {
   return nullptr;
 }
 
-// After a silence another deform_node may number anew.
-const char* LocalModels::too_late(const msg::LocalModel& model, std::int64_t now_ns, Patch& patch) {
-  const Organ& organ = organs_[model.organ];
-  if (!is_silent(organ.heard_ns, now_ns) && model.topology_version < organ.version)
-    return "of an older topology version";
-  if (!is_silent(patch.heard_ns, now_ns) && model.seq <= patch.seq) return "repeated, or overtaken";
-  return nullptr;
-}
-
 void LocalModels::drop(const std::string& why) {
   dropped_.fetch_add(1, std::memory_order_relaxed);
   faults_.raise("local model dropped: " + why);
@@ -121,11 +118,21 @@ LocalModelCounts LocalModels::counts() const noexcept {
 
 // ---- the making thread
 
+// After a silence another deform_node may number anew.
+const char* LocalModels::too_late(const Heard& heard, const Patch& patch) const {
+  const Organ& organ = organs_[patch.organ];
+  if (!is_silent(organ.heard_ns, heard.arrival_ns) && heard.model.topology_version < organ.version)
+    return "of an older topology version";
+  if (!is_silent(patch.heard_ns, heard.arrival_ns) && heard.model.seq <= patch.seq)
+    return "repeated, or overtaken";
+  return nullptr;
+}
+
 void LocalModels::make() {
   const std::int64_t now_ns = clock_.now_ns();
   for (const Organ& organ : organs_) {
     for (const auto& patch : organ.patches) {
-      if (patch->newest.fetch()) make(*patch);
+      make(*patch);
       if (patch->made_ns == 0 || now_ns - patch->made_ns <= kSilence_ns) continue;
       empty(*patch);
       gone_.fetch_add(1, std::memory_order_relaxed);
@@ -135,18 +142,35 @@ void LocalModels::make() {
 
 // What is no model leaves what stands there, until that is too old.
 void LocalModels::make(Patch& patch) {
-  const Heard& heard = patch.newest.value();
-  if (heard.model.nodes.empty()) return empty(patch);
+  std::optional<LocalPatch> newest;
+  for (const Heard& heard : patch.waiting.take())
+    if (auto told = accept(heard, patch)) newest = std::move(told);
+  if (!newest) return;
+  if (newest->nodes.empty()) return empty(patch);
+  const LocalOrgan& known = *organs_[patch.organ].known;
+  for (const std::uint32_t n : newest->nodes) newest->at_rest.push_back(known.rest_of_file_node[n]);
+  doors_[patch.place].post(make_local_body(*newest));
+  patch.made_ns = newest->arrival_ns;
+}
+
+// Numbers of what is no model are not noted: they would shut out those that are.
+std::optional<LocalPatch> LocalModels::accept(const Heard& heard, Patch& patch) {
+  Organ& organ = organs_[patch.organ];
   LocalPatch told = patch_of_message(heard.model);
   told.tool = patch.tool;
   told.arrival_ns = heard.arrival_ns;
-  auto why = reason_against(told, setup_.model.organs.size());
-  const LocalOrgan& known = *organs_[patch.organ].known;
-  if (!why) why = reason_against(told, known);
-  if (why) return drop(*why);
-  for (const std::uint32_t n : told.nodes) told.at_rest.push_back(known.rest_of_file_node[n]);
-  doors_[patch.place].post(make_local_body(told));
-  patch.made_ns = heard.arrival_ns;
+  std::optional<std::string> why;
+  if (const char* late = too_late(heard, patch)) why = late;
+  if (!why && !told.nodes.empty()) why = reason_against(told, setup_.model.organs.size());
+  if (!why) why = reason_against(told, *organ.known);
+  if (why) {
+    drop(*why);
+    return std::nullopt;
+  }
+  patch.heard_ns = organ.heard_ns = heard.arrival_ns;
+  patch.seq = heard.model.seq;
+  organ.version = heard.model.topology_version;
+  return told;
 }
 
 void LocalModels::empty(Patch& patch) {

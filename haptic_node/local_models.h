@@ -5,11 +5,11 @@
 #include "haptic_node/local_body.h"
 #include "runtime/clock.h"
 #include "runtime/faults.h"
-#include "runtime/mailbox.h"
 #include "runtime/woken_thread.h"
 #include "transport/messages.h"
 
 #include <atomic>
+#include <mutex>
 
 namespace omentum::haptic {
 
@@ -42,23 +42,36 @@ class LocalModels {
     msg::LocalModel model;
     std::int64_t arrival_ns = 0;
   };
-  // one tool's with one organ
+  // in the order of their arrival
+  class Waiting {
+   public:
+    /// Receiving thread. False: the oldest had to go for it.
+    bool push(Heard heard);
+    /// Making thread: all, which wait no more.
+    std::vector<Heard> take();
+
+   private:
+    std::mutex mutex_;
+    std::vector<Heard> heard_;
+  };
+  // one tool's with one organ; numbers are the making thread's, and of samples that are models
   struct Patch {
     std::size_t organ = 0, tool = 0, place = 0;
-    std::int64_t heard_ns = 0;  // receiving thread: 0, never
-    std::uint64_t seq = 0;      // receiving thread
-    runtime::Mailbox<Heard> newest;
-    std::int64_t made_ns = 0;  // making thread: arrival of what stands there; 0: nothing does
+    Waiting waiting;
+    std::int64_t heard_ns = 0;  // 0: never
+    std::uint64_t seq = 0;
+    std::int64_t made_ns = 0;  // arrival of what stands there; 0: nothing does
   };
   struct Organ {
     const LocalOrgan* known = nullptr;
     std::vector<std::unique_ptr<Patch>> patches;  // [tools]
-    std::int64_t heard_ns = 0;                    // receiving thread
-    std::uint64_t version = 0;                    // receiving thread
+    std::int64_t heard_ns = 0;
+    std::uint64_t version = 0;
   };
 
   Patch* patch_of(const msg::LocalModel& model);
-  const char* too_late(const msg::LocalModel& model, std::int64_t now_ns, Patch& patch);
+  const char* too_late(const Heard& heard, const Patch& patch) const;
+  std::optional<LocalPatch> accept(const Heard& heard, Patch& patch);
   void drop(const std::string& why);
   void make();
   void make(Patch& patch);
@@ -77,7 +90,7 @@ class LocalModels {
 LocalPatch patch_of_message(const msg::LocalModel& model);
 
 /// Why a patch is none of this organ: a node that its mesh file does not have, or that is farther from its
-/// rest than the organ is large.
+/// rest than tissue gets (node_common/organ_reach.h).
 std::optional<std::string> reason_against(const LocalPatch& patch, const LocalOrgan& organ);
 
 }  // namespace omentum::haptic

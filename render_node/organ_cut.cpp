@@ -32,9 +32,9 @@ CutShape OrganCut::shape() const {
 
 std::vector<float> OrganCut::burnt_nodes() const {
   std::vector<float> burnt(node_count(), 0.0f);
-  for (std::size_t bit = 0; bit < 8 * burnt_.size(); ++bit) {
-    if ((burnt_[bit / 8] >> bit % 8 & 1u) == 0) continue;
-    for (const geometry::NodeId n : mesh_.tetrahedra[bit]) {
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+    if (!geometry::is_set(burnt_, TetId(t))) continue;
+    for (const geometry::NodeId n : mesh_.tetrahedra[t]) {
       const SurfaceId s = editor_.surface_of(n);
       if (s.valid()) burnt[static_cast<std::size_t>(s)] = 1;
     }

@@ -48,6 +48,20 @@ void require_piece_held(const organ::Organ& organ, std::span<const TetId> piece,
   }
 }
 
+// All nodes, and the tetrahedra that are left.
+geometry::TetraMesh left_of(const organ::Organ& organ, const CutOrgan& cut) {
+  std::vector<bool> gone(organ.mesh.tetrahedra.size());
+  for (const TetId t : cut.removed) gone[t] = true;
+  geometry::TetraMesh left;
+  left.positions = organ.mesh.positions;
+  for (std::size_t t = 0; t < gone.size(); ++t) {
+    if (gone[t]) continue;
+    left.tetrahedra.push_back(organ.mesh.tetrahedra[t]);
+    if (!organ.mesh.regions.empty()) left.regions.push_back(organ.mesh.regions[t]);
+  }
+  return left;
+}
+
 }  // namespace
 
 CutOrgan cut_organ(const organ::Organ& organ, std::span<const TetId> asked, Imposed imposed,
@@ -79,17 +93,12 @@ CutOrgan cut_organ(const organ::Organ& organ, std::span<const TetId> asked, Impo
 }
 
 physics::Stiffness stiffness_of(const organ::Organ& organ, const CutOrgan& cut) {
-  if (cut.removed.empty()) return physics::assemble_stiffness(organ.mesh, organ.material);
-  std::vector<bool> gone(organ.mesh.tetrahedra.size());
-  for (const TetId t : cut.removed) gone[t] = true;
-  geometry::TetraMesh left;
-  left.positions = organ.mesh.positions;
-  for (std::size_t t = 0; t < gone.size(); ++t) {
-    if (gone[t]) continue;
-    left.tetrahedra.push_back(organ.mesh.tetrahedra[t]);
-    if (!organ.mesh.regions.empty()) left.regions.push_back(organ.mesh.regions[t]);
-  }
-  return physics::assemble_stiffness(left, organ.material);
+  return physics::assemble_stiffness(left_of(organ, cut), organ.material);
+}
+
+std::vector<geometry::Vec3> weights_of(const organ::Organ& organ, const CutOrgan& cut,
+                                       const geometry::Vec3& gravity) {
+  return physics::body_forces(left_of(organ, cut), organ.material, gravity);
 }
 
 }  // namespace omentum::organ_tools

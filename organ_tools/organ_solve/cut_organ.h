@@ -11,8 +11,8 @@
 
 namespace omentum::organ_tools {
 
-/// What is left of an organ. The mass of what was removed stays on its nodes, as where an organ is cut while
-/// it moves, so that gravity pulls as before.
+/// What is left of an organ. Gravity pulls at this alone, as where an organ is cut while it moves
+/// (deform_node/body_loads.h).
 struct CutOrgan {
   std::vector<geometry::TetId> removed;  // those asked for, then those that hung on one node or edge
   std::size_t repaired = 0;              // how many of them nobody asked for
@@ -29,5 +29,9 @@ CutOrgan cut_organ(const organ::Organ& organ, std::span<const geometry::TetId> a
 
 /// K of what is left.
 physics::Stiffness stiffness_of(const organ::Organ& organ, const CutOrgan& cut);
+/// Its weight, as physics::body_forces: [N], N, nothing at nodes that lost all tetrahedra; `gravity` in
+/// m/s^2.
+std::vector<geometry::Vec3> weights_of(const organ::Organ& organ, const CutOrgan& cut,
+                                       const geometry::Vec3& gravity);
 
 }  // namespace omentum::organ_tools

@@ -37,8 +37,8 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
   line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
   line.option(
           "--remove", command.removed,
-          "CSV: tetrahedra to take out first, with what then hangs on one node or edge; their mass stays on "
-          "the nodes, and nodes without any left stay where they are")
+          "CSV: tetrahedra to take out first, with what then hangs on one node or edge; they weigh nothing "
+          "any more, and nodes without any left stay where they are")
       .type_name("FILE");
   line.option(
           "-o,--output", command.prefix,

@@ -112,9 +112,7 @@ physics::StaticSolution move_to_rest(std::string_view model, const organ::Organ&
     throw InputError("--remove: what is left hangs together too loosely to be solved");
 
   std::vector<double> weight;
-  for (const double mass : inertia.mass) {
-    for (int axis = 0; axis < 3; ++axis) weight.push_back(mass * gravity[axis]);
-  }
+  for (const Vec3& w : weights_of(organ, cut, gravity)) weight.insert(weight.end(), w.begin(), w.end());
   physics::BodyState state = start_of(organ, imposed);
   const bool rests = dynamic.linear ? run(stepper, *law, weight, state)
                                     : physics::search_rest(*law, stepper.factor(), weight, state.u);

@@ -16,9 +16,6 @@ bool is_zero(const double* w) {
   return std::all_of(w, w + kTileRanks, [](double value) { return value == 0; });
 }
 
-// What must be left of a rank's alpha: with 48 bits in an entry, six digits of A are still right there.
-constexpr double kLeastAlpha = 1e-8;
-
 }  // namespace
 
 FactorDowndate::FactorDowndate(const FactorPanels& factor)
@@ -51,10 +48,9 @@ bool FactorDowndate::apply(FactorPanels& factor, std::span<const RankSix> remova
     }
   }
   std::ranges::sort(path_);
-  double least = 1;
-  for (const std::int32_t s : path_) least = std::min(least, downdate(factor, s));
-  // written so that a NaN fails
-  return least >= kLeastAlpha;
+  bool enough = true;
+  for (const std::int32_t s : path_) enough &= downdate(factor, s);
+  return enough;
 }
 
 void FactorDowndate::gather(const FactorPanels& factor, const FactorPanels::Supernode& s, int removal,
@@ -86,7 +82,7 @@ void FactorDowndate::scatter(const FactorPanels& factor, const FactorPanels::Sup
   }
 }
 
-double FactorDowndate::downdate(FactorPanels& factor, std::int32_t supernode) noexcept {
+bool FactorDowndate::downdate(FactorPanels& factor, std::int32_t supernode) noexcept {
   const FactorPanels::Supernode& s = factor.supernodes()[supernode];
   std::array<int, kMost> removals{};
   std::size_t count = 0;
@@ -96,28 +92,27 @@ double FactorDowndate::downdate(FactorPanels& factor, std::int32_t supernode) no
     removals[count++] = r;
   }
   marks_[supernode] = 0;
-  double least = 1;
+  bool enough = true;
   const std::span<const int> here(removals.data(), count);
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(factor.strips(s).size()); ++k)
-    least = std::min(least, downdate_strip(factor, s, k, here));
+    enough &= downdate_strip(factor, s, k, here);
   for (const int r : here) scatter(factor, s, r, local_.data() + local_size_ * r);
   factor.refresh(s);
-  return least;
+  return enough;
 }
 
-double FactorDowndate::downdate_strip(FactorPanels& factor, const FactorPanels::Supernode& s,
-                                      std::int32_t strip, std::span<const int> removals) noexcept {
+bool FactorDowndate::downdate_strip(FactorPanels& factor, const FactorPanels::Supernode& s,
+                                    std::int32_t strip, std::span<const int> removals) noexcept {
   const FactorPanels::Strip& columns = factor.strips(s)[strip];
   const kernels::SplitColumns diagonal = factor.columns(columns);
   std::array<double*, kMost> w{};
   std::size_t count = 0;
-  double least = 1;
+  bool enough = true;
   for (const int r : removals) {
     double* rows = local_.data() + local_size_ * r + static_cast<std::ptrdiff_t>(kTileRanks) * strip;
     if (is_zero(rows)) continue;
-    least = std::min(
-        least, kernels::downdate_diagonal(diagonal, columns.width, factor.pivots(s.first + kTileRows * strip),
-                                          rows, alpha_[r].data(), rotations_[count]));
+    enough &= kernels::downdate_diagonal(diagonal, columns.width, factor.pivots(s.first + kTileRows * strip),
+                                         rows, alpha_[r].data(), rotations_[count]);
     w[count++] = rows;
   }
   for (std::int32_t t = 1; t < columns.tiles; ++t) {
@@ -127,7 +122,7 @@ double FactorDowndate::downdate_strip(FactorPanels& factor, const FactorPanels::
                            w[r] + static_cast<std::ptrdiff_t>(kTileRanks) * t);
     }
   }
-  return least;
+  return enough;
 }
 
 }  // namespace omentum::physics

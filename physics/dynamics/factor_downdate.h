@@ -39,9 +39,10 @@ class FactorDowndate {
               double* into) noexcept;
   void scatter(const FactorPanels& factor, const FactorPanels::Supernode& s, int removal,
                const double* from) noexcept;
-  double downdate(FactorPanels& factor, std::int32_t supernode) noexcept;
-  double downdate_strip(FactorPanels& factor, const FactorPanels::Supernode& s, std::int32_t strip,
-                        std::span<const int> removals) noexcept;
+  // whether enough is left of every alpha
+  bool downdate(FactorPanels& factor, std::int32_t supernode) noexcept;
+  bool downdate_strip(FactorPanels& factor, const FactorPanels::Supernode& s, std::int32_t strip,
+                      std::span<const int> removals) noexcept;
 
   using Ranks = std::array<double, kernels::kRank>;
 

@@ -144,13 +144,9 @@ inline void rotate(WideHalf& column, WideHalf* w, const double* pivot, const dou
   }
 }
 
-inline double smaller(double a, double b) {
-  return a < b ? a : b;
-}
-
 // A column's pivot d under the ranks in turn: d' = d - p^2 / alpha, alpha' = alpha d' / d. Divisions wait for
-// none but each rank's own. Returns the least alpha.
-inline double turn_pivot(double& d, const double* w, double* alpha, double* pivot, double* gain) {
+// none but each rank's own. Returns whether enough is left of each alpha.
+inline bool turn_pivot(double& d, const double* w, double* alpha, double* pivot, double* gain) {
   double parts[kRank], before[kRank + 1];
   for (int k = 0; k < kRank; ++k) {
     pivot[k] = w[k * kTileRows];
@@ -159,13 +155,13 @@ inline double turn_pivot(double& d, const double* w, double* alpha, double* pivo
   before[0] = d;
   for (int k = 0; k < kRank; ++k) before[k + 1] = before[k] - parts[k];
   d = before[kRank];
-  double least = 1;
+  bool enough = true;
   for (int k = 0; k < kRank; ++k) {
     gain[k] = -pivot[k] / (alpha[k] * before[k + 1]);
     alpha[k] *= before[k + 1] / before[k];
-    least = smaller(least, alpha[k]);
+    enough &= alpha[k] >= kLeastAlpha;
   }
-  return least;
+  return enough;
 }
 
 // A column of the diagonal tile, rows below `j`.
@@ -220,13 +216,13 @@ void split(const double* values, int count, SplitColumns into) noexcept {
   }
 }
 
-double downdate_diagonal(SplitColumns tile, int width, double* pivots, double* w, double* alpha,
-                         Rotations& rotations) noexcept {
-  double least = 1;
+bool downdate_diagonal(SplitColumns tile, int width, double* pivots, double* w, double* alpha,
+                       Rotations& rotations) noexcept {
+  bool enough = true;
   for (int j = 0; j < width; ++j) {
     double* pivot = rotations.pivot[j];
     double* gain = rotations.gain[j];
-    least = smaller(least, turn_pivot(pivots[j], w + j, alpha, pivot, gain));
+    enough &= turn_pivot(pivots[j], w + j, alpha, pivot, gain);
     double column[kTileRows];
     float* high = tile.high + j * kTileRows;
     float* low = tile.low + j * kTileRows;
@@ -235,7 +231,7 @@ double downdate_diagonal(SplitColumns tile, int width, double* pivots, double* w
     for (int half = 0; half < kTileRows; half += kHalf)
       put_split(high + half, low + half, wide_at(column + half));
   }
-  return least;
+  return enough;
 }
 
 void rotate_tile(SplitColumns tile, int width, const Rotations& rotations, double* w) noexcept {

@@ -11,6 +11,8 @@ inline constexpr int kTileRows = 16;
 inline constexpr int kSquare = kTileRows * kTileRows;
 /// Rank of a tetrahedron's stiffness: what one removal takes away.
 inline constexpr int kRank = 6;
+/// What must be left of a rank's alpha: with 48 bits in an entry, six digits of A are still right there.
+inline constexpr double kLeastAlpha = 1e-8;
 
 /// A panel's entry is the sum of two floats, `high` the nearest to it: 48 bits of it are kept, and a solve
 /// reads the high ones only.
@@ -43,10 +45,11 @@ void split(const double* values, int count, SplitColumns into) noexcept;
 
 /// Takes w w^T, w [16][6], off L D L^T within the diagonal tile of a strip (Gill, Golub, Murray and Saunders
 /// 1974, method C1, six ranks in turn in each column as Davis and Hager 2001). `w` is [6][16]; `pivots` D of
-/// the strip's columns; `alpha` [6], what is left of each rank's 1 - w^T A^-1 w so far. Returns the least
-/// alpha, not positive where the matrix does not stay positive definite: then nothing below may be used.
-double downdate_diagonal(SplitColumns tile, int width, double* pivots, double* w, double* alpha,
-                         Rotations& rotations) noexcept;
+/// the strip's columns; `alpha` [6], what is left of each rank's 1 - w^T A^-1 w so far. Returns whether
+/// each stays at least kLeastAlpha; where one does not (a NaN never does), the matrix does not stay positive
+/// definite, or only within rounding: then nothing of it may be used.
+bool downdate_diagonal(SplitColumns tile, int width, double* pivots, double* w, double* alpha,
+                       Rotations& rotations) noexcept;
 
 /// The same rotations on a tile below; `w`: [6][16] of the tile's rows.
 void rotate_tile(SplitColumns tile, int width, const Rotations& rotations, double* w) noexcept;

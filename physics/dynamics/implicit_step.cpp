@@ -5,14 +5,6 @@
 
 namespace omentum::physics {
 
-namespace {
-
-SystemWeights weights_of(const Inertia& inertia, double dt) {
-  return {1 + dt * inertia.mass_damping_per_s, dt * dt + dt * inertia.stiffness_damping_s};
-}
-
-}  // namespace
-
 ImplicitStep::ImplicitStep(const geometry::TetraMesh& mesh, const MaterialMap& material,
                            const Inertia& inertia, const ImplicitOptions& options)
     : inertia_(inertia),

@@ -51,6 +51,7 @@ std::span<const double> ImposedPress::impose(LargeStep& stepper, std::span<const
   }
   solve();
   for (std::size_t p = 0; p < count_; ++p) {
+    if (strength_[p] == 0) continue;
     for (std::size_t c = 0; c < state.u.size(); ++c) {
       state.u[c] += strength_[p] * yields_[p][c];
       state.v[c] += strength_[p] * yields_[p][c] / stepper.step_s();

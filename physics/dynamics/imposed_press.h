@@ -22,7 +22,7 @@ struct Press {
 ///
 /// A hand at 1 kHz answers a body that it knows from milliseconds ago. Its forces, applied as they come, are
 /// a loop with a delay, which light bodies make unstable; its positions are not, and both end in the same
-/// rest, with s = 1 (docs/design.md, "Touch over a moving organ"). No press pulls more than its own pattern
+/// rest, with s = 1 (docs/design.md, "Local models"). No press pulls more than its own pattern
 /// does, and none is more than twice as strong as the hand that made it.
 ///
 /// All memory is taken at construction; one thread at a time.

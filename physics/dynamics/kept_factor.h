@@ -1,8 +1,8 @@
 // The factor of an implicit step, kept while tetrahedra are removed.
 #pragma once
 
+#include "physics/dynamics/body_state.h"
 #include "physics/dynamics/factor_downdate.h"
-#include "physics/material_map.h"
 
 #include <cstdint>
 #include <memory>
@@ -16,6 +16,11 @@ struct SystemWeights {
   double mass = 1;       // m, of the lumped masses
   double stiffness = 1;  // k, s^2
 };
+
+/// Those of a step of backward Euler of length `dt` (s) with Rayleigh damping: A = M + dt D + dt^2 K.
+inline SystemWeights weights_of(const Inertia& inertia, double dt) {
+  return {1 + dt * inertia.mass_damping_per_s, dt * dt + dt * inertia.stiffness_damping_s};
+}
 
 /// A = m M + k K over the free degrees of freedom, factorized once: L D L^T by CHOLMOD, in panels of its own
 /// (factor_panels.h) that are solved with in float and downdated in double. A tetrahedron's stiffness has

@@ -1,5 +1,7 @@
 #include "physics/dynamics/swept_cut.h"
 
+#include "geometry/tetra_edges.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -17,7 +19,6 @@ constexpr int kDeepest = 64;  // halves of 2^31 are one after 31 branchings, and
 // three terms.
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
 
-constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 constexpr std::array<std::array<int, 3>, 4> kFaces{{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
 
 struct Interval {
@@ -67,7 +68,7 @@ bool edges_separate(const Pair& pair) {
   const auto& [t, x, size] = pair;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 along = t[(i + 1) % 3] - t[i];
-    for (const auto& [a, b] : kEdges)
+    for (const auto& [a, b] : geometry::kTetraEdges)
       if (pair.separated_along(along.cross(x[b] - x[a]))) return true;
   }
   return false;

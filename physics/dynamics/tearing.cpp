@@ -1,5 +1,8 @@
 #include "physics/dynamics/tearing.h"
 
+#include "geometry/tetra_bits.h"
+#include "geometry/tetra_edges.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -14,13 +17,6 @@ namespace {
 using geometry::TetId;
 using geometry::Vec3;
 
-constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-bool is_removed(std::span<const std::uint8_t> bits, TetId t) {
-  const auto byte = static_cast<std::size_t>(t / 8);
-  return byte < bits.size() && (bits[byte] >> t % 8 & 1) != 0;
-}
-
 using Places = std::array<Vec3, 4>;
 
 Eigen::Matrix3d edges_from_first(const Places& x) {
@@ -31,7 +27,10 @@ Eigen::Matrix3d edges_from_first(const Places& x) {
 
 std::array<double, 6> edge_lengths(const Places& x) {
   std::array<double, 6> length_m;
-  for (std::size_t e = 0; e < 6; ++e) length_m[e] = (x[kEdges[e][1]] - x[kEdges[e][0]]).norm();
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [a, b] = geometry::kTetraEdges[e];
+    length_m[e] = (x[b] - x[a]).norm();
+  }
   return length_m;
 }
 
@@ -122,7 +121,7 @@ std::span<const TetId> Tearing::check(std::span<const double> displacements,
   chosen_.clear();
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     const TetId t(i);
-    if (is_removed(removed, t) || !rest_[i].limits.ever()) continue;
+    if (geometry::is_set(removed, t) || !rest_[i].limits.ever()) continue;
     const double now = load(t, displacements);
     if (now > 1) loaded_.push_back({now, t});
   }

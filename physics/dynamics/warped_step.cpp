@@ -7,10 +7,6 @@ namespace omentum::physics {
 
 namespace {
 
-SystemWeights weights_of(const Inertia& inertia, double dt) {
-  return {1 + dt * inertia.mass_damping_per_s, dt * dt + dt * inertia.stiffness_damping_s};
-}
-
 double dot(std::span<const double> a, std::span<const double> b) noexcept {
   return Eigen::Map<const Eigen::VectorXd>(a.data(), static_cast<Eigen::Index>(a.size()))
       .dot(Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size())));
@@ -56,7 +52,10 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
 bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
   linearize(state);
   add_impulse(state, external, residual_);
-  solve(residual_, change_);
+  if (!solve(residual_, change_)) {
+    std::ranges::fill(residual_, 0.0);
+    return false;
+  }
   add(1, change_, state.v);
   add(options_.step_s, state.v, state.u);
   return std::isfinite(dot(state.v, state.v));
@@ -124,13 +123,13 @@ void WarpedStep::precondition(std::span<const double> residual, std::span<double
     Vec3::Map(&x[3 * n]) = (rotation_[n] * Vec3::Map(&x[3 * n])).eval();
 }
 
-// Conjugate gradients from zero; what x still lacks stays in `lacking`.
-void WarpedStep::solve(std::span<double> lacking, std::span<double> x) noexcept {
+// Conjugate gradients from zero; what x still lacks stays in `lacking`. False: that is no number.
+bool WarpedStep::solve(std::span<double> lacking, std::span<double> x) noexcept {
   std::ranges::fill(x, 0.0);
-  const double enough2 = options_.tolerance * options_.tolerance * dot(lacking, lacking);
+  double left2 = dot(lacking, lacking);
+  const double enough2 = options_.tolerance * options_.tolerance * left2;
   double along_before = 0;
-  for (iterations_ = 0; iterations_ < options_.most_iterations; ++iterations_) {
-    if (!(dot(lacking, lacking) > enough2)) return;
+  for (iterations_ = 0; iterations_ < options_.most_iterations && left2 > enough2; ++iterations_) {
     precondition(lacking, ahead_);
     const double along = dot(lacking, ahead_);
     for (std::size_t c = 0; c < direction_.size(); ++c)
@@ -140,7 +139,9 @@ void WarpedStep::solve(std::span<double> lacking, std::span<double> x) noexcept 
     const double length = along / dot(direction_, product_);
     add(length, direction_, x);
     add(-length, product_, lacking);
+    left2 = dot(lacking, lacking);
   }
+  return std::isfinite(left2);
 }
 
 bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {

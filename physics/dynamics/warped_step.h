@@ -57,7 +57,7 @@ class WarpedStep final : public LargeStep {
                    std::span<double> lacking) noexcept;
   void multiply(std::span<const double> x, std::span<double> y) noexcept;
   void precondition(std::span<const double> residual, std::span<double> x) noexcept;
-  void solve(std::span<double> lacking, std::span<double> x) noexcept;
+  bool solve(std::span<double> lacking, std::span<double> x) noexcept;
 
   const geometry::TetraMesh& mesh_;
   Inertia inertia_;

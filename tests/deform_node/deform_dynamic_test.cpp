@@ -201,6 +201,22 @@ TEST_F(DynamicModelTest, TakenUpItMovesAsTheOneThatWasCutDoes) {
     EXPECT_NEAR(other.view().values[i], cut.view().values[i], 1e-5 * kLength_m);
 }
 
+TEST_F(DynamicModelTest, WhatACutCostIsCountedOverAReset) {
+  DynamicModel model(parts());
+  // aslant, so that some hang on an edge afterwards
+  const CutStroke stroke{.tool = 0,
+                         .cut = 1,
+                         .from = {Vec3(0.01, -1, -0.01), Vec3(0.07, -1, 0.025)},
+                         .to = {Vec3(0.05, 1, -0.01), Vec3(0.11, 1, 0.025)}};
+  model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  const ModelStatus cut = model.status();
+  ASSERT_GT(cut.repaired_tetrahedra, 0u);
+  model.reset();
+  EXPECT_EQ(model.status().removed_tetrahedra, 0u);
+  EXPECT_EQ(model.status().repaired_tetrahedra, cut.repaired_tetrahedra);
+  EXPECT_EQ(model.status().cuts.lost_m3, cut.cuts.lost_m3);
+}
+
 TEST_F(DynamicModelTest, AForceOnWhatIsGoneDoesNothing) {
   DynamicModel model(parts());
   const CutStroke all{.tool = 0,

@@ -238,6 +238,20 @@ TEST_F(LocalModelsTest, AnOlderVersionAnOldSampleAndAStrangersAreDroppedAndCount
   EXPECT_EQ(counted(*node)["dropped"], 4);
 }
 
+// Between one and two of an organ's diagonals a loose piece still falls.
+TEST_F(LocalModelsTest, APieceOnItsWayDownIsAModel) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : organ().mesh.positions) box.extend(x);
+  const Vec3 diagonal_down(0, 0, -box.diagonal().norm());
+  const auto node = serving();
+  bus_.post(model_at(kPressed, 1.5 * diagonal_down));
+  hold(*node, kAbove, 20);
+  EXPECT_THAT(faults(), IsEmpty());
+  bus_.post(model_at(kPressed, 2.5 * diagonal_down));
+  hold(*node, kAbove, 20);
+  EXPECT_EQ(counted(*node)["dropped"], 1);
+}
+
 TEST_F(LocalModelsTest, AnOrganThatIsFeltByItsTensorsIsFeltByNothingElse) {
   options_.models = scene::kOrganModels;
   const auto node = pressing();
@@ -286,6 +300,8 @@ TEST_F(LocalModelsTest, HostileModelsNeverMoveAHand) {
   for (const Spoil& spoil : hostile) {
     msg::LocalModel model = model_at(kPressed);
     spoil(model);
+    // numbers that no genuine model has, which must not shut out those
+    model.seq = model.topology_version = std::numeric_limits<std::uint64_t>::max();
     bus_.post(model);
     hold(*node, kPressed, 3);
     ASSERT_NEAR(newton(*bus_.newest<msg::ToolForce>()), before, 1e-2 * before);

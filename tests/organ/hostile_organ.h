@@ -120,6 +120,14 @@ class HostileOrganTest : public testing::Test {
     return "accepted";
   }
 
+  // spoiled so, it is refused, and what is wrong is named
+  void expect_named(const std::function<void(Organ&)>& spoil, const std::string& named) const {
+    Organ organ = honest;
+    spoil(organ);
+    forge(organ);
+    EXPECT_THAT(refusal(), testing::HasSubstr(named));
+  }
+
   static void expect_all_in_range(const Organ& organ) {
     const auto below = [](std::int32_t index, std::size_t count) {
       return index >= 0 && static_cast<std::size_t>(index) < count;

@@ -141,40 +141,47 @@ TEST_F(HostileOrganTest, EveryMutationIsRefusedOrHasAllIndicesInRange) {
 }
 
 TEST_F(HostileOrganTest, WhatIsWrongIsNamed) {
-  const auto expect = [&](const std::function<void(Organ&)>& spoil, const std::string& named) {
-    Organ organ = honest;
-    spoil(organ);
-    forge(organ);
-    EXPECT_THAT(refusal(), HasSubstr(named));
-  };
-  expect([](Organ& o) { o.surface.triangles[3][1] = SurfaceId(1 << 20); }, "row 3 of 'surface/triangles'");
-  expect([](Organ& o) { std::swap(o.surface.triangles[3][1], o.surface.triangles[3][2]); }, "no face");
-  expect([](Organ& o) { o.surface.node[2] = NodeId(-7); }, "row 2 of 'surface/node'");
-  expect([](Organ& o) { o.surface.tetrahedron[0] = TetId(4000); }, "row 0 of 'surface/tetrahedron'");
-  expect([](Organ& o) { o.surface.fan[5] = TriangleId(-1); }, "row 5 of 'surface/fan'");
-  expect([](Organ& o) { o.surface.fan_start[4] = 1 << 30; }, "row 4 of 'surface/fan_start'");
-  expect([](Organ& o) { o.mesh.tetrahedra[6][0] = NodeId(27); }, "row 6 of 'mesh/tetrahedra'");
-  expect([](Organ& o) { std::swap(o.mesh.tetrahedra[6][0], o.mesh.tetrahedra[6][1]); }, "no positive volume");
-  expect([](Organ& o) { o.mesh.file_node[1] = -3; }, "row 1 of 'mesh/file_node'");
-  expect([](Organ& o) { o.mesh.node_numbers.pop_back(); }, "'mesh/node_numbers' has 26 rows; expected 27");
-  expect([](Organ& o) { o.mesh.tetrahedron_numbers.pop_back(); }, "'mesh/tetrahedron_numbers'");
-  expect([](Organ& o) { o.mesh.merged = {{40, 3}}; }, "row 0 of 'mesh/merged'");
-  expect([](Organ& o) { o.mesh.merged = {{-1, 3}}; }, "row 0 of 'mesh/merged'");
-  expect([](Organ& o) { o.mesh.merged = {{26, 3}}; }, "or in use");
+  expect_named([](Organ& o) { o.surface.triangles[3][1] = SurfaceId(1 << 20); },
+               "row 3 of 'surface/triangles'");
+  expect_named([](Organ& o) { std::swap(o.surface.triangles[3][1], o.surface.triangles[3][2]); }, "no face");
+  expect_named([](Organ& o) { o.surface.node[2] = NodeId(-7); }, "row 2 of 'surface/node'");
+  expect_named([](Organ& o) { o.surface.tetrahedron[0] = TetId(4000); }, "row 0 of 'surface/tetrahedron'");
+  expect_named([](Organ& o) { o.surface.fan[5] = TriangleId(-1); }, "row 5 of 'surface/fan'");
+  expect_named([](Organ& o) { o.surface.fan_start[4] = 1 << 30; }, "row 4 of 'surface/fan_start'");
+  expect_named([](Organ& o) { o.mesh.tetrahedra[6][0] = NodeId(27); }, "row 6 of 'mesh/tetrahedra'");
+  expect_named([](Organ& o) { std::swap(o.mesh.tetrahedra[6][0], o.mesh.tetrahedra[6][1]); },
+               "no positive volume");
+  expect_named([](Organ& o) { o.mesh.file_node[1] = -3; }, "row 1 of 'mesh/file_node'");
+  expect_named([](Organ& o) { o.mesh.node_numbers.pop_back(); },
+               "'mesh/node_numbers' has 26 rows; expected 27");
+  expect_named([](Organ& o) { o.mesh.tetrahedron_numbers.pop_back(); }, "'mesh/tetrahedron_numbers'");
+  expect_named([](Organ& o) { o.mesh.merged = {{40, 3}}; }, "row 0 of 'mesh/merged'");
+  expect_named([](Organ& o) { o.mesh.merged = {{-1, 3}}; }, "row 0 of 'mesh/merged'");
+  expect_named([](Organ& o) { o.mesh.merged = {{26, 3}}; }, "or in use");
   for (const std::int32_t kept : {27, 1000, -2}) {
     const auto add_node = [kept](Organ& o) {
       o.mesh.node_numbers.push_back(27);
       o.mesh.file_node_count = 28;
       o.mesh.merged = {{27, 3}, {27, kept}};
     };
-    expect(add_node, "row 1 of 'mesh/merged'");
+    expect_named(add_node, "row 1 of 'mesh/merged'");
   }
-  expect([](Organ& o) { o.mesh.positions[9].y() = NAN; }, "row 9 of 'mesh/positions'");
-  expect([](Organ& o) { o.fixed.back() = 8; }, "row 26 of 'supports/fixed'");
-  expect([](Organ& o) { o.fixed.pop_back(); }, "'supports/fixed' has 26 rows; expected 27");
-  expect([](Organ& o) { o.surface.mobile_count = 1 << 28; }, "mobile_count");
-  expect([](Organ& o) { o.surface.mobile_count -= 1; }, "'surface/node'");
-  expect([](Organ& o) { o.material.common.young_pa = -1; }, "Young's modulus");
+  expect_named([](Organ& o) { o.mesh.positions[9].y() = NAN; }, "row 9 of 'mesh/positions'");
+  expect_named([](Organ& o) { o.fixed.back() = 8; }, "row 26 of 'supports/fixed'");
+  expect_named([](Organ& o) { o.fixed.pop_back(); }, "'supports/fixed' has 26 rows; expected 27");
+  expect_named([](Organ& o) { o.surface.mobile_count = 1 << 28; }, "mobile_count");
+  expect_named([](Organ& o) { o.surface.mobile_count -= 1; }, "'surface/node'");
+  expect_named([](Organ& o) { o.material.common.young_pa = -1; }, "Young's modulus");
+  expect_named(
+      [](Organ& o) {
+        o.surface.triangles.pop_back();
+        o.surface.tetrahedron.pop_back();
+        o.surface.fan.resize(3 * o.surface.triangles.size());
+      },
+      "does not close");
+}
+
+TEST_F(HostileOrganTest, WhatIsWrongOfRegionsIsNamed) {
   const auto with_regions = [](std::vector<physics::RegionMaterial> regions, std::size_t labelled) {
     return [regions, labelled](Organ& o) {
       o.mesh.regions.assign(labelled, 3);
@@ -183,19 +190,14 @@ TEST_F(HostileOrganTest, WhatIsWrongIsNamed) {
     };
   };
   const physics::Material stiff{9000, 0.4, 1050};
-  expect(with_regions({{3, stiff}, {8, stiff}}, 47), "'mesh/regions' has 47 rows; expected 48");
-  expect(with_regions({{8, stiff}, {3, stiff}}, 48), "row 1 of 'material/labels'");
-  expect(with_regions({{3, stiff}, {3, stiff}}, 48), "row 1 of 'material/labels'");
-  expect(with_regions({{4, stiff}}, 48), "row 0 of 'material/labels' is the label of no tetrahedron");
-  expect(with_regions({{3, {NAN, 0.4, 1050}}}, 48), "region 3: Young's modulus");
-  expect(with_regions({{3, {9000, 0.4, 1050}}, {8, {9000, 0.5, 1050}}}, 48), "region 8: Poisson's ratio");
-  expect(
-      [](Organ& o) {
-        o.surface.triangles.pop_back();
-        o.surface.tetrahedron.pop_back();
-        o.surface.fan.resize(3 * o.surface.triangles.size());
-      },
-      "does not close");
+  expect_named(with_regions({{3, stiff}, {8, stiff}}, 47), "'mesh/regions' has 47 rows; expected 48");
+  expect_named(with_regions({{8, stiff}, {3, stiff}}, 48), "row 1 of 'material/labels'");
+  expect_named(with_regions({{3, stiff}, {3, stiff}}, 48), "row 1 of 'material/labels'");
+  expect_named(with_regions({{4, stiff}}, 48), "row 0 of 'material/labels' is the label of no tetrahedron");
+  expect_named(with_regions({{3, {NAN, 0.4, 1050}}}, 48), "region 3: Young's modulus");
+  expect_named(with_regions({{3, {9000, 0.4, 1050}}, {8, {9000, 0.5, 1050}}}, 48),
+               "region 8: Poisson's ratio");
 }
+
 }  // namespace
 }  // namespace omentum::organ

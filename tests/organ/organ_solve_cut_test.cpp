@@ -1,4 +1,6 @@
 // organ_solve of organs that were cut, and by the models that move.
+#include "geometry/mesh_editor.h"
+#include "physics/element_tensors.h"
 #include "tests/organ/organ_programs.h"
 
 namespace omentum::organ {
@@ -73,6 +75,36 @@ TEST_F(OrganSolveCutTest, TensorMassRestsWhereTheDirectSolveIsOnRealMeshes) {
     const std::vector<std::string> cut{"--gravity", "0,-9.81,0", "--remove", some_tetrahedra()};
     EXPECT_LE(difference(solve("tensor-mass", whole).u, solve("direct", whole).u), kEqual);
     EXPECT_LE(difference(solve("tensor-mass", cut).u, solve("direct", cut).u), kEqual);
+  }
+}
+
+// Where every node is held, each is held against the weight it carries.
+TEST_F(OrganSolveCutTest, WhatIsTakenOutWeighsNothing) {
+  build();
+  const Organ loaded = load_organ(organ, Load::kMeshOnly);
+  const std::vector<geometry::TetId> asked{geometry::TetId(3), geometry::TetId(70), geometry::TetId(71),
+                                           geometry::TetId(140)};
+  geometry::MeshEditor left(loaded.mesh);
+  left.remove(asked);
+  std::vector<double> carried_n(loaded.mesh.positions.size());
+  for (std::size_t t = 0; t < loaded.mesh.tetrahedra.size(); ++t) {
+    if (left.is_removed(geometry::TetId(t))) continue;
+    const auto x = physics::corners_of(loaded.mesh, geometry::TetId(t));
+    const double weight_n = 10 * 1050 * geometry::signed_volume(x[0], x[1], x[2], x[3]);
+    for (const geometry::NodeId n : loaded.mesh.tetrahedra[t]) carried_n[n] += weight_n / 4;
+  }
+  std::string all;
+  for (std::size_t n = 0; n < carried_n.size(); ++n)
+    if (loaded.fixed[n] == 0 && left.uses(geometry::NodeId(n)) > 0) all += std::to_string(n) + ",0,0,0\n";
+  for (const char* model : {"direct", "tensor-mass", "corotational", "spring-mass"}) {
+    SCOPED_TRACE(model);
+    const Solved solved = solve(model, {"--gravity", "0,-10,0", "--imposed", write("i.csv", all), "--remove",
+                                        write("t.csv", "3\n70\n71\n140\n")});
+    ASSERT_FALSE(solved.f.empty());
+    for (const auto& row : solved.f) {
+      const double carried = carried_n[static_cast<std::size_t>(row[0])];
+      EXPECT_NEAR(row[2], carried, kEqual * carried) << row[0];
+    }
   }
 }
 

@@ -42,9 +42,11 @@ SHAPE = {
     "machine": {"cores": int, "kernel": str, "realtime": bool, "steal_share": float},
     "nodes": {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
-                        "contacts": {"ticks_in_contact": int, "nodes_max": int}, "faults": list},
+                        "contacts": {"ticks_in_contact": int, "nodes_max": int},
+                        "local_models": {"heard": int, "dropped": int, "gone": int}, "faults": list},
         "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "steps": int, "removed_tetrahedra": int,
-                        "faults": list},
+                        "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
+                        "real_time_factor": float, "faults": list},
         "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
                         "unmatched_states": int, "closed": bool, "faults": list},
         "virtual_device": {"dds": str, "exit": int, "round_trip_us": TIMES, "sent": int, "lost": int, "energy_j": float,
@@ -398,6 +400,19 @@ class Parts(unittest.TestCase):
         spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": list(regions)}
         with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
             return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed)
+
+    def test_a_node_without_a_report_has_every_field_all_the_same(self):
+        seen_by_the_launcher = {"dds", "exit", "restarts"}
+        for name in NODES:
+            self.assertEqual(set(report.FIELDS[name]) | seen_by_the_launcher, set(SHAPE["nodes"][name]) | seen_by_the_launcher)
+
+    def test_each_scene_of_the_project_is_found_by_its_name_and_told_in_the_readme(self):
+        readme = (REPOSITORY / "README.md").read_text(encoding="utf-8")
+        names = {file.stem for file in (REPOSITORY / "scenes").glob("*.toml")}
+        self.assertLessEqual({"liver", "plate_cut", "cylinder_tear", "liver_dynamic"}, names)
+        for name in names:
+            self.assertEqual(options.find_scene(name), REPOSITORY / "scenes" / f"{name}.toml")
+            self.assertIn(name, readme)
 
     def test_changed_support_file_is_another_organ(self):
         nodes = self.folder / "nodes.csv"

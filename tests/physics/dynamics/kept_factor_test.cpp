@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <limits>
+
 namespace omentum::physics {
 namespace {
 
@@ -157,6 +159,14 @@ TEST(KeptFactorTest, WhatWouldFloatWithoutMassIsSaid) {
   factor.restore();
   const std::vector<TetId> order = body.any_order();
   EXPECT_TRUE(factor.remove({order.data(), 1}));
+}
+
+TEST(KeptFactorTest, WhatIsNoNumberIsSaid) {
+  HeldBody body = test::held_box();
+  KeptFactor factor = kept(body);
+  const std::vector<TetId> order = body.any_order();
+  body.mesh.positions[body.mesh.tetrahedra[order[0]][2]].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(factor.remove({order.data(), 1}));
 }
 
 TEST(KeptFactorTest, WhereEverythingIsHeldNothingMoves) {

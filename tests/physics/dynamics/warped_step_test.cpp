@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace omentum::physics {
 namespace {
 
@@ -179,6 +181,20 @@ TEST_F(WarpedStepTest, ComplianceTurnsWithTheBody) {
       EXPECT_NEAR(block[static_cast<std::size_t>(6 * i + 3 + j)], moved, 1e-3 * block[0]) << i << ", " << j;
     }
   }
+}
+
+TEST_F(WarpedStepTest, AForceThatIsNoNumberIsSaidAndNotKept) {
+  const Inertia body = inertia(Held::kAtOneEnd);
+  WarpedStep stepped = stepper(body), fresh = stepper(body);
+  BodyState a = state_at_rest(mesh.positions.size()), b = a;
+  Vector force = weight(body, 1);
+  force[size - 2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(stepped.step(a, view(force)));
+  a = b;
+  force = weight(body, 1);
+  ASSERT_TRUE(stepped.step(a, view(force)));
+  ASSERT_TRUE(fresh.step(b, view(force)));
+  EXPECT_EQ(a.u, b.u);
 }
 
 TEST_F(WarpedStepTest, StepAllocatesNothing) {
