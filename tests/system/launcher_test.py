@@ -413,6 +413,8 @@ class Parts(unittest.TestCase):
         for name in names:
             self.assertEqual(options.find_scene(name), REPOSITORY / "scenes" / f"{name}.toml")
             self.assertIn(name, readme)
+        listed = subprocess.run([REPOSITORY / "launch_scripts" / "run", "--list"], capture_output=True, text=True, check=True)
+        self.assertEqual({line.split()[0] for line in listed.stdout.splitlines()}, names)
 
     def test_changed_support_file_is_another_organ(self):
         nodes = self.folder / "nodes.csv"
