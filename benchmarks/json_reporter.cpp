@@ -9,7 +9,7 @@ namespace omentum::bench {
 namespace {
 
 std::string unit_of(std::string_view counter) {
-  constexpr std::array<std::string_view, 2> kEnds{"_us", "_MB"};
+  constexpr std::array<std::string_view, 3> kEnds{"_ns", "_us", "_MB"};
   for (const std::string_view end : kEnds)
     if (counter.ends_with(end)) return std::string(end.substr(1));
   return counter == "GB_s" ? "GB/s" : "1";

@@ -9,7 +9,7 @@ namespace omentum::bench {
 
 /// Prints as Google Benchmark does, and adds to `results`: NAME/ARGUMENTS, the time of one iteration in the
 /// benchmark's own unit; and NAME/ARGUMENTS/COUNTER for each counter, whose unit is what its name ends in
-/// (_us, _MB, GB_s; else "1"). A run that was skipped adds nothing.
+/// (_ns, _us, _MB, GB_s; else "1"). A run that was skipped adds nothing.
 class JsonReporter final : public benchmark::ConsoleReporter {
  public:
   explicit JsonReporter(Results& results);

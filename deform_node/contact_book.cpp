@@ -32,6 +32,8 @@ const char* describe(Rejection rejection) noexcept {
       return "contact dropped: forces beyond what the scene's tools exert, or not finite";
     case Rejection::kReach:
       return "contact dropped: moves the organ farther than its own size, or not finite";
+    case Rejection::kEdge:
+      return "contact dropped: cutting edge that is not finite, or outside of any scene";
   }
   return "contact dropped";
 }
@@ -45,6 +47,13 @@ ContactBounds bounds_of(const scene::Scene& scene) {
 
 namespace {
 
+bool in_a_scene(const msg::Edge& edge) noexcept {
+  constexpr double kFarthest_m = 1000;
+  const auto is_near = [](const msg::Vec3& p) { return to_vector(p).cwiseAbs().maxCoeff() <= kFarthest_m; };
+  return to_vector(edge.begin).allFinite() && to_vector(edge.end).allFinite() && is_near(edge.begin) &&
+         is_near(edge.end);
+}
+
 // What the contact says of itself, without a look at its nodes.
 Rejection check_claims(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
                        const ContactBounds& bounds) noexcept {
@@ -52,7 +61,6 @@ Rejection check_claims(const msg::Contact& contact, const std::vector<OrganNumbe
       contact.cause.tool != contact.tool)
     return Rejection::kTool;
   if (contact.organ >= organs.size()) return Rejection::kOrgan;
-  if (contact.topology_version != organs[contact.organ].topology_version) return Rejection::kTopologyVersion;
   const std::size_t count = contact.nodes.size();
   if (count > static_cast<std::size_t>(kMaxNodesPerTool) || contact.displacements.size() != count ||
       contact.forces.size() != count)
@@ -60,6 +68,7 @@ Rejection check_claims(const msg::Contact& contact, const std::vector<OrganNumbe
   if (!node::within_scene(node::total_force_n(contact), bounds.max_force_n)) return Rejection::kForce;
   for (const msg::Vec3& u : contact.displacements)
     if (!(to_vector(u).norm() <= organs[contact.organ].reach_m)) return Rejection::kReach;
+  if (!in_a_scene(contact.edge_before) || !in_a_scene(contact.edge)) return Rejection::kEdge;
   return Rejection::kNone;
 }
 
@@ -67,16 +76,24 @@ Rejection translate(const msg::Contact& contact, const OrganNumbers& organ, Held
   held.cause = contact.cause;
   held.count = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    if (contact.nodes[i] >= organ.surface_of_file_node.size()) return Rejection::kNode;
-    const SurfaceId node = organ.surface_of_file_node[contact.nodes[i]];
-    if (!node.valid()) return Rejection::kNode;
-    if (node >= organ.mobile_count) continue;
+    if (contact.nodes[i] >= organ.node_of_file.size()) return Rejection::kNode;
+    const NodeId node = organ.node_of_file[contact.nodes[i]];
+    if (!node.valid() || (organ.compliance && !organ.surface_of_node[node].valid())) return Rejection::kNode;
+    if (organ.pinned[node]) continue;
     held.nodes[held.count] = node;
     held.forces[held.count] = to_vector(contact.forces[i]);
     held.displacements[held.count] = to_vector(contact.displacements[i]);
     ++held.count;
   }
   return Rejection::kNone;
+}
+
+// Of an organ with tensors, m.
+double moved_by(const HeldContact& held, const OrganNumbers& organ) noexcept {
+  const auto count = static_cast<std::size_t>(held.count);
+  std::array<SurfaceId, kMaxNodesPerTool> nodes;
+  for (std::size_t i = 0; i < count; ++i) nodes[i] = organ.surface_of_node[held.nodes[i]];
+  return largest_displacement_m(*organ.compliance, {nodes.data(), count}, {held.forces.data(), count});
 }
 
 }  // namespace
@@ -88,10 +105,7 @@ Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumb
   const OrganNumbers& organ = organs[contact.organ];
   rejection = translate(contact, organ, held);
   if (rejection != Rejection::kNone || organ.compliance == nullptr) return rejection;
-  const auto count = static_cast<std::size_t>(held.count);
-  const double moved_m =
-      largest_displacement_m(*organ.compliance, {held.nodes.data(), count}, {held.forces.data(), count});
-  return moved_m <= organ.reach_m ? Rejection::kNone : Rejection::kReach;
+  return moved_by(held, organ) <= organ.reach_m ? Rejection::kNone : Rejection::kReach;
 }
 
 ContactBook::ContactBook(std::vector<OrganNumbers> organs, const ContactBounds& bounds,
@@ -106,13 +120,39 @@ void ContactBook::take(const msg::Contact& contact, std::int64_t now_ns) noexcep
     faults_.raise(describe(rejection));
     return;
   }
+  OrganPages& pages = *pages_[contact.organ];
+  pages.cuts.take(contact, now_ns);
+  if (!pages.versions.hold(contact)) {
+    faults_.raise(describe(Rejection::kTopologyVersion));
+    return;
+  }
   draft_.received_ns = now_ns;
-  pages_[contact.organ]->tools[contact.tool].newest.post(draft_);
+  pages.tools[contact.tool].newest.post(draft_);
+}
+
+void ContactBook::now_at(std::uint32_t organ, std::uint64_t topology_version) noexcept {
+  pages_[organ]->versions.newest.store(topology_version, std::memory_order_relaxed);
+}
+
+void ContactBook::begins_at(std::uint32_t organ, std::uint64_t topology_version) noexcept {
+  pages_[organ]->versions.oldest.store(topology_version, std::memory_order_relaxed);
+  now_at(organ, topology_version);
+}
+
+void ContactBook::forget(std::int64_t now_ns) noexcept {
+  forget_until_ns_ = now_ns;
+  forget_cuts(now_ns);
+}
+
+void ContactBook::forget_cuts(std::int64_t now_ns) noexcept {
+  for (const auto& organ : pages_) organ->cuts.forget(now_ns);
 }
 
 void ContactBook::advance(std::int64_t now_ns) noexcept {
-  for (const auto& organ : pages_)
+  for (const auto& organ : pages_) {
+    organ->cuts.advance(now_ns);
     for (Page& page : organ->tools) advance(page, now_ns);
+  }
   gather_echoes();
 }
 
@@ -135,6 +175,10 @@ void ContactBook::gather_echoes() noexcept {
     }
     if (newest) echoes_[echo_count_++] = newest->cause;
   }
+}
+
+std::span<const CutStroke> ContactBook::cuts(std::uint32_t organ) const noexcept {
+  return pages_[organ]->cuts.strokes();
 }
 
 std::span<const ToolLoad> ContactBook::loads(std::uint32_t organ) noexcept {

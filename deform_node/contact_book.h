@@ -2,6 +2,7 @@
 // silent.
 #pragma once
 
+#include "deform_node/cut_book.h"
 #include "deform_node/organ_models.h"
 #include "physics/surface_compliance.h"
 #include "runtime/faults.h"
@@ -10,6 +11,7 @@
 #include "transport/messages.h"
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -30,11 +32,13 @@ double staleness_gain(double age_s) noexcept;
 
 /// How a Contact's node numbers are read for one organ.
 struct OrganNumbers {
-  std::vector<SurfaceId> surface_of_file_node;  // invalid where the node is not on the surface
-  std::int32_t mobile_count = 0;                // SurfaceIds below carry tensors
-  std::uint64_t topology_version = 0;
-  double reach_m = 0;  // farther no contact moves a node (contact_reach.h)
-  const physics::SurfaceCompliance* compliance = nullptr;  // not owned; none: only what is claimed is checked
+  std::vector<NodeId> node_of_file;        // [nodes of the mesh file] invalid where the mesh has none
+  std::vector<SurfaceId> surface_of_node;  // [N] of the uncut surface; invalid inside
+  std::vector<bool> pinned;                // [N] nothing moves these
+  double reach_m = 0;                      // farther no contact moves a node (contact_reach.h)
+  // Not owned. With them a contact's nodes are of the surface that they are of, and what its forces would do
+  // is checked; an organ without may be cut, which bares any node, and only what is claimed is checked.
+  const physics::SurfaceCompliance* compliance = nullptr;
 };
 
 /// What a scene lets its contacts claim.
@@ -45,23 +49,35 @@ struct ContactBounds {
 ContactBounds bounds_of(const scene::Scene& scene);
 
 /// Why a Contact is dropped.
-enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kForce, kReach };
+enum class Rejection { kNone, kTool, kOrgan, kTopologyVersion, kLengths, kNode, kForce, kReach, kEdge };
 const char* describe(Rejection rejection) noexcept;
 
-/// A checked Contact with SurfaceIds, of fixed size: it crosses threads without memory being taken.
+/// A checked Contact with the mesh's nodes, of fixed size: it crosses threads without memory being taken.
 struct HeldContact {
   msg::Echo cause{};
   std::int64_t received_ns = 0;  // this process's steady clock; 0: none came yet
   int count = 0;
-  std::array<SurfaceId, kMaxNodesPerTool> nodes{};
+  std::array<NodeId, kMaxNodesPerTool> nodes{};
   std::array<Vec3, kMaxNodesPerTool> displacements{};
   std::array<Vec3, kMaxNodesPerTool> forces{};
 };
 
 /// Translates `contact` into `held`, whose received_ns is set by the caller. Nodes that are held fixed are
-/// left out: they cannot move, and a triangle at a support has some. Pure.
+/// left out: they cannot move, and a triangle at a support has some. The version is not looked at. Pure.
 [[nodiscard]] Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumbers>& organs,
                                       const ContactBounds& bounds, HeldContact& held) noexcept;
+
+/// The versions of an organ that contacts may be with. Nodes keep their numbers while an organ is cut, so
+/// that a contact may be some cuts behind; with the organ before a reset nobody is in contact any more.
+struct TopologyVersions {
+  std::atomic<std::uint64_t> oldest{0}, newest{0};
+
+  /// One without nodes says nothing of any version.
+  bool hold(const msg::Contact& contact) const noexcept {
+    return contact.nodes.empty() || (contact.topology_version >= oldest.load(std::memory_order_relaxed) &&
+                                     contact.topology_version <= newest.load(std::memory_order_relaxed));
+  }
+};
 
 /// Contacts on their way from the receiving thread to the loop, one of each tool with each organ: who goes
 /// from one to another lets go of the first by an empty contact, or by telling it none. take() and the loop's
@@ -71,19 +87,27 @@ class ContactBook {
   /// Dropped contacts are raised in `faults`, which must outlive the book.
   ContactBook(std::vector<OrganNumbers> organs, const ContactBounds& bounds, runtime::FaultList& faults);
 
-  /// Receiving thread.
+  /// Receiving thread. What is told of a cut counts also where the nodes are another version's.
   void take(const msg::Contact& contact, std::int64_t now_ns) noexcept;
+
+  /// Loop: the organ is cut by now / is another one by now, as after a reset.
+  void now_at(std::uint32_t organ, std::uint64_t topology_version) noexcept;
+  void begins_at(std::uint32_t organ, std::uint64_t topology_version) noexcept;
 
   /// Loop: looks at what arrived and fades what is old. Everything below refers to this moment.
   void advance(std::int64_t now_ns) noexcept;
   /// Loop: what the tools do to one organ; valid until the next advance().
   std::span<const ToolLoad> loads(std::uint32_t organ) noexcept;
+  /// Loop: what their cutting edges swept of it since the advance() before; valid as loads are.
+  std::span<const CutStroke> cuts(std::uint32_t organ) const noexcept;
   /// Loop: the newest pose of each tool that the loads take into account.
   std::span<const msg::Echo> echoes() const noexcept {
     return {echoes_.data(), static_cast<std::size_t>(echo_count_)};
   }
   /// Loop: forgets every contact received up to `now_ns`.
-  void forget(std::int64_t now_ns) noexcept { forget_until_ns_ = now_ns; }
+  void forget(std::int64_t now_ns) noexcept;
+  /// Loop: forgets what was swept up to `now_ns`: another node cut it.
+  void forget_cuts(std::int64_t now_ns) noexcept;
 
  private:
   /// One tool with one organ.
@@ -93,6 +117,8 @@ class ContactBook {
     std::array<Vec3, kMaxNodesPerTool> faded_forces{};
   };
   struct OrganPages {
+    TopologyVersions versions;
+    CutBook cuts;
     std::array<Page, kMaxTools> tools;
     std::array<ToolLoad, kMaxTools> loads{};
   };

@@ -1,6 +1,6 @@
 #include "deform_node/contact_reach.h"
 
-#include <Eigen/Geometry>
+#include "geometry/boxes.h"
 
 #include <algorithm>
 #include <array>
@@ -24,9 +24,7 @@ double largest_displacement_m(const physics::SurfaceCompliance& compliance, std:
 }
 
 double reach_of(std::span<const Vec3> rest) noexcept {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : rest) box.extend(p);
-  return box.isEmpty() ? 0 : box.diagonal().norm();
+  return geometry::diagonal_around(rest);
 }
 
 }  // namespace omentum::deform

@@ -14,8 +14,8 @@ using geometry::Vec3;
 double largest_displacement_m(const physics::SurfaceCompliance& compliance, std::span<const SurfaceId> nodes,
                               std::span<const Vec3> forces) noexcept;
 
-/// No contact moves an organ farther than this, m: the diagonal of the box around it at rest. Linear
-/// elasticity is trusted to a tenth of its size.
+/// No contact moves a precomputed organ farther than this, m: the diagonal of the box around it at rest.
+/// Linear elasticity is trusted to a tenth of its size.
 double reach_of(std::span<const Vec3> rest) noexcept;
 
 }  // namespace omentum::deform

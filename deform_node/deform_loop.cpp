@@ -27,6 +27,12 @@ void say_once(bool& said, const char* what) {
   if (!std::exchange(said, true)) std::cerr << "deform_node: " << what << std::endl;
 }
 
+nlohmann::json to_json(const CutAccount& cuts) {
+  const double way_cm = 1e2 * cuts.way_m, lost_cm3 = 1e6 * cuts.lost_m3;
+  return {
+      {"way_cm", way_cm}, {"lost_cm3", lost_cm3}, {"lost_cm3_per_cm", way_cm > 0 ? lost_cm3 / way_cm : 0}};
+}
+
 }  // namespace
 
 DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
@@ -35,8 +41,9 @@ DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& o
       organs_(load_organs(scene_, options.models), faults_),
       book_(numbers_of_all(organs_.organs()), bounds_of(scene_), faults_),
       loop_(loop),
-      start_ns_(loop_.now_ns()),
       loaded_(node::loaded_scene(scene_, describe(organs_.organs()))),
+      journal_(open_journal()),
+      start_ns_(loop_.now_ns()),
       orders_(start_ns_),
       refusal_(loop),
       own_(node::introduce(msg::NODE_DEFORM, options.rate_hz)),
@@ -50,6 +57,14 @@ DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& o
   open_readers();
 }
 
+std::unique_ptr<CutJournal> DeformLoop::open_journal() {
+  if (options_.journal.empty()) return nullptr;
+  auto journal =
+      std::make_unique<CutJournal>(options_.journal, journal_scene(loaded_.hash, organs_.organs()), faults_);
+  organs_.take_up(journal->read(), book_);
+  return journal;
+}
+
 void DeformLoop::open_writers() {
   const auto on_wake = [this](std::function<void()> work) { return loop_.on_wake(std::move(work)); };
   const transport::Profile profile = transport::parse_profile(options_.node.profile);
@@ -58,8 +73,9 @@ void DeformLoop::open_writers() {
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   publisher_ = std::make_unique<StatePublisher>(
-      StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_}, organs_.organs(),
-      nodes_per_block(profile), node::to_message(loaded_, scene_.name), own_, faults_, on_wake);
+      StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_, journal_.get()},
+      organs_.organs(), nodes_per_block(profile), node::to_message(loaded_, scene_.name), own_, faults_,
+      on_wake);
   if (offers_local_models(organs_.organs())) {
     local_writer_ = bus_->writer<msg::LocalModel>();
     local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(),
@@ -102,7 +118,12 @@ void DeformLoop::serve_or_stand_by() {
 }
 
 void DeformLoop::take_up() {
-  if (role_ == Role::kStandingBy) say_once(told_serving_, "the other one fell silent, this one serves");
+  if (role_ == Role::kStandingBy) {
+    say_once(told_serving_, "the other one fell silent, this one serves");
+    if (journal_) organs_.take_up(journal_->read(), book_);  // the other one may have cut on
+  }
+  time_.note(loop_.now_ns(), organs_.simulated_s(), true);
+  book_.forget_cuts(loop_.now_ns());
   role_ = Role::kServing;
 }
 
@@ -137,19 +158,21 @@ void DeformLoop::tick() noexcept {
 void DeformLoop::obey() noexcept {
   if (!orders_.take_reset()) return;
   book_.forget(loop_.now_ns());
-  organs_.reset();
+  organs_.reset(book_);
 }
 
 void DeformLoop::take_figures() noexcept {
   const runtime::LoopRecord& record = loop_.record();
   orders_.tell(own_);
+  time_.note(loop_.now_ns(), organs_.simulated_s(), orders_.paused());
   figures_ = {.number = figures_.number + 1,
               .paused = own_.paused,
               .newest_order = own_.newest_order,
               .ticks = record.ticks,
               .missed = record.missed,
               .period_us = node::to_message(record.period.percentiles()),
-              .compute_us = node::to_message(record.compute.percentiles())};
+              .compute_us = node::to_message(record.compute.percentiles()),
+              .real_time_factor = time_.recent()};
   own_.ticks = record.ticks;
   standby_.serving(own_);
 }
@@ -170,6 +193,9 @@ nlohmann::json DeformLoop::report() const {
           {"states", states_},
           {"steps", organs_.steps()},
           {"removed_tetrahedra", organs_.removed_tetrahedra()},
+          {"repaired_tetrahedra", organs_.repaired_tetrahedra()},
+          {"cuts", to_json(organs_.cuts())},
+          {"real_time_factor", time_.overall()},
           {"faults", faults_.lines()}};
 }
 

@@ -5,6 +5,7 @@
 #include "deform_node/organ_group.h"
 #include "deform_node/standby.h"
 #include "deform_node/state_publisher.h"
+#include "deform_node/time_account.h"
 #include "node_common/loaded_scene.h"
 #include "node_common/refusal.h"
 #include "node_common/session_orders.h"
@@ -19,7 +20,8 @@ namespace omentum::deform {
 /// What deform_node's command line asks for, and the models that its scenes may choose from.
 struct DeformOptions {
   runtime::NodeOptions node;
-  double rate_hz = 100;  // faster than any screen, slow beside a step (docs/topics.md promises 60)
+  std::filesystem::path journal;  // of cuts; empty: a node that is started again begins with whole organs
+  double rate_hz = 100;           // faster than any screen, slow beside a step (docs/topics.md promises 60)
   std::span<const ModelEntry> models = model_table();
 };
 
@@ -41,6 +43,8 @@ class DeformLoop {
   void require_written();
 
  private:
+  /// Null where none is asked for.
+  std::unique_ptr<CutJournal> open_journal();
   void open_writers();
   void open_readers();
   void serve_or_stand_by();
@@ -59,8 +63,9 @@ class DeformLoop {
   ContactBook book_;
   runtime::Pace& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
-  std::int64_t start_ns_;
   node::LoadedScene loaded_;
+  std::unique_ptr<CutJournal> journal_;
+  std::int64_t start_ns_;
   node::SessionOrders orders_;
   node::Refusal refusal_;
   std::uint64_t states_ = 0;
@@ -70,6 +75,7 @@ class DeformLoop {
   bool told_standing_by_ = false, told_serving_ = false;  // on stderr
   msg::NodeStatus own_;  // who this is; what of it changes is the publisher's, but for the ticks
   LoopFigures figures_;
+  TimeAccount time_;
   Standby standby_;
 
   // declared last: callbacks end before what they touch

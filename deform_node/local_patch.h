@@ -9,13 +9,15 @@
 
 namespace omentum::deform {
 
-/// Where a local model is wanted.
+/// Around which tool a local model is wanted, and where.
 struct PatchPlace {
+  std::uint32_t tool = 0;
   geometry::Vec3 centre = geometry::Vec3::Zero();  // in W, m
   double radius_m = 0;
 };
 
-/// The nodes of a surface around a place, how they move, and how they yield to other forces f of the tools:
+/// The nodes of a surface around a tool, how they move, and how they yield to other forces f of that tool;
+/// what others do there is in the positions:
 ///   x(f, t) = positions + t velocities + C (f - forces),   C [3n][3n] symmetric,
 /// good for the next few milliseconds. Vectors have the size that they may need; the counts say what of it
 /// is used, so that filling one takes no memory.
@@ -35,7 +37,7 @@ struct LocalPatch {
   std::vector<std::uint32_t> nodes;                    // places in the mesh file, from 0
   std::vector<geometry::Vec3> positions;               // in W, m
   std::vector<geometry::Vec3> velocities;              // in W, m/s
-  std::vector<geometry::Vec3> forces;                  // of the tools, at which the positions hold, in W, N
+  std::vector<geometry::Vec3> forces;                  // of that tool, at which the positions hold, in W, N
   std::vector<std::array<std::uint8_t, 3>> triangles;  // of places in `nodes`, counter-clockwise from outside
   std::vector<float> compliance;                       // upper triangle of C, row by row, m/N
 };

@@ -13,6 +13,9 @@ int main(int argc, char** argv) {
       "deform_node", "Deforms the scene's organs under the tools' contacts and publishes their surfaces.");
   deform::DeformOptions options;
   runtime::add_node_options(line, options.node);
+  line.option("--journal", options.journal, "keep cuts here, and begin with those that are there (JSON)")
+      .type_name("FILE")
+      .writes_file();
   line.option("--rate-hz", options.rate_hz, "states per second").between(1.0, 1000.0).show_default();
 
   return line.run(argc, argv, [&] {

@@ -1,5 +1,6 @@
 #include "deform_node/model_table.h"
 
+#include "deform_node/dynamic_maker.h"
 #include "deform_node/quasi_static_model.h"
 
 #include <algorithm>
@@ -10,11 +11,14 @@ namespace omentum::deform {
 namespace {
 
 std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, const scene::OrganSpec&) {
-  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface.node_count());
+  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface);
 }
 
 constexpr std::array kTable{
     ModelEntry{"quasi-static", organ::Load::kWithTensors, make_quasi_static},
+    ModelEntry{"tensor-mass", organ::Load::kMeshOnly, make_tensor_mass},
+    ModelEntry{"corotational", organ::Load::kMeshOnly, make_corotational},
+    ModelEntry{"spring-mass", organ::Load::kMeshOnly, make_spring_mass},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "deform_node/organ_group.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -19,21 +20,44 @@ OrganGroup::OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faul
     : organs_(std::move(organs)), faults_(faults), collision_(models_of(organs_)) {}
 
 void OrganGroup::step(ContactBook& book, double dt_s) noexcept {
-  for (std::size_t i = 0; i < organs_.size(); ++i)
-    organs_[i].model->step({.presses = book.loads(static_cast<std::uint32_t>(i)), .cuts = {}}, dt_s);
+  for (std::uint32_t i = 0; i < organs_.size(); ++i)
+    organs_[i].model->step({.presses = book.loads(i), .cuts = book.cuts(i)}, dt_s);
   if (!collision_.run()) faults_.raise("organs meet in more places than there is room for");
-  for (ServedOrgan& served : organs_) heed(served);
+  for (std::uint32_t i = 0; i < organs_.size(); ++i) {
+    heed(i, book);
+    book.now_at(i, organs_[i].model->view().topology_version);
+  }
 }
 
-void OrganGroup::reset() noexcept {
-  for (ServedOrgan& served : organs_) served.model->reset();
+void OrganGroup::reset(ContactBook& book) noexcept {
+  for (std::uint32_t i = 0; i < organs_.size(); ++i) reset(i, book);
 }
 
-void OrganGroup::heed(ServedOrgan& served) noexcept {
+void OrganGroup::reset(std::uint32_t organ, ContactBook& book) noexcept {
+  OrganModel& model = *organs_[organ].model;
+  model.reset();
+  book.begins_at(organ, model.view().topology_version);
+}
+
+void OrganGroup::take_up(const std::vector<OrganCuts>& cuts, ContactBook& book) noexcept {
+  for (std::uint32_t i = 0; i < organs_.size(); ++i) {
+    OrganModel& model = *organs_[i].model;
+    const OrganView now = model.view();
+    const bool is_there =
+        now.topology_version == cuts[i].version && std::ranges::equal(now.removed_bits, cuts[i].removed_bits);
+    if (cuts[i].version == 0 || is_there) continue;
+    const std::uint64_t version = std::max(cuts[i].version, now.topology_version + 1);
+    model.take_up(cuts[i].removed_bits, cuts[i].burnt_bits, version);
+    book.begins_at(i, model.view().topology_version);
+  }
+}
+
+void OrganGroup::heed(std::uint32_t organ, ContactBook& book) noexcept {
+  ServedOrgan& served = organs_[organ];
   const ModelStatus status = served.model->status();
   const std::string_view what = status.diverged ? "diverged, back to rest" : status.fault;
   if (what.empty()) return;
-  if (status.diverged) served.model->reset();
+  if (status.diverged) reset(organ, book);
   char line[runtime::FaultList::kTextSize + 1];
   std::snprintf(line, sizeof line, "organ %s: %.*s", served.source->organ.name.c_str(),
                 static_cast<int>(what.size()), what.data());
@@ -50,6 +74,31 @@ std::uint32_t OrganGroup::removed_tetrahedra() const {
   std::uint32_t removed = 0;
   for (const ServedOrgan& served : organs_) removed += served.model->status().removed_tetrahedra;
   return removed;
+}
+
+std::uint32_t OrganGroup::repaired_tetrahedra() const {
+  std::uint32_t repaired = 0;
+  for (const ServedOrgan& served : organs_) repaired += served.model->status().repaired_tetrahedra;
+  return repaired;
+}
+
+CutAccount OrganGroup::cuts() const {
+  CutAccount all;
+  for (const ServedOrgan& served : organs_) {
+    const CutAccount own = served.model->status().cuts;
+    all.way_m += own.way_m;
+    all.lost_m3 += own.lost_m3;
+  }
+  return all;
+}
+
+double OrganGroup::simulated_s() const {
+  double slowest_s = 0;
+  for (const ServedOrgan& served : organs_) {
+    const double own_s = served.model->status().simulated_s;
+    if (own_s > 0 && (slowest_s == 0 || own_s < slowest_s)) slowest_s = own_s;
+  }
+  return slowest_s;
 }
 
 }  // namespace omentum::deform

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/organ_collision.h"
+#include "deform_node/organ_cuts.h"
 #include "deform_node/served_organ.h"
 #include "runtime/faults.h"
 
@@ -17,17 +18,26 @@ class OrganGroup {
   /// `faults` outlives this.
   OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faults);
 
-  /// `book` has advanced to this moment.
+  /// `book` has advanced to this moment, and learns the versions that the organs are at.
   void step(ContactBook& book, double dt_s) noexcept;
-  void reset() noexcept;
+  void reset(ContactBook& book) noexcept;
+  /// Goes on with what another deform_node left of each organ: at rest, in the same version, or in a later
+  /// one where this node has used it for another set. Not in a step: a large cut takes as long as it took to
+  /// make.
+  void take_up(const std::vector<OrganCuts>& cuts, ContactBook& book) noexcept;
 
   const std::vector<ServedOrgan>& organs() const { return organs_; }
   /// Over all organs.
   std::uint64_t steps() const;
   std::uint32_t removed_tetrahedra() const;
+  std::uint32_t repaired_tetrahedra() const;
+  CutAccount cuts() const;
+  /// What the slowest organ lived through, s; 0 where none has a time of its own.
+  double simulated_s() const;
 
  private:
-  void heed(ServedOrgan& served) noexcept;
+  void reset(std::uint32_t organ, ContactBook& book) noexcept;
+  void heed(std::uint32_t organ, ContactBook& book) noexcept;
 
   std::vector<ServedOrgan> organs_;
   runtime::FaultList& faults_;

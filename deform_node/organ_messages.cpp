@@ -35,6 +35,7 @@ const msg::Topology* OrganMessages::unsettled_topology(const OrganSnapshot& snap
   topology_.version = snapshot.topology_version;
   std::copy_n(snapshot.removed_bits.begin(), std::min(snapshot.removed_bits.size(), removed.size()),
               removed.begin());
+  topology_.burnt_bits.assign(snapshot.burnt_bits.begin(), snapshot.burnt_bits.end());
   list_added(settled_bits_, removed, topology_.last_removed);
   return &topology_;
 }

@@ -12,13 +12,16 @@
 
 namespace omentum::deform {
 
+using geometry::NodeId;
 using geometry::SurfaceId;
 using geometry::Vec3;
 
-/// What one tool does to one organ at this moment. Equal lengths; every node is a mobile surface node.
+/// What one tool does to one organ at this moment. Equal lengths; the nodes are the mesh's, the same whatever
+/// is cut, and none is held in all directions. A model that can be cut leaves out what is not attached any
+/// more; for one that cannot, all are of its surface.
 struct ToolLoad {
   std::uint32_t tool = 0;
-  std::span<const SurfaceId> nodes;
+  std::span<const NodeId> nodes;
   std::span<const Vec3> displacements;  // imposed u of each node, in W, m
   std::span<const Vec3> forces;         // on the tissue, in W, N
 };
@@ -48,13 +51,23 @@ struct OrganView {
   std::uint64_t topology_version = 0;  // rises with every change of what is removed, also with a reset
   std::span<const float> values;       // x y z, one after the other: [3 n]
   std::span<const std::uint8_t> removed_bits{};  // bit t % 8 of byte t / 8: tetrahedron t; empty: none is
+  std::span<const std::uint8_t> burnt_bits{};    // those of them that an edge burnt away, likewise
 };
 
-/// What a model says of itself. Counters count since the start, over resets.
+/// What cutting edges did to an organ.
+struct CutAccount {
+  double way_m = 0;    // of their middles, through the organ as it was before any cut
+  double lost_m3 = 0;  // tissue that went for it: burnt, and what then hung on a node or an edge
+};
+
+/// What a model says of itself. Counters count since the start, over resets, unless they say otherwise.
 struct ModelStatus {
   std::uint64_t steps = 0;
-  std::uint32_t removed_tetrahedra = 0;  // now
-  bool diverged = false;                 // its state is beyond help: it must be reset, and not be published
+  double simulated_s = 0;                 // what it lived through; 0: it has no time of its own
+  std::uint32_t removed_tetrahedra = 0;   // now: a reset brings them back
+  std::uint32_t repaired_tetrahedra = 0;  // removed because they hung on one node or edge; nobody cut them
+  CutAccount cuts{};
+  bool diverged = false;     // its state is beyond help: it must be reset, and not be published
   std::string_view fault{};  // of this step, a text that lives as long as the program; empty: none
 };
 
@@ -80,6 +93,11 @@ class OrganModel {
 
   /// Back to rest, and whole.
   virtual void reset() noexcept = 0;
+
+  /// At rest, with exactly these tetrahedra removed, as a model of the same organ left them in another
+  /// process. `version` is above its own. An organ that cannot be cut ignores it.
+  virtual void take_up(std::span<const std::uint8_t> /*removed_bits*/,
+                       std::span<const std::uint8_t> /*burnt_bits*/, std::uint64_t /*version*/) noexcept {}
 
   virtual OrganView view() const noexcept = 0;
   virtual ModelStatus status() const noexcept = 0;

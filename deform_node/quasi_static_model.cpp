@@ -20,10 +20,12 @@ void interleave(const std::vector<float>& tiled, std::int32_t mobile_count, std:
 
 }  // namespace
 
-QuasiStaticModel::QuasiStaticModel(const physics::SurfaceCompliance& compliance, std::int32_t surface_nodes)
+QuasiStaticModel::QuasiStaticModel(const physics::SurfaceCompliance& compliance,
+                                   const geometry::Surface& surface)
     : compliance_(compliance),
+      surface_(surface),
       tiled_(static_cast<std::size_t>(compliance.cluster_count()) * 3 * kLanes),
-      displacements_(3 * static_cast<std::size_t>(surface_nodes)) {
+      displacements_(3 * surface.node.size()) {
   nodes_.reserve(kMaxLoadedNodes);
   forces_.reserve(kMaxLoadedNodes);
 }
@@ -32,7 +34,7 @@ void QuasiStaticModel::step(const TickLoads& loads, double /*dt_s*/) noexcept {
   nodes_.clear();
   forces_.clear();
   for (const ToolLoad& load : loads.presses) {
-    nodes_.insert(nodes_.end(), load.nodes.begin(), load.nodes.end());
+    for (const NodeId node : load.nodes) nodes_.push_back(surface_.of_node[node]);
     forces_.insert(forces_.end(), load.forces.begin(), load.forces.end());
   }
   physics::superpose_surface(compliance_, nodes_, forces_, tiled_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/organ_models.h"
+#include "geometry/surface.h"
 #include "physics/surface_compliance.h"
 
 #include <vector>
@@ -13,8 +14,8 @@ namespace omentum::deform {
 /// cannot be cut, offers no local model, since haptic_node has the whole one, and no other organ moves it.
 class QuasiStaticModel final : public OrganModel {
  public:
-  /// `compliance` must outlive the model. `surface_nodes`: pinned ones included.
-  QuasiStaticModel(const physics::SurfaceCompliance& compliance, std::int32_t surface_nodes);
+  /// Both must outlive the model; the tensors are the surface's.
+  QuasiStaticModel(const physics::SurfaceCompliance& compliance, const geometry::Surface& surface);
 
   ModelSizes sizes() const override { return {.values = displacements_.size()}; }
   void step(const TickLoads& loads, double dt_s) noexcept override;
@@ -26,6 +27,7 @@ class QuasiStaticModel final : public OrganModel {
 
  private:
   const physics::SurfaceCompliance& compliance_;
+  const geometry::Surface& surface_;
   std::vector<SurfaceId> nodes_;      // workspace: A, of all tools
   std::vector<Vec3> forces_;          // workspace: f_A
   std::vector<float> tiled_;          // [cluster][3][16], as superpose_surface writes it

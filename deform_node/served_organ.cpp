@@ -1,8 +1,25 @@
 #include "deform_node/served_organ.h"
 
 #include "deform_node/contact_reach.h"
+#include "node_common/organ_reach.h"
+#include "transport/messages.h"
+
+#include <string>
 
 namespace omentum::deform {
+
+namespace {
+
+// A set that the wire cannot carry would be one organ here and another one there.
+void require_told(const scene::Scene& scene, const scene::OrganSpec& spec, const ServedOrgan& served) {
+  if (served.model->sizes().removed_bytes <= msg::MAX_REMOVED_BYTES) return;
+  throw std::runtime_error(scene.file.string() + ": organ " + spec.name + " can be cut and has " +
+                           std::to_string(served.source->organ.mesh.tetrahedra.size()) +
+                           " tetrahedra; expected at most " +
+                           std::to_string(8 * std::size_t{msg::MAX_REMOVED_BYTES}));
+}
+
+}  // namespace
 
 std::vector<ServedOrgan> load_organs(const scene::Scene& scene, std::span<const ModelEntry> table) {
   std::vector<ServedOrgan> organs;
@@ -11,16 +28,17 @@ std::vector<ServedOrgan> load_organs(const scene::Scene& scene, std::span<const 
     ServedOrgan& served = organs.emplace_back();
     served.source = std::make_unique<node::OrganSource>(node::load_organ_source(scene, spec, entry.needs));
     served.model = entry.make(*served.source, spec);
+    require_told(scene, spec, served);
   }
   return organs;
 }
 
 OrganNumbers numbers_of(const node::OrganSource& source) {
   const organ::Organ& organ = source.organ;
-  return {.surface_of_file_node = organ.surface_of_file_node(),
-          .mobile_count = organ.surface.mobile_count,
-          .topology_version = 0,
-          .reach_m = reach_of(source.rest),
+  return {.node_of_file = organ.mesh.nodes_of_file(),
+          .surface_of_node = organ.surface.of_node,
+          .pinned = physics::pinned_nodes(organ.fixed),
+          .reach_m = organ.compliance ? reach_of(source.rest) : node::reach_m(organ.mesh.positions),
           .compliance = organ.compliance ? &*organ.compliance : nullptr};
 }
 

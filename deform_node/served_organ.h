@@ -16,7 +16,7 @@ struct ServedOrgan {
 
 /// Loads every organ of the scene and makes the model that the scene chose for it. Throws
 /// geometry::InputError (organ file) or std::runtime_error (a scene whose organ has no file, a model that
-/// `table` lacks).
+/// `table` lacks, an organ that is cut and has more tetrahedra than a Topology has bits).
 std::vector<ServedOrgan> load_organs(const scene::Scene& scene,
                                      std::span<const ModelEntry> table = model_table());
 

@@ -45,6 +45,7 @@ void StatePublisher::publish() noexcept {
 void StatePublisher::write_newest() {
   if (!newest_.fetch()) return;
   const TickSnapshot& tick = newest_.value();
+  if (writers_.journal != nullptr) writers_.journal->keep(tick.organs);
   if (!scene_told_) scene_told_ = writers_.scene.write(info_);
   for (std::size_t i = 0; i < messages_.size(); ++i) write_organ(messages_[i], tick, tick.organs[i]);
   if (tick.figures.number != status_told_) write_status(tick);
@@ -68,6 +69,7 @@ void StatePublisher::write_status(const TickSnapshot& tick) {
   status_.missed = figures.missed;
   status_.period_us = figures.period_us;
   status_.compute_us = figures.compute_us;
+  status_.real_time_factor = figures.real_time_factor;
   status_.echoes.assign(tick.echoes.all().begin(), tick.echoes.all().end());
   node::fill_faults(faults_, status_);
   writers_.status.write(status_);

@@ -1,6 +1,7 @@
 // Writes what the loop hands over, on a thread of its own: a slow wire delays no step.
 #pragma once
 
+#include "deform_node/cut_journal.h"
 #include "deform_node/organ_messages.h"
 #include "deform_node/served_organ.h"
 #include "runtime/faults.h"
@@ -18,11 +19,13 @@ struct StateWriters {
   transport::Writer<msg::Topology>& topology;
   transport::Writer<msg::OrganState>& state;
   transport::Writer<msg::NodeStatus>& status;
+  CutJournal* journal = nullptr;  // none: cuts end with the process
 };
 
 /// Publishes the newest snapshot: before the first one who is in the scene, before a state the topology that
-/// it belongs to, after it the status, if one is due. A snapshot that came while another one was being
-/// written is passed over when there is a newer one. Destruction writes the last one.
+/// it belongs to, and that into the journal before it leaves, after it the status, if one is due. A snapshot
+/// that came while another one was being written is passed over when there is a newer one. Destruction writes
+/// the last one.
 class StatePublisher {
  public:
   /// `info`, and `introduction`: what the node tells of itself; the faults are told with every status and

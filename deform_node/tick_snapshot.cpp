@@ -6,6 +6,16 @@
 
 namespace omentum::deform {
 
+namespace {
+
+// `bits` are none where the view has none.
+void take_bits(std::span<const std::uint8_t> from, std::vector<std::uint8_t>& bits) {
+  const std::size_t count = std::min(from.size(), bits.size());
+  std::fill(std::copy_n(from.begin(), count, bits.begin()), bits.end(), std::uint8_t{0});
+}
+
+}  // namespace
+
 void OrganSnapshot::take(const OrganView& view) noexcept {
   geometry::require(view.values.size() <= values.size() && view.removed_bits.size() <= removed_bits.size(),
                     "a view no larger than the model said");
@@ -14,9 +24,8 @@ void OrganSnapshot::take(const OrganView& view) noexcept {
   std::copy_n(view.values.begin(), value_count, values.begin());
   if (topology_version == view.topology_version) return;  // this slot has them from an earlier tick
   topology_version = view.topology_version;
-  std::fill(removed_bits.begin(), removed_bits.end(), std::uint8_t{0});
-  std::copy_n(view.removed_bits.begin(), std::min(view.removed_bits.size(), removed_bits.size()),
-              removed_bits.begin());
+  take_bits(view.removed_bits, removed_bits);
+  take_bits(view.burnt_bits, burnt_bits);
 }
 
 void Echoes::take(std::span<const msg::Echo> newest) noexcept {

@@ -8,18 +8,18 @@
 
 namespace omentum::deform {
 
-/// A model's view, copied. `values` and `removed_bits` have the largest size, so that taking a view takes no
+/// A model's view, copied. `values` and both bit sets have the largest size, so that taking a view takes no
 /// memory.
 struct OrganSnapshot {
   OrganSnapshot() = default;
   explicit OrganSnapshot(const ModelSizes& sizes)
-      : values(sizes.values), removed_bits(sizes.removed_bytes, 0) {}
+      : values(sizes.values), removed_bits(sizes.removed_bytes, 0), burnt_bits(sizes.removed_bytes, 0) {}
 
   StateKind kind = StateKind::kSurface;
   std::uint64_t topology_version = 0;
   std::size_t value_count = 0;
   std::vector<float> values;
-  std::vector<std::uint8_t> removed_bits;
+  std::vector<std::uint8_t> removed_bits, burnt_bits;
 
   /// `view` is not larger than the sizes said.
   void take(const OrganView& view) noexcept;
@@ -32,6 +32,7 @@ struct LoopFigures {
   std::uint64_t newest_order = 0;  // NodeStatus.newest_order
   std::uint64_t ticks = 0, missed = 0;
   msg::Percentiles period_us{}, compute_us{};
+  double real_time_factor = 0;  // NodeStatus.real_time_factor
 };
 
 /// The newest pose of each tool that a state takes into account.

@@ -22,7 +22,7 @@ std::span<const ToolPlace> ToolPlaces::find(std::int64_t now_ns) noexcept {
   for (const std::uint32_t tool : tools_) {
     if (!poses_.load(tool, pose) || !pose.sample.valid || pose.age_ns(now_ns) > kToolGone_ns) continue;
     const geometry::Vec3 tip = node::to_vector(pose.sample.position);
-    if (tip.allFinite()) places_[count++] = {tool, {tip, kPatchRadius_m}};
+    if (tip.allFinite()) places_[count++] = {tool, {tool, tip, kPatchRadius_m}};
   }
   return {places_.data(), count};
 }

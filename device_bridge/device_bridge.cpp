@@ -1,7 +1,7 @@
 #include "device_bridge/device_bridge.h"
 
 #include "node_common/node_identity.h"
-#include "runtime/clock.h"
+#include "node_common/rivals.h"
 #include "runtime/report.h"
 
 #include <chrono>
@@ -12,17 +12,20 @@ namespace omentum::device {
 namespace {
 
 constexpr std::chrono::milliseconds kStatusPause{500};
+constexpr auto kSettled_ns = static_cast<std::int64_t>(1e9 * node::kSettled_s);
 constexpr double kRecordPeriod_s = 0.4;  // a fresh loop record is ready for each status
 
 }  // namespace
 
 DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique_ptr<Device>> devices,
-                           runtime::RateLoop& loop)
+                           const transport::OpenBus& open_bus, runtime::Pace& loop)
     : options_(options),
       loop_(loop),
-      answers_(runtime::steady_now_ns()),
-      orders_(runtime::steady_now_ns()),
-      status_message_(node::introduce(msg::NODE_DEVICE, loop.rate_hz())) {
+      start_ns_(loop.now_ns()),
+      answers_(start_ns_),
+      orders_(start_ns_),
+      refusal_(loop),
+      status_message_(node::introduce(msg::NODE_DEVICE, options.rate_hz)) {
   const runtime::NodeOptions& node = options.node;
   if (!node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(node.log);
   if (log_) loop_.log_to(*log_);
@@ -32,40 +35,42 @@ DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique
     answers_.serve(channels_.back()->tool());
     status_message_.tools_served |= 1U << channels_.back()->tool();
   }
-  connect();
-  status_ = std::make_unique<runtime::Background>(kStatusPause, [this] { publish_status(); });
+  connect(open_bus);
+  status_ = loop_.beside(kStatusPause, [this] { publish_status(); });
 }
 
 DeviceBridge::~DeviceBridge() = default;
 
-void DeviceBridge::connect() {
+void DeviceBridge::connect(const transport::OpenBus& open_bus) {
   const runtime::RealtimeStart start(runtime::kHandLinkPriority);
-  bus_ = node::open_bus(options_.node, "virtual_device");
+  bus_ = open_bus();
   info_writer_ = bus_->writer<msg::DeviceInfo>();
   pose_writer_ = bus_->writer<msg::ToolPose>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
   force_reader_ = bus_->reader<msg::ToolForce>([this](const msg::ToolForce& answer) { receive(answer); });
   status_reader_ = bus_->reader<msg::NodeStatus>([this](const msg::NodeStatus& status) {
-    answers_.add(status, runtime::steady_now_ns());
-    orders_.hear(status, runtime::steady_now_ns());
+    answers_.add(status, loop_.now_ns());
+    orders_.hear(status, loop_.now_ns());
   });
   command_reader_ = bus_->reader<msg::SessionCommand>(
-      [this](const msg::SessionCommand& command) { orders_.hear(command, runtime::steady_now_ns()); });
+      [this](const msg::SessionCommand& command) { orders_.hear(command, loop_.now_ns()); });
+  if (options_.scene)
+    scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& other) { hear(other); });
   for (const auto& channel : channels_) info_writer_->write(channel->info());
 }
 
 void DeviceBridge::run() {
   realtime_ = runtime::request_realtime(runtime::kHandLoopPriority);
   if (!realtime_.warning.empty()) std::cerr << "virtual_device: " << realtime_.warning << std::endl;
-  const std::int64_t begin_ns = runtime::steady_now_ns();
+  const std::int64_t begin_ns = loop_.now_ns();
   std::int64_t recorded_ns = begin_ns;
 
-  while (loop_.wait() != runtime::RateLoop::Cause::kStopped) {
+  while (loop_.wait() != runtime::Pace::Cause::kStopped) {
+    const std::int64_t now_ns = loop_.now_ns();
     obey();
     for (const auto& channel : channels_) exchange(*channel);
     loop_.finish_tick();
 
-    const std::int64_t now_ns = loop_.tick_start_ns();
     if (1e-9 * static_cast<double>(now_ns - recorded_ns) >= kRecordPeriod_s) {
       status_record_.post(loop_.record());
       recorded_ns = now_ns;
@@ -74,10 +79,11 @@ void DeviceBridge::run() {
   }
   // haptic_node notices by the age of the last poses
   for (const auto& channel : channels_) channel->release();
+  refusal_.throw_if_any();
 }
 
 void DeviceBridge::exchange(ToolChannel& channel) noexcept {
-  const msg::ToolPose& pose = channel.tick(runtime::steady_now_ns());
+  const msg::ToolPose& pose = channel.tick(loop_.now_ns());
   if (!pose_writer_->write(pose)) faults_.raise("a pose could not be sent");
   if (record_) record_->push(pose);
 }
@@ -91,12 +97,22 @@ void DeviceBridge::obey() noexcept {
 }
 
 void DeviceBridge::receive(const msg::ToolForce& answer) noexcept {
-  const std::int64_t now_ns = runtime::steady_now_ns();
+  const std::int64_t now_ns = loop_.now_ns();
   for (const auto& channel : channels_) {
     if (channel->tool() != answer.tool) continue;
     const AnswerVerdict verdict = channel->receive(answer, now_ns);
     // a late one is not exerted, but how late it was is worth knowing
     if (verdict == AnswerVerdict::kAccepted || verdict == AnswerVerdict::kLate) answers_.add(answer, now_ns);
+  }
+}
+
+void DeviceBridge::hear(const msg::SceneInfo& other) {
+  auto why = node::contradicts(*options_.scene, other);
+  if (!why) return;
+  if (loop_.now_ns() - start_ns_ > kSettled_ns) {
+    faults_.raise(node::kForeignScene);
+  } else {
+    refusal_.because(*std::move(why));
   }
 }
 
@@ -133,7 +149,7 @@ nlohmann::json DeviceBridge::report() const {
   }
   const nlohmann::json round_trip = to_json(answers.to_force);
   return {{"dds", options_.node.dds},
-          {"loop", to_json(loop_.record(), loop_.rate_hz())},
+          {"loop", to_json(loop_.record(), options_.rate_hz)},
           {"realtime", {{"fifo", realtime_.fifo}, {"locked", realtime_.locked}}},
           {"round_trip_us", round_trip},
           {"sent", sent},

@@ -3,9 +3,10 @@
 #include "device_bridge/device_bridge.h"
 #include "device_bridge/trace_player.h"
 #include "device_bridge/virtual_hand.h"
+#include "node_common/node_identity.h"
+#include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -18,7 +19,6 @@ using Devices = std::vector<std::unique_ptr<device::Device>>;
 struct Options {
   device::BridgeOptions bridge;
   std::filesystem::path trace;
-  double rate_hz = 1000;
 };
 
 const scene::ToolSpec& tool_of(const scene::Scene& scene, std::uint32_t id, const std::string& who) {
@@ -36,13 +36,13 @@ Devices make_devices(const Options& options, const scene::Scene& scene) {
   if (!options.trace.empty()) {
     for (auto& [id, trace] : device::read_trace(options.trace)) {
       tool_of(scene, id, options.trace.string());
-      devices.push_back(std::make_unique<device::TracePlayer>(id, trace, options.rate_hz));
+      devices.push_back(std::make_unique<device::TracePlayer>(id, trace, options.bridge.rate_hz));
     }
     return devices;
   }
   for (const scene::HandSpec& hand : scene.hands) {
     const scene::ToolSpec& tool = tool_of(scene, hand.tool, scene.file.string());
-    devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, options.rate_hz));
+    devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, options.bridge.rate_hz));
   }
   if (devices.empty()) {
     throw std::runtime_error(scene.file.string() +
@@ -51,11 +51,13 @@ Devices make_devices(const Options& options, const scene::Scene& scene) {
   return devices;
 }
 
-void run(const Options& options) {
-  const scene::Scene scene = scene::load_scene(options.bridge.node.scene);
-  runtime::RateLoop loop(options.rate_hz);
+void run(Options& options) {
+  const scene::Scene scene = node::load_scene(options.bridge.node);
+  options.bridge.scene = node::loaded_scene(scene, {});
+  runtime::RateLoop loop(options.bridge.rate_hz);
   runtime::StopSignal stop_signal([&loop] { loop.stop(); });
-  device::DeviceBridge bridge(options.bridge, make_devices(options, scene), loop);
+  const auto open_bus = [&] { return node::open_bus(options.bridge.node, "virtual_device"); };
+  device::DeviceBridge bridge(options.bridge, make_devices(options, scene), open_bus, loop);
   bridge.run();
   if (!options.bridge.node.report.empty()) runtime::write_report(bridge.report(), options.bridge.node.report);
   bridge.require_written();
@@ -72,7 +74,7 @@ int main(int argc, char** argv) {
   line.option("--trace", options.trace, "play this recorded hand instead of the scene's script")
       .type_name("FILE");
   line.option("--record", options.bridge.record, "record the poses as a trace").type_name("FILE");
-  line.option("--rate-hz", options.rate_hz, "poses per second")
+  line.option("--rate-hz", options.bridge.rate_hz, "poses per second")
       .between(device::kSlowestRate_hz, 10000.0)
       .show_default();
   line.option("--seconds", options.bridge.seconds, "end after this time; 0: run until stopped")

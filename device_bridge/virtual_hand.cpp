@@ -64,7 +64,9 @@ Measurement VirtualHand::measure(std::int64_t now_ns) noexcept {
           .position = tip_.position,
           .orientation = orientation_,
           .linear_velocity = tip_.velocity,
-          .angular_velocity = angular_velocity(before, orientation_, period_s_)};
+          .angular_velocity = angular_velocity(before, orientation_, period_s_),
+          .grip = 0,
+          .buttons = hand_.cut && script_.phase == Phase::kSlide ? msg::BUTTON_CUT : 0};
 }
 
 Motion VirtualHand::advance_target(double dt_s) noexcept {

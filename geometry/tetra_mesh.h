@@ -86,6 +86,7 @@ struct CheckOptions {
   double merge_m = 0;                      // > 0: nodes at most so far apart become the first of them, m
   Numbering numbering = Numbering::kFile;  // of nodes and tetrahedra in messages
   bool ignore_other_cells = false;         // other elements that fill space are left out, with a warning
+  bool repair = false;                     // what hangs on nodes or edges only is dropped, with a warning
 };
 
 /// Scales to metres, drops unused nodes and reorders negatively listed tetrahedra (both with a
@@ -94,7 +95,8 @@ struct CheckOptions {
 /// disconnected parts, nodes at the same place (an inner crack, or parts glued by copying), non-finite
 /// positions, node numbers out of range; and, unless they are to be ignored, other elements that fill space,
 /// by kind and count: without them the organ would be another one. Merging warns, and throws where it would
-/// collapse a tetrahedron.
+/// collapse a tetrahedron. Repairing (hanging_tetrahedra.h) says what is dropped and its volume, and throws
+/// where that is more than a twentieth of all: this is a part of the organ, not a few elements.
 CheckedMesh check_mesh(const RawMesh& raw, double metres_per_unit, const CheckOptions& options = {});
 
 /// Signed volume, m^3: positive when d lies on the side of (a,b,c) its right-handed normal points to.

@@ -19,12 +19,19 @@ struct SurfacePoint {
   Vec3 barycentric = Vec3::Zero();
 };
 
+/// How far something went since the last tick without the tools' doing.
+struct Drift {
+  Vec3 way = Vec3::Zero();    // m, all of it
+  Vec3 blend = Vec3::Zero();  // m, of it from where a model that was replaced stood to the one that did
+};
+
 /// What is known of a material point.
 struct Place {
   Vec3 position = Vec3::Zero();  // m, in W
   Vec3 rest = Vec3::Zero();      // without forces, m
   Vec3 normal = Vec3::UnitZ();   // in which direction tissue pushes there, unit, outward
   PointNodes nodes;              // that share a force there, by its barycentric coordinates
+  Drift drift;                   // of `rest`
 };
 
 struct Region {
@@ -60,6 +67,7 @@ struct BodyOrigin {
   std::uint64_t topology_version = 0;  // of that organ
   // [nodes] place in the mesh file, from 0; empty: nobody is told of its contacts
   std::span<const std::uint32_t> file_node;
+  std::optional<std::size_t> tool = std::nullopt;  // of the model: it alone touches the body; none: any does
 };
 
 /// Something with a surface under the forces of the last solve, linear around where it is. A precomputed
@@ -84,6 +92,18 @@ class Body : public NodeCompliance {
   const BodyOrigin& origin() const noexcept { return origin_; }
   /// Of its nodes in contact, C_AA.
   ContactNodes& contact_nodes() noexcept { return contact_nodes_; }
+
+  bool is_for(std::size_t tool) const noexcept { return origin_.tool.value_or(tool) == tool; }
+
+  // ---- what it does by itself
+
+  /// Goes to where it is without forces at `now_ns` (HapticState), before anything else is asked in a tick.
+  virtual void go_on(std::int64_t /*now_ns*/) noexcept {}
+  virtual Drift drift(SurfaceId /*node*/) const noexcept { return {}; }
+  /// How far a node is without these forces from its rest in the organ's file, m.
+  virtual Vec3 moved_without_forces(SurfaceId /*node*/) const noexcept { return Vec3::Zero(); }
+  /// It has just come to the place of `old`, under the same forces: begins where that stands.
+  virtual void continue_from(Body& /*old*/, std::int64_t /*now_ns*/) noexcept {}
 
   // ---- forces
 
@@ -133,6 +153,12 @@ class Body : public NodeCompliance {
   virtual double tissue_ahead(const SurfacePoint& point, const Vec3& p) noexcept = 0;
   /// The material point that is nearest to p, at most `reach_m` away, of a body that has borne no force yet.
   virtual std::optional<SurfacePoint> nearest_at_rest(const Vec3& p, double reach_m) noexcept = 0;
+  /// The one that lies among nodes of such numbers in the mesh file with these barycentric coordinates, if
+  /// this body has that triangle and numbers.
+  virtual std::optional<SurfacePoint> point_among(std::span<const std::uint32_t> /*file_nodes*/,
+                                                  const Vec3& /*barycentric*/) const noexcept {
+    return std::nullopt;
+  }
   /// Where a node is, m; and how far its own triangles reach from it, m.
   virtual const Vec3& position(SurfaceId node) noexcept = 0;
   virtual double longest_edge(SurfaceId node) const noexcept = 0;

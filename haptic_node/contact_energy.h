@@ -12,7 +12,8 @@ using geometry::Vec3;
 
 /// One tool's contacts between ticks, as energy sees them.
 struct ContactEnergy {
-  double stored_j = 0;          // E: elastic energy that the model says they hold
+  double stored_j = 0;          // E: elastic energy that the model says they hold, and what is lent
+  double lent_j = 0;            // to tissue that moves by itself, less what came back
   double account_j = 0;         // A: what the hand put in, less what it got back
   double push_n = 0;            // f: by the model
   double depth_m = 0;           // of the dent, over which a push that grows with it holds E
@@ -25,12 +26,14 @@ struct ContactEnergy {
 
 /// What happened to one tool's contacts in a tick, by the model's own forces.
 struct ContactWork {
-  double stored_j = 0;       // E after the solve
-  double put_in_j = 0;       // work that moving the tool against these forces took (trapezoidal rule)
-  double rubbed_j = 0;       // of it, what friction turned into heat
-  double got_j = 0;          // what others gave it through the tissue
-  double exchanged_j = 0;    // the same as hands feel it; none in sum
-  double sliding = 0;        // s: how far its points' ways were slides and not presses, 0 to 1
+  double stored_j = 0;     // E after the solve
+  double put_in_j = 0;     // work that moving the tool against these forces took (trapezoidal rule)
+  double rubbed_j = 0;     // of it, what friction turned into heat
+  double got_j = 0;        // what others gave it through the tissue
+  double exchanged_j = 0;  // the same as hands feel it; none in sum where the tissue does not move by itself
+  double own_j = 0;        // what tissue that moves by itself gave it ...
+  double changed_j = 0;    // ... and of that on its way from one model to the next
+  double sliding = 0;      // s: how far its points' ways were slides and not presses, 0 to 1
   Vec3 push = Vec3::Zero();  // on the tissue, N
   Vec3 way = Vec3::Zero();   // of the tip, m
 };

@@ -11,6 +11,12 @@ double put_in(const ToolContact& contact, const Vec3& before, const Vec3& way, d
   return before.isZero(0) ? std::min(work_j, stored_j) : work_j;
 }
 
+// What the tissue's own way gave against these forces; a contact that begins got no more than it holds.
+double given_by(const Vec3& way, const ToolContact& contact, const Vec3& before, double stored_j) {
+  const double work_j = -0.5 * (before + contact.force).dot(way);
+  return before.isZero(0) ? std::min(work_j, stored_j) : work_j;
+}
+
 // What friction takes: the material point will go on by the gap that is left along the surface.
 double rubbed(const ToolContact& contact, const Vec3& gap) {
   const Vec3 along = contact.force - contact.force.dot(contact.place.normal) * contact.place.normal;
@@ -67,11 +73,27 @@ void measure_work(const HapticModel& model, const HapticState& state, std::span<
     const double stored_j = 0.5 * contact.force.dot(free_gaps[i] - gaps[i]);
     work.stored_j += stored_j;
     work.put_in_j += put_in(contact, before[i], way, stored_j);
+    work.own_j += given_by(contact.place.drift.way, contact, before[i], stored_j);
+    work.changed_j += given_by(contact.place.drift.blend, contact, before[i], stored_j);
     work.push += contact.force;
     if (model.friction > 0 && !contact.grasped) work.rubbed_j += rubbed(contact, gaps[i]);
   }
   for (std::size_t t = 0; t < works.size(); ++t)
     works[t].sliding = sliding_of(state, static_cast<std::int32_t>(t), works[t].push);
+}
+
+void settle_own_motion(HapticState& state, std::span<ContactWork> works) noexcept {
+  for (std::size_t t = 0; t < works.size(); ++t) {
+    ContactWork& work = works[t];
+    ContactEnergy& energy = state.energies[t];
+    if (work.stored_j < kNoEnergy_j) continue;
+    const double own_j = work.own_j - work.changed_j, back_j = std::min(own_j, energy.lent_j);
+    energy.lent_j -= back_j;
+    work.got_j += own_j - back_j;
+    work.exchanged_j += energy.share * (own_j - back_j);
+    if (work.changed_j != 0) work.exchanged_j += state.tools[t].changes.credit(energy.share * work.changed_j);
+    work.stored_j += energy.lent_j;
+  }
 }
 
 void measure_exchange(const physics::ContactProblem& problem, const HapticState& state,

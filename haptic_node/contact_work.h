@@ -14,6 +14,11 @@ void measure_work(const HapticModel& model, const HapticState& state, std::span<
                   std::span<const Vec3> free_gaps, std::span<const Vec3> gaps,
                   std::span<ContactWork> works) noexcept;
 
+/// What tissue that moves by itself takes from a hand is lent to it, and held for the hand as a dent is; what
+/// it gives beyond that is given as by another tool; what changes of a model give counts only as far as they
+/// took (ModelChanges). After measure_work.
+void settle_own_motion(HapticState& state, std::span<ContactWork> works) noexcept;
+
 /// What passed between the tools through the tissue, by Betti's theorem: with f before and f' after,
 ///     exchanged_t = 1/2 sum_{i of t, j not of t} (f'_i . W_ij f_j - f_i . W_ij f'_j),
 /// antisymmetric in the tools, so that a hand at rest feels another's press as energy given and not as its

@@ -107,6 +107,7 @@ void DeformedSurface::restore_rest() noexcept {
   std::ranges::fill(moved_since_binning_, 2 * static_cast<float>(binning_margin_));
   std::ranges::fill(cluster_version_, ++version_);
   known_motion_ = entered_motion_ = 0;
+  change_.count = 0;
   for (std::int32_t c = 0; c < clusters_; ++c) enclose(c);
 }
 
@@ -175,6 +176,16 @@ void DeformedSurface::accept() noexcept {
   if (change_.count == 0) return;
   kernels::add_to_both(step_.data(), clusters_, moved_.data(), moved_since_binning_.data());
   ++version_;
+}
+
+void DeformedSurface::rest_moved(double most_m) noexcept {
+  if (most_m == 0) return;
+  const float more = static_cast<float>(most_m) + kRounding_m;
+  for (auto* values : {&step_, &motion_, &moved_, &moved_since_binning_}) {
+    for (float& value : *values) value += more;
+  }
+  // positions that the last accept left to be found are found with both motions
+  if (change_.count == 0 || evaluated_clusters_ > 0) ++version_;
 }
 
 void DeformedSurface::evaluate(const Region& region) noexcept {

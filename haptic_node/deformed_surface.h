@@ -53,7 +53,7 @@ class DeformedSurface : public Body {
     const Vec3& k = point.barycentric;
     return k[0] * position(t[0]) + k[1] * position(t[1]) + k[2] * position(t[2]);
   }
-  void find_place(const SurfacePoint& point, Place& place) noexcept final;
+  void find_place(const SurfacePoint& point, Place& place) noexcept override;
   Vec3 rest_position(const SurfacePoint& point) const noexcept {
     const geometry::Triangle& t = surface_.triangles[point.triangle];
     const Vec3& k = point.barycentric;
@@ -95,6 +95,11 @@ class DeformedSurface : public Body {
   int evaluated_nodes() const noexcept final { return evaluated_clusters_ * geometry::kClusterSize; }
 
   const geometry::Surface& surface() const noexcept { return surface_; }
+
+ protected:
+  /// The positions at rest that it refers to have changed, none by more than this, m; between accept() and
+  /// evaluate().
+  void rest_moved(double most_m) noexcept;
 
  private:
   // above the rounding of float coordinates within 8 m of W's origin and of superposed displacements, m

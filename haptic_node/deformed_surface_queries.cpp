@@ -167,6 +167,7 @@ void DeformedSurface::find_place(const SurfacePoint& point, Place& place) noexce
   const geometry::Triangle& t = surface_.triangles[point.triangle];
   place.position = position(point);
   place.rest = rest_position(point);
+  place.drift = {};
   place.normal = normal(point);
   place.nodes.count = 0;
   for (int v = 0; v < 3; ++v) {

@@ -16,14 +16,8 @@ namespace {
 // Fast participants may need 2.9 s, and who is found late is judged by its standing.
 constexpr std::int64_t kListen_ns = 1'000'000'000;
 
-// Contacts for picture and organ, which are slower; changes are told at once.
-constexpr std::int64_t kContactPeriod_ns = 4'000'000;
-
-// An organ that a tool has left is told so for this long: deform_node lets a contact of which nothing came
-// for 0.1 s fade by itself.
-constexpr std::int64_t kTellOfNone_ns = 200'000'000;
-
 constexpr std::chrono::milliseconds kStatusPeriod{100};
+constexpr std::chrono::milliseconds kLookPeriod{20};  // for local models that are not told any more
 
 // A tick never counts for longer than this: after a stall forces go on from where they were, s.
 constexpr double kLongestTick_s = 0.02;
@@ -41,10 +35,11 @@ std::uint32_t bits_of(const std::vector<std::uint32_t>& tools) {
 
 HapticLoop::HapticLoop(const HapticOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
     : options_(options),
-      setup_(make_setup(node::load_scene(options.node), options.rate_hz)),
+      setup_(make_setup(node::load_scene(options.node), options.rate_hz, options.models)),
       loop_(loop),
       state_(setup_.model),
       work_(setup_.model),
+      teller_(setup_.model, setup_.tool_ids, state_, work_.bodies),
       orders_(loop_.now_ns()),
       refusal_(loop),
       status_(node::introduce(msg::NODE_HAPTIC, options.rate_hz)),
@@ -60,12 +55,12 @@ HapticLoop::HapticLoop(const HapticOptions& options, const transport::OpenBus& o
   inputs_.resize(lines_.size());
   outputs_.resize(lines_.size());
   fresh_.resize(lines_.size());
-  grasped_.resize(lines_.size());
-  for (const std::uint32_t id : setup_.tool_ids) {
-    for (std::size_t organ = 0; organ < setup_.model.organs.size(); ++organ)
-      contacts_.push_back({make_contact_message(id, static_cast<std::uint32_t>(organ))});
-  }
+  news_.resize(lines_.size());
   answered_ns_.resize(lines_.size());
+  if (!setup_.local_organs.empty()) {
+    const auto on_wake = [this](std::function<void()> work) { return loop_.on_wake(std::move(work)); };
+    local_models_ = std::make_unique<LocalModels>(setup_, work_.doors, faults_, loop_, on_wake);
+  }
   connect(open_bus);
 }
 
@@ -77,6 +72,9 @@ void HapticLoop::connect(const transport::OpenBus& open_bus) {
   force_writer_ = bus_->writer<msg::ToolForce>();
   contact_writer_ = bus_->writer<msg::Contact>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
+  if (local_models_)
+    local_reader_ =
+        bus_->reader<msg::LocalModel>([this](const msg::LocalModel& model) { local_models_->hear(model); });
   pose_reader_ = bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { hear(pose); });
   device_reader_ = bus_->reader<msg::DeviceInfo>(transport::ByWriter<msg::DeviceInfo>{
       [this](const msg::DeviceInfo& info, const transport::WriterId& writer) { hear(info, writer); },
@@ -142,6 +140,7 @@ void HapticLoop::run() {
   statuses_ = loop_.beside(kStatusPeriod, [this, from_ns = loop_.now_ns() + kListen_ns] {
     if (loop_.now_ns() >= from_ns) publish_status();
   });
+  if (local_models_) looks_ = loop_.beside(kLookPeriod, [this] { local_models_->look(); });
   grant_ = runtime::request_realtime(runtime::kHandLoopPriority, tensor_bytes(setup_.model));
   if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
   serve_from_ns_ = loop_.now_ns() + kListen_ns;
@@ -151,6 +150,7 @@ void HapticLoop::run() {
     loop_.finish_tick();
   }
   statuses_.reset();
+  looks_.reset();
   refusal_.throw_if_any();
 }
 
@@ -167,11 +167,12 @@ void HapticLoop::tick(std::int64_t now_ns) noexcept {
     inputs_[i].engaged &= serves(i);  // a tool that was given up lets go of the tissue
   }
   obey();
+  state_.now_ns = now_ns;
   result_ = haptic_step(setup_.model, inputs_, state_, work_, outputs_);
   if (result_.status != physics::ContactStatus::kConverged)
     faults_.raise("contacts: the solver did not converge");
   answer(now_ns, std::min(elapsed_s, kLongestTick_s));
-  publish_contacts(now_ns);
+  tell_contacts(now_ns);
   account();
 }
 
@@ -214,38 +215,12 @@ void HapticLoop::note(std::size_t line, const msg::ToolForce& force) noexcept {
                       force.force, force.torque,  force.state};
 }
 
-void HapticLoop::publish_contacts(std::int64_t now_ns) noexcept {
-  const std::size_t organs = setup_.model.organs.size();
-  bool changed = false;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    TouchedOrgan& touched = contacts_[i];
-    touched.now = touches(static_cast<std::int32_t>(i / organs), touched.message.organ, state_, work_.bodies);
-    changed |= touched.now != touched.told;
-  }
-  for (std::size_t i = 0; i < outputs_.size(); ++i) changed |= grasped_[i] != outputs_[i].grasping;
-  if (!changed && now_ns < contacts_due_ns_) return;
-  contacts_due_ns_ = now_ns + kContactPeriod_ns;
+void HapticLoop::tell_contacts(std::int64_t now_ns) noexcept {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (!serves(i)) continue;
-    for (std::size_t organ = 0; organ < organs; ++organ)
-      publish_contact(i, contacts_[i * organs + organ], organ == 0, now_ns);
-    grasped_[i] = outputs_[i].grasping;
+    const bool pressed = (lines_[i]->pose().buttons & msg::BUTTON_CUT) != 0 && !orders_.paused();
+    news_[i] = {serves(i), pressed, frame_of(lines_[i]->pose()), lines_[i]->echo()};
   }
-}
-
-// The first organ hears of every tool, touched or not; the others while they are, and then for so long that
-// they cannot miss that it ended.
-void HapticLoop::publish_contact(std::size_t line, TouchedOrgan& touched, bool always,
-                                 std::int64_t now_ns) noexcept {
-  touched.told = touched.now;
-  if (touched.now) touched.told_until_ns = now_ns + kTellOfNone_ns;
-  if (!always && now_ns >= touched.told_until_ns) return;
-  msg::Contact& contact = touched.message;
-  ++contact.seq;
-  contact.tick = ticks_;
-  contact.cause = lines_[line]->echo();
-  fill_contact_message(static_cast<std::int32_t>(line), outputs_[line], state_, work_.bodies, contact);
-  contact_writer_->write(contact);
+  teller_.tell(ticks_, now_ns, news_, outputs_, *contact_writer_);
 }
 
 void HapticLoop::account() noexcept {
@@ -277,14 +252,17 @@ void HapticLoop::publish_status() {
 
 nlohmann::json HapticLoop::report() const {
   nlohmann::json poses = nlohmann::json::array();
-  for (const auto& line : lines_) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const auto& line = lines_[i];
     const PoseCounts counts = line->counts();
     poses.push_back({{"tool", line->id()},
+                     {"model_changes_j", state_.tools[i].changes.given_j},
                      {"accepted", counts.accepted},
                      {"refused", counts.refused},
                      {"lost", counts.lost},
                      {"energy_given_j", line->safety().tank().given_j()}});
   }
+  const LocalModelCounts local = local_models_ ? local_models_->counts() : LocalModelCounts{};
   const double samples = static_cast<double>(std::max<std::uint64_t>(1, force_samples_));
   const transport::EndpointStatus link = pose_reader_->status();
   return {{"dds", options_.node.dds},
@@ -294,6 +272,7 @@ nlohmann::json HapticLoop::report() const {
            {{"ticks_in_contact", ticks_in_contact_},
             {"nodes_max", nodes_max_},
             {"neighbourhood_max", neighbourhood_max_}}},
+          {"local_models", {{"heard", local.heard}, {"dropped", local.dropped}, {"gone", local.gone}}},
           {"poses", poses},
           {"pose_link",
            {{"deadline_missed", link.deadline_missed},

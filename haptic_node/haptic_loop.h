@@ -1,9 +1,10 @@
 // The node around the step: threads, topics, clocks.
 #pragma once
 
-#include "haptic_node/contact_message.h"
+#include "haptic_node/contact_teller.h"
 #include "haptic_node/haptic_log.h"
 #include "haptic_node/haptic_setup.h"
+#include "haptic_node/local_models.h"
 #include "haptic_node/serving_claim.h"
 #include "haptic_node/tool_line.h"
 #include "node_common/loaded_scene.h"
@@ -22,9 +23,11 @@ namespace omentum::haptic {
 struct HapticOptions {
   runtime::NodeOptions node;
   double rate_hz = 1000;  // held without a device; the period against which a miss is counted
+  std::span<const scene::OrganModelWord> models = scene::kOrganModels;  // that its scenes may choose from
 };
 
-/// Takes ToolPose, DeviceInfo, SessionCommand, SceneInfo; publishes ToolForce, Contact, NodeStatus.
+/// Takes ToolPose, DeviceInfo, LocalModel, SessionCommand, SceneInfo; publishes ToolForce, Contact,
+/// NodeStatus.
 ///
 /// Three kinds of threads. The vendor's put poses through the guard into mailboxes and wake the loop. The
 /// loop (run(), real-time where permitted) steps and writes forces at once; it waits for nobody. An ordinary
@@ -53,19 +56,11 @@ class HapticLoop {
     std::array<msg::Echo, msg::MAX_TOOLS> echoes;
   };
 
-  // what a tool does to an organ, and whether the organ was told
-  struct TouchedOrgan {
-    msg::Contact message;
-    bool now = false, told = false;
-    std::int64_t told_until_ns = 0;
-  };
-
   void connect(const transport::OpenBus& open_bus);
   void tick(std::int64_t now_ns) noexcept;
   void obey() noexcept;
   void answer(std::int64_t now_ns, double dt_s) noexcept;
-  void publish_contacts(std::int64_t now_ns) noexcept;
-  void publish_contact(std::size_t line, TouchedOrgan& touched, bool always, std::int64_t now_ns) noexcept;
+  void tell_contacts(std::int64_t now_ns) noexcept;
   void account() noexcept;
   void note(std::size_t line, const msg::ToolForce& force) noexcept;
 
@@ -94,11 +89,11 @@ class HapticLoop {
   std::vector<ToolOutput> outputs_;
   std::vector<bool> fresh_;
   std::vector<std::int64_t> answered_ns_;
-  std::vector<TouchedOrgan> contacts_;  // [tools][organs]
-  std::vector<bool> grasped_;           // at the last publication
+  std::vector<ToolNews> news_;
+  ContactTeller teller_;
   StepResult result_;
   std::uint64_t ticks_ = 0, ticks_in_contact_ = 0, force_samples_ = 0;
-  std::int64_t last_tick_ns_ = 0, serve_from_ns_ = 0, contacts_due_ns_ = 0;
+  std::int64_t last_tick_ns_ = 0, serve_from_ns_ = 0;
   double force_sum_n_ = 0, force_max_n_ = 0;
   int nodes_max_ = 0, neighbourhood_max_ = 0;
 
@@ -117,12 +112,14 @@ class HapticLoop {
   std::unique_ptr<transport::Writer<msg::ToolForce>> force_writer_;
   std::unique_ptr<transport::Writer<msg::Contact>> contact_writer_;
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
+  std::unique_ptr<LocalModels> local_models_;  // where an organ is felt by them
+  std::unique_ptr<transport::Reader<msg::LocalModel>> local_reader_;
   std::unique_ptr<transport::Reader<msg::ToolPose>> pose_reader_;
   std::unique_ptr<transport::Reader<msg::DeviceInfo>> device_reader_;
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;
   std::unique_ptr<transport::Reader<msg::NodeStatus>> node_reader_;
-  std::unique_ptr<runtime::SideWork> statuses_;
+  std::unique_ptr<runtime::SideWork> statuses_, looks_;
 };
 
 }  // namespace omentum::haptic

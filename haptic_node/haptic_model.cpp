@@ -28,6 +28,7 @@ HapticWorkspace::HapticWorkspace(const HapticModel& model)
     : bodies(model.place_count()), doors(model.place_count()), works(model.tools.size()) {
   for (std::size_t i = 0; i < model.organs.size(); ++i) {
     const ElasticSurface& organ = model.organs[i];
+    if (organ.surface.triangles.empty()) continue;
     const BodyOrigin origin{.organ = static_cast<std::uint32_t>(i), .file_node = organ.file_node};
     std::unique_ptr<Body> body =
         std::make_unique<DeformedSurface>(organ.surface, organ.rest, organ.compliance, origin);

@@ -6,7 +6,7 @@
 #include "haptic_node/deformed_surface.h"
 #include "haptic_node/spread_contact.h"
 #include "haptic_node/tool_kinematics.h"
-#include "physics/contact_problem.h"
+#include "physics/contact_solver.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,6 +18,7 @@ struct ToolModel {
   std::vector<Vec3> points;    // [P] p_TP, m
   bool grasps = false;         // has jaws
   std::optional<Vec3> trocar;  // pivot in W, m
+  std::vector<Vec3> edge;      // begin and end of what cuts, p_TP, m; or empty
 };
 
 /// How a tool's point deforms the triangle that it touches.
@@ -25,6 +26,21 @@ enum class ContactMode {
   kPoint,  // the material point follows the tool's: forces shared by barycentric coordinates, continuous over
            // edges
   kSpread,  // the paper's alpha_v: three imposed nodes per contact (Cotin 1999, section 5)
+};
+
+/// What a hand was given where one model of tissue that it touches took the place of another, J: in all, and
+/// what of it counts for its account, which is never positive in sum: the hand loses what models give for
+/// nothing.
+struct ModelChanges {
+  double given_j = 0, credited_j = 0;
+
+  /// What counts of so much more.
+  double credit(double more_j) noexcept {
+    given_j += more_j;
+    const double credited = std::min(more_j, -credited_j);
+    credited_j += credited;
+    return credited;
+  }
 };
 
 /// A surface that yields linearly: an organ with its force tensors.
@@ -37,9 +53,11 @@ struct ElasticSurface {
 
 /// Constant while the node runs; any thread may read.
 struct HapticModel {
-  std::vector<ElasticSurface> organs;  // the scene's, in its order: the bodies that are there from the start
-  std::vector<ToolModel> tools;        // their points together: at most physics::kMaxContacts
-  double friction = 0;                 // Coulomb coefficient
+  // The scene's, in its order: the bodies that are there from the start. The place of one that is felt by
+  // local models stays empty: it has no triangles here.
+  std::vector<ElasticSurface> organs;
+  std::vector<ToolModel> tools;  // their points together: at most physics::kMaxContacts
+  double friction = 0;           // Coulomb coefficient
   ContactMode mode = ContactMode::kPoint;
   std::size_t spare_places = 0;  // for bodies that come while the node runs
 
@@ -99,6 +117,7 @@ struct ToolState {
   bool opened = false;                // the jaws were open since the last grasp
   bool grasping = false;
   std::uint64_t grasp_count = 0;
+  ModelChanges changes;
 
   PointMemory& memory(BodyId body, std::size_t point) noexcept {
     return memories[static_cast<std::size_t>(body) * now.size() + point];
@@ -110,6 +129,7 @@ struct HapticState {
   explicit HapticState(const HapticModel& model);
 
   std::uint64_t ticks = 0;
+  std::int64_t now_ns = 0;  // of the coming tick, on the clock that bodies which move by themselves know
   std::vector<ToolState> tools;
   std::vector<ContactEnergy> energies;  // [tools]
   std::array<ToolContact, physics::kMaxContacts> contacts;

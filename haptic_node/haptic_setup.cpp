@@ -1,11 +1,14 @@
 #include "haptic_node/haptic_setup.h"
 
+#include "node_common/organ_reach.h"
 #include "node_common/organ_source.h"
 #include "runtime/memory_limit.h"
 #include "transport/messages.h"
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace omentum::haptic {
@@ -27,10 +30,15 @@ std::vector<ToolModel> make_tools(const scene::Scene& scene) {
     tool.points = spec.points;
     tool.grasps = spec.shape == "grasper";
     tool.trocar = spec.trocar;
+    tool.edge = spec.edge;
     tools.push_back(std::move(tool));
   }
   require_solvable(tools);
   return tools;
+}
+
+ElasticSurface no_surface() {
+  return {.surface = {}, .rest = {}, .compliance = {0, nullptr, nullptr, nullptr}, .file_node = {}};
 }
 
 ElasticSurface make_surface(node::OrganSource&& source) {
@@ -43,6 +51,38 @@ ElasticSurface make_surface(node::OrganSource&& source) {
           std::move(file_node)};
 }
 
+LocalOrgan local_organ(const node::OrganSource& source, std::uint32_t organ) {
+  const geometry::TetraMesh& mesh = source.organ.mesh;
+  LocalOrgan local{.organ = organ, .rest_of_file_node = {}, .reach_m = 0};
+  const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (const geometry::NodeId n : mesh.nodes_of_file())
+    local.rest_of_file_node.push_back(n.valid() ? mesh.positions[n] : none);
+  local.reach_m = node::reach_m(mesh.positions);
+  return local;
+}
+
+scene::Feel feel_of(const scene::OrganSpec& spec, std::span<const scene::OrganModelWord> words) {
+  const auto found = std::ranges::find(words, spec.model, &scene::OrganModelWord::word);
+  if (found == words.end()) throw std::runtime_error("model " + spec.model + ": nobody knows how it is felt");
+  return found->feel;
+}
+
+// The organs, and what is there of them from the start.
+std::vector<msg::OrganInfo> add_organs(const scene::Scene& scene,
+                                       std::span<const scene::OrganModelWord> words, HapticSetup& setup) {
+  std::vector<msg::OrganInfo> infos;
+  for (const scene::OrganSpec& spec : scene.organs) {
+    const bool by_tensors = feel_of(spec, words) == scene::Feel::kTensors;
+    node::OrganSource source =
+        node::load_organ_source(scene, spec, by_tensors ? organ::Load::kWithTensors : organ::Load::kMeshOnly);
+    infos.push_back(node::describe(source));
+    if (!by_tensors)
+      setup.local_organs.push_back(local_organ(source, static_cast<std::uint32_t>(infos.size() - 1)));
+    setup.model.organs.push_back(by_tensors ? make_surface(std::move(source)) : no_surface());
+  }
+  return infos;
+}
+
 std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
   return std::uint64_t{sizeof(float)} * static_cast<std::uint64_t>(compliance.mobile_count()) *
          static_cast<std::uint64_t>(compliance.cluster_count()) * physics::SurfaceCompliance::kTileFloats;
@@ -50,18 +90,14 @@ std::uint64_t tensor_bytes(const physics::SurfaceCompliance& compliance) {
 
 }  // namespace
 
-HapticSetup make_setup(const scene::Scene& scene, double rate_hz) {
+HapticSetup make_setup(const scene::Scene& scene, double rate_hz,
+                       std::span<const scene::OrganModelWord> words) {
   if (scene.organs.empty()) refuse(scene, "no organ, expected one at least");
   const scene::HapticsSpec& h = scene.haptics;
   HapticSetup setup;
-  std::vector<msg::OrganInfo> organs;
-  for (const scene::OrganSpec& spec : scene.organs) {
-    node::OrganSource source = node::load_organ_source(scene, spec, organ::Load::kWithTensors);
-    organs.push_back(node::describe(source));
-    setup.model.organs.push_back(make_surface(std::move(source)));
-  }
-  setup.scene = node::loaded_scene(scene, std::move(organs));
+  setup.scene = node::loaded_scene(scene, add_organs(scene, words, setup));
   setup.model.tools = make_tools(scene);
+  setup.model.spare_places = setup.local_organs.size() * setup.model.tools.size();
   setup.model.friction = h.friction;
   setup.model.mode = h.contact == "spread" ? ContactMode::kSpread : ContactMode::kPoint;
   setup.limits = {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s,

@@ -11,8 +11,16 @@
 
 namespace omentum::haptic {
 
+/// An organ that is felt by local models: how they name its nodes, and where these may be.
+struct LocalOrgan {
+  std::uint32_t organ = 0;              // index into the scene's
+  std::vector<Vec3> rest_of_file_node;  // [nodes of the mesh file] in W, m; NaN where the mesh has none
+  double reach_m = 0;                   // no model takes a node farther (organ_reach.h)
+};
+
 struct HapticSetup {
   HapticModel model;
+  std::vector<LocalOrgan> local_organs;
   std::vector<std::uint32_t> tool_ids;  // one per tool of the model
   ForceLimits limits;
   node::LoadedScene scene;
@@ -20,8 +28,9 @@ struct HapticSetup {
 
 /// All organs of the scene and all its tools. Throws std::runtime_error (scene without organ, organ file or
 /// tools, more points than can be solved) or geometry::InputError (organ file). `rate_hz`: the loop's nominal
-/// rate.
-HapticSetup make_setup(const scene::Scene& scene, double rate_hz);
+/// rate. `words`: how the organs' models are felt.
+HapticSetup make_setup(const scene::Scene& scene, double rate_hz,
+                       std::span<const scene::OrganModelWord> words = scene::kOrganModels);
 
 /// Of all organs' mapped tensors, bytes.
 std::uint64_t tensor_bytes(const HapticModel& model);

@@ -131,6 +131,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   Bodies& bodies = work.bodies;
   bodies.for_each([](BodyId, Body& body) { body.contact_nodes().begin_tick(); });
   place_tools(model, inputs, state, bodies);
+  bodies.for_each([&](BodyId, Body& body) { body.go_on(state.now_ns); });
   take_in_bodies(state, work);
   evaluate_neighbourhood(state, bodies);
   leave_astray(state, bodies);
@@ -156,6 +157,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   if (is_finite(result, state)) {
     measure_work(model, state, work.before, work.free_gaps, work.gaps, work.works);
     if (model.mode == ContactMode::kPoint) measure_exchange(work.problem, state, work.before, work.works);
+    settle_own_motion(state, work.works);
     balance(state.energies, work.works, anyone_let_go(state));
     measure(inputs, state, outputs);
   } else {
@@ -176,7 +178,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
 Vec3 contact_displacement(BodyId body, SurfaceId node, const HapticState& state, Bodies& bodies) noexcept {
   ContactNodes& nodes = bodies[body].contact_nodes();
   const int n = nodes.slot_of(node);
-  Vec3 u = Vec3::Zero();
+  Vec3 u = bodies[body].moved_without_forces(node);
   for (const NodeForce& entry : state.forces()) {
     if (entry.body != body) continue;
     const float* block = nodes.block(n, nodes.slot_of(entry.node));

@@ -34,7 +34,8 @@ struct StepResult {
 StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inputs, HapticState& state,
                        HapticWorkspace& work, std::span<ToolOutput> outputs) noexcept;
 
-/// u_A = C_AA f_A of one of a body's nodes in contact, all tools' forces together, m; in double.
+/// u_A = C_AA f_A of one of a body's nodes in contact, all tools' forces together, from its rest in the
+/// organ's file, m; in double.
 Vec3 contact_displacement(BodyId body, SurfaceId node, const HapticState& state, Bodies& bodies) noexcept;
 
 }  // namespace omentum::haptic

@@ -167,7 +167,9 @@ void surface_with_tools(HapticState& state, Bodies& bodies) noexcept {
 void meet_appeared(HapticState& state, Bodies& bodies) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     if (!state.tools[i].engaged) continue;
-    bodies.for_each([&](BodyId id, Body&) { meet_appeared_in(id, i, state, bodies); });
+    bodies.for_each([&](BodyId id, Body& body) {
+      if (body.is_for(i)) meet_appeared_in(id, i, state, bodies);
+    });
   }
 }
 

@@ -244,7 +244,9 @@ void follow_surface(const HapticModel& model, HapticState& state, Bodies& bodies
 void find_contacts(HapticState& state, Bodies& bodies) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     if (!state.tools[i].engaged) continue;
-    bodies.for_each([&](BodyId id, Body& body) { find_contacts_with(id, body, i, state); });
+    bodies.for_each([&](BodyId id, Body& body) {
+      if (body.is_for(i)) find_contacts_with(id, body, i, state);
+    });
   }
 }
 

@@ -1,5 +1,6 @@
 #include "organ/region_spec.h"
 
+#include "geometry/boxes.h"
 #include "organ/csv.h"
 #include "organ/organ_check.h"
 #include "organ/plausibility.h"
@@ -52,10 +53,7 @@ void set_label(const std::string& value, Spec& spec) {
 void set_box(const std::string& value, Spec& spec) {
   const auto corners = numbers_of(spec, "box", value, 6, "box=x0,y0,z0,x1,y1,z1 (metres)");
   const Vec3 a(corners.data()), b(corners.data() + 3);
-  const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
-  spec.holds = [low, high](const Vec3& p) {
-    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
-  };
+  spec.holds = [a, b](const Vec3& p) { return geometry::in_box(p, a, b); };
 }
 
 void set_ball(const std::string& value, Spec& spec) {

@@ -25,6 +25,17 @@ struct Spec {
   std::uint8_t components = physics::kPinned;
 };
 
+// "box:...+plane:..." in its parts; a plus in a number or in a file's name is none between parts.
+std::vector<std::string> split_joined(const std::string& joined) {
+  std::vector<std::string> parts{joined};
+  for (std::size_t at = joined.size(); at-- > 0;) {
+    if (joined.compare(at, 5, "+box:") != 0 && joined.compare(at, 7, "+plane:") != 0) continue;
+    parts.push_back(parts.front().substr(at + 1));
+    parts.front().resize(at);
+  }
+  return parts;
+}
+
 // Splits a trailing ":xz" off.
 Spec split_components(const std::string& text) {
   Spec spec{text, text, physics::kPinned};
@@ -122,7 +133,9 @@ void add_supports(const Spec& spec, const SupportedMesh& supported, physics::Fix
 physics::FixedComponents parse_supports(std::span<const std::string> specs, const TetraMesh& mesh,
                                         geometry::Numbering numbering) {
   physics::FixedComponents fixed(mesh.positions.size(), 0);
-  for (const std::string& spec : specs) add_supports(split_components(spec), {mesh, numbering}, fixed);
+  for (const std::string& joined : specs)
+    for (const std::string& spec : split_joined(joined))
+      add_supports(split_components(spec), {mesh, numbering}, fixed);
   return fixed;
 }
 

@@ -4,7 +4,6 @@
 #include "physics/superpose_kernels.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace omentum::physics {
 
@@ -22,7 +21,7 @@ struct ColumnBatch {
   ColumnBatch(const SurfaceCompliance& compliance, std::int32_t cluster, std::span<const SurfaceId> nodes,
               std::span<const Vec3> node_forces) {
     for (std::size_t q = 0; q < nodes.size(); ++q, ++count) {
-      assert(nodes[q].valid() && nodes[q] < compliance.mobile_count());
+      geometry::require(nodes[q] >= 0 && nodes[q] < compliance.mobile_count(), "mobile nodes");
       columns[q] = compliance.tile(nodes[q], cluster);
       for (int j = 0; j < 3; ++j) forces[3 * q + j] = static_cast<float>(node_forces[q][j]);
     }
@@ -72,9 +71,6 @@ void superpose_cluster(const SurfaceCompliance& compliance, std::int32_t cluster
 void superpose_surface(const SurfaceCompliance& compliance, std::span<const SurfaceId> nodes,
                        std::span<const Vec3> forces, std::span<float> u) noexcept {
   const auto clusters = static_cast<std::size_t>(compliance.cluster_count());
-  geometry::require(
-      std::ranges::all_of(nodes, [&](SurfaceId n) { return n >= 0 && n < compliance.mobile_count(); }),
-      "mobile nodes");
   geometry::require(u.size() >= 3 * SurfaceCompliance::kLanes * clusters, "room for every cluster");
   superpose(compliance, 0, clusters, nodes, forces, u.data());
 }

@@ -34,6 +34,7 @@ Vec3f surroundings(const OrganSkin& skin, const Contact& contact) {
   float count = 0;
   for (std::int32_t s = 0; s < skin.node_count(); ++s) {
     const geometry::SurfaceId node(s);
+    if (!skin.has(node)) continue;
     const double off_m = std::abs((skin.rest(node) - contact.rest).norm() - radius_m);
     if (off_m > kRingHalfWidth * radius_m || skin.rest_normal(node).dot(contact.outward) <= 0) continue;
     sum += skin.position(node) - skin.rest(node);

@@ -1,6 +1,7 @@
 #include "render_node/inbox.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace omentum::render {
 namespace {
@@ -71,22 +72,46 @@ void Inbox::take_contact(const msg::Contact& contact) {
   organs_[contact.organ]->contacts[contact.tool].post({contact, clock_.now_ns()});
 }
 
+Inbox::OrganBox::OrganBox(const LoadedOrgan& organ)
+    : assembly(organ.state_kind, {organ.node_count, std::max(organ.node_count, organ.most_nodes)},
+               organ.reach_m),
+      topologies(organ.tetrahedron_count) {}
+
 void Inbox::take_state(const msg::OrganState& block) {
   if (block.organ >= organs_.size())
     return faults_.raise("organ state of an organ that the scene does not have");
   OrganBox& organ = *organs_[block.organ];
+  const std::lock_guard lock(organ.mutex);
   const auto outcome = organ.assembly.take(block, [&](const AssembledState& state) {
     if (state.missing_blocks > 0) incomplete_states_.fetch_add(1, std::memory_order_relaxed);
-    organ.newest.post(state);
+    match(state, organ);
   });
-  if (outcome == StateAssembly::Outcome::kMisfit)
-    faults_.raise("organ state of another kind or size than the organ's");
+  if (outcome == StateAssembly::Outcome::kMisfit) faults_.raise(kMisfitState);
 }
 
 void Inbox::take_topology(const msg::Topology& topology) {
   if (topology.organ >= organs_.size())
     return faults_.raise("topology of an organ that the scene does not have");
-  organs_[topology.organ]->topology.post(topology);
+  OrganBox& organ = *organs_[topology.organ];
+  const std::lock_guard lock(organ.mutex);
+  if (!organ.topologies.take(topology)) return faults_.raise("topology of another organ than the scene's");
+  if (organ.early && organ.topologies.removed_in(organ.early->topology_version))
+    match(*std::exchange(organ.early, std::nullopt), organ);
+}
+
+// The organ's mutex is held.
+void Inbox::match(const AssembledState& state, OrganBox& organ) {
+  if (organ.early) unmatched_states_.fetch_add(1, std::memory_order_relaxed);
+  organ.early.reset();
+  if (const RemovedSet* removed = organ.topologies.removed_in(state.topology_version)) {
+    organ.newest.draft() = state;
+    organ.newest.draft().removed = *removed;
+    organ.newest.post();
+  } else if (state.topology_version > organ.topologies.highest()) {
+    organ.early = state;
+  } else {
+    unmatched_states_.fetch_add(1, std::memory_order_relaxed);
+  }
 }
 
 void Inbox::take_status(const msg::NodeStatus& status) {
@@ -114,10 +139,6 @@ const std::vector<HeardStatus>& Inbox::statuses() {
 
 const msg::SceneInfo* Inbox::fetch_scene_info() {
   return scene_info_.fetch() ? &scene_info_.value() : nullptr;
-}
-const msg::Topology* Inbox::fetch_topology(std::size_t organ) {
-  auto& topology = organs_[organ]->topology;
-  return topology.fetch() ? &topology.value() : nullptr;
 }
 
 }  // namespace omentum::render

@@ -9,9 +9,13 @@
 #include "runtime/mailbox.h"
 #include "transport/latest.h"
 
+#include <mutex>
 #include <optional>
 
 namespace omentum::render {
+
+/// The fault of a state that no organ here has.
+inline constexpr const char* kMisfitState = "organ state of another kind or size than the organ's";
 
 /// An organ as this process loaded it.
 struct LoadedOrgan {
@@ -20,6 +24,8 @@ struct LoadedOrgan {
   std::size_t node_count = 0;  // of its states
   double reach_m = 0;          // a state that moves a node farther is none (plausible.h)
   std::uint32_t state_kind = msg::KIND_SURFACE;
+  std::size_t tetrahedron_count = 0;  // 0: it is never cut
+  std::size_t most_nodes = 0;         // of its states when cut
 };
 
 /// A contact and when it came (the inbox's clock).
@@ -62,27 +68,32 @@ class Inbox {
   }
   /// The newest contact of a tool with an organ; without nodes before one came.
   const HeardContact& contact(std::size_t organ, std::uint32_t tool);
-  /// The newest state of an organ if one came since the last call.
+  /// The newest state of an organ, with what was removed of it, if one came since the last call. A state that
+  /// comes before its topology waits for it, until a newer one comes; one of a topology that is past is
+  /// dropped.
   const AssembledState* fetch_state(std::size_t organ);
   const std::vector<HeardStatus>& statuses();
   node::SessionOrders& orders() { return orders_; }
   const msg::SceneInfo* fetch_scene_info();
-  /// The newest topology of an organ if one came since the last call.
-  const msg::Topology* fetch_topology(std::size_t organ);
   std::uint64_t incomplete_states() const { return incomplete_states_.load(std::memory_order_relaxed); }
+  /// Dropped for their topology, of all organs.
+  std::uint64_t unmatched_states() const { return unmatched_states_.load(std::memory_order_relaxed); }
 
  private:
   struct OrganBox {
-    explicit OrganBox(const LoadedOrgan& organ)
-        : assembly(organ.state_kind, organ.node_count, organ.reach_m) {}
+    explicit OrganBox(const LoadedOrgan& organ);
+    // States and topologies come on threads of their own and meet here. Never taken by who draws.
+    std::mutex mutex;
     StateAssembly assembly;
+    KnownTopologies topologies;
+    std::optional<AssembledState> early;  // its topology did not come yet
     runtime::Mailbox<AssembledState> newest;
-    runtime::Mailbox<msg::Topology> topology;
     std::array<runtime::Mailbox<HeardContact>, msg::MAX_TOOLS> contacts;
   };
   void take_contact(const msg::Contact& contact);
   void take_state(const msg::OrganState& block);
   void take_topology(const msg::Topology& topology);
+  void match(const AssembledState& state, OrganBox& organ);
   void take_status(const msg::NodeStatus& status);
 
   const runtime::Clock& clock_;
@@ -95,7 +106,7 @@ class Inbox {
   node::SessionOrders orders_;
   runtime::Mailbox<std::vector<HeardStatus>> statuses_;
   runtime::Mailbox<msg::SceneInfo> scene_info_;
-  std::atomic<std::uint64_t> incomplete_states_{0};
+  std::atomic<std::uint64_t> incomplete_states_{0}, unmatched_states_{0};
 
   // last: their callbacks use what is above
   std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;

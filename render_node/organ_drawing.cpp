@@ -1,5 +1,6 @@
 #include "render_node/organ_drawing.h"
 
+#include <optional>
 #include <stdexcept>
 
 namespace omentum::render {
@@ -15,24 +16,60 @@ double area_of(std::span<const geometry::Triangle> triangles, std::span<const ge
 class SurfaceDrawing final : public OrganDrawing {
  public:
   explicit SurfaceDrawing(const OrganShape& shape)
-      : surface_{{shape.surface, shape.rest}, shape.surface_of_file_node},
-        outline_{shape.rest, {}, area_of(shape.surface.triangles, shape.rest)},
-        material_(shape.material) {
+      : shape_(shape),
+        surface_{{shape.surface, shape.rest}, shape.surface_of_file_node},
+        outline_{shape.rest, {}, area_of(shape.surface.triangles, shape.rest)} {
     for (std::int32_t s = 0; s < surface_.skin.node_count(); ++s)
       outline_.normals.push_back(surface_.skin.rest_normal(geometry::SurfaceId(s)));
   }
 
   RestOutline rest_outline() const override { return outline_; }
   void deform(std::span<const float> values) override { surface_.skin.deform(values); }
+  CutOutcome cut(const RemovedSet& removed, std::size_t node_count) override;
+  void map_strain(bool on) override { surface_.skin.map_strain(on); }
   const MeshData& mesh() const override { return surface_.skin.mesh(); }
-  Material material() const override { return material_; }
+  std::span<const TriangleRun> changed() const override { return surface_.skin.changed(); }
+  const MeshData* bared() const override { return cut_ ? &surface_.skin.bared() : nullptr; }
+  Material material() const override { return shape_.material; }
+  Material bared_material() const override { return shape_.bared; }
+  std::int32_t removed_count() const override { return removed_count_; }
   const PressedSurface* surface() const override { return &surface_; }
 
  private:
+  void show_cut();
+
+  OrganShape shape_;
   PressedSurface surface_;
   RestOutline outline_;
-  Material material_;
+  RemovedSet removed_;           // of what is drawn
+  std::optional<OrganCut> cut_;  // made when it is first cut
+  std::int32_t removed_count_ = 0;
 };
+
+CutOutcome SurfaceDrawing::cut(const RemovedSet& removed, std::size_t node_count) {
+  if (removed == removed_ || (removed.whole() && !cut_)) {
+    const bool fits = node_count == static_cast<std::size_t>(surface_.skin.node_count());
+    return fits ? CutOutcome::kSame : CutOutcome::kMisfit;
+  }
+  if (!shape_.mesh) return CutOutcome::kMisfit;
+  if (!cut_) cut_.emplace(*shape_.mesh, shape_.surface);
+  cut_->set(removed);
+  if (cut_->node_count() != node_count) return CutOutcome::kMisfit;
+  removed_ = removed;
+  show_cut();
+  return CutOutcome::kCut;
+}
+
+void SurfaceDrawing::show_cut() {
+  const CutShape now = cut_->shape();
+  surface_.skin.cut(now);
+  surface_.surface_of_file_node = shape_.surface_of_file_node;
+  for (std::size_t s = shape_.rest.size(); s < now.node.size(); ++s) {
+    const auto file_node = static_cast<std::size_t>(shape_.mesh->file_node[now.node[s]]);
+    surface_.surface_of_file_node[file_node] = geometry::SurfaceId(s);
+  }
+  removed_count_ = cut_->removed_count();
+}
 
 }  // namespace
 

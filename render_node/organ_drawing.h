@@ -16,6 +16,9 @@ struct OrganShape {
   std::vector<geometry::Vec3> rest;                       // [S], m
   std::vector<geometry::SurfaceId> surface_of_file_node;  // invalid where none
   Material material = tissue_material("liver");
+  Material bared = bared_material("liver");
+  // What the surface bounds; null: it is never cut. Shared, because shapes are copied and meshes are large.
+  std::shared_ptr<const geometry::TetraMesh> mesh{};
 };
 
 /// A surface that tools press: its skin, and which of its nodes a file's node is.
@@ -36,6 +39,13 @@ struct RestOutline {
   double area_m2 = 0;
 };
 
+/// What a topology is to an organ that is drawn.
+enum class CutOutcome {
+  kMisfit,  // no state that lacks this has so many nodes; nothing was changed
+  kSame,    // it is drawn so already
+  kCut,     // more lies bare, or less
+};
+
 /// From the values of an organ's states to lit vertices. One thread, the renderer's.
 class OrganDrawing {
  public:
@@ -44,8 +54,21 @@ class OrganDrawing {
   virtual RestOutline rest_outline() const = 0;
   /// `values`: of a whole state of this organ's kind, x y z of each node.
   virtual void deform(std::span<const float> values) = 0;
-  /// Its triangles stay what they are.
+  /// From here on exactly this is removed of it, and its states have `node_count` nodes.
+  [[nodiscard]] virtual CutOutcome cut(const RemovedSet& removed, std::size_t /*node_count*/) {
+    return removed.whole() ? CutOutcome::kSame : CutOutcome::kMisfit;
+  }
+  /// Whether vertices have their strain (surface_strain.h) from here on, those of the last state too.
+  virtual void map_strain(bool /*on*/) {}
+  /// As many vertices and triangles as ever.
   virtual const MeshData& mesh() const = 0;
+  /// Which triangles of mesh() the last cut() changed.
+  virtual std::span<const TriangleRun> changed() const { return {}; }
+  /// What cuts laid bare, of any size; null before the first one.
+  virtual const MeshData* bared() const { return nullptr; }
+  virtual Material bared_material() const { return material(); }
+  /// Tetrahedra, now.
+  virtual std::int32_t removed_count() const { return 0; }
   virtual Material material() const = 0;
   /// Where tools dent it; null for an organ without such a surface.
   virtual const PressedSurface* surface() const { return nullptr; }

@@ -9,5 +9,7 @@ namespace omentum::render {
 
 /// The material of a scene's `look` (scene/scene.h): that of the liver for a word that it does not know.
 Material tissue_material(const std::string& look);
+/// Of what a cut lays bare in it.
+Material bared_material(const std::string& look);
 
 }  // namespace omentum::render

@@ -2,8 +2,11 @@
 
 #include "geometry/precondition.h"
 #include "render_node/surface_shading.h"
+#include "render_node/surface_strain.h"
 
 #include <Eigen/Geometry>
+
+#include <algorithm>
 
 namespace omentum::render {
 namespace {
@@ -14,9 +17,14 @@ constexpr float kHorizon_m = 0.018f;  // the width of a dent that a tool presses
 
 OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest)
     : triangles_(surface.triangles),
+      left_(triangles_),
+      closed_(triangles_),
+      gone_(triangles_.size(), 0),
+      used_(rest.size(), 1),
       normals_(rest.size(), Vec3f::UnitZ()),
       openness_(rest.size(), 1.0f),
-      refinement_(triangles_, static_cast<std::int32_t>(rest.size()), refinement_level(triangles_.size())) {
+      level_(refinement_level(triangles_.size())),
+      refinement_(triangles_, static_cast<std::int32_t>(rest.size()), level_) {
   Eigen::AlignedBox3d box;
   for (const auto& p : rest) {
     rest_.push_back(p.cast<float>());
@@ -35,18 +43,82 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
   deform(std::vector<float>(3 * rest_.size(), 0.0f));
 }
 
+void OrganSkin::cut(const CutShape& shape) {
+  geometry::require(shape.gone.size() == triangles_.size(), "a cut of this organ");
+  take_away(shape.gone);
+  closed_ = left_;
+  closed_.insert(closed_.end(), shape.bared.begin(), shape.bared.end());
+  set_nodes(shape);
+  bared_ = BaredSkin(shape.bared, rest_, std::min(level_, refinement_level(closed_.size())));
+  refinement_.spread(shape.burnt, &Vertex::charring, mesh_.vertices);
+  bared_.spread(shape.burnt, &Vertex::charring);
+}
+
+void OrganSkin::take_away(const std::vector<std::uint8_t>& gone) {
+  const auto small = static_cast<std::size_t>(level_ * level_);
+  changed_.clear();
+  left_.clear();
+  for (std::size_t f = 0; f < gone.size(); ++f) {
+    if (gone[f] == 0) left_.push_back(triangles_[f]);
+    if (gone[f] == gone_[f]) continue;
+    for (std::size_t k = small * f; k < small * (f + 1); ++k)
+      mesh_.triangles[k] = gone[f] != 0 ? MeshTriangle{} : refinement_.triangles()[k];
+    if (!changed_.empty() && changed_.back().first + changed_.back().count == small * f) {
+      changed_.back().count += small;
+    } else {
+      changed_.push_back({small * f, small});
+    }
+  }
+  gone_ = gone;
+}
+
+void OrganSkin::set_nodes(const CutShape& shape) {
+  rest_.clear();
+  for (const geometry::Vec3& p : shape.rest) rest_.push_back(p.cast<float>());
+  positions_ = rest_;
+  normals_.assign(rest_.size(), Vec3f::UnitZ());
+  openness_.assign(rest_.size(), 1.0f);
+  used_.assign(rest_.size(), 0);
+  for (const geometry::Triangle& t : closed_)
+    for (const geometry::SurfaceId s : t) used_[static_cast<std::size_t>(s)] = 1;
+  closed_normals_.assign(rest_.size(), Vec3f::UnitZ());
+  rest_normals_.resize(rest_.size(), Vec3f::UnitZ());
+  smooth_normals(closed_, rest_, rest_normals_);
+}
+
 void OrganSkin::deform(std::span<const float> displacements) {
   geometry::require(displacements.size() == 3 * rest_.size(), "three values for each node");
   float largest_squared = 0;
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     const Vec3f u(displacements[3 * s], displacements[3 * s + 1], displacements[3 * s + 2]);
     positions_[s] = rest_[s] + u;
-    largest_squared = std::max(largest_squared, u.squaredNorm());
+    if (used_[s] != 0) largest_squared = std::max(largest_squared, u.squaredNorm());
   }
   largest_displacement_m_ = std::sqrt(largest_squared);
-  smooth_normals(triangles_, positions_, normals_);
-  openness_of(triangles_, positions_, normals_, kHorizon_m, openness_);
-  refinement_.apply(positions_, normals_, openness_, mesh_.vertices);
+  drawn_ = positions_;
+  bared_.relax(drawn_);
+  smooth_normals(left_, drawn_, normals_);
+  if (bared_.triangles().empty()) {
+    openness_of(left_, drawn_, normals_, kHorizon_m, openness_);
+  } else {
+    smooth_normals(closed_, drawn_, closed_normals_);
+    openness_of(closed_, drawn_, closed_normals_, kHorizon_m, openness_);
+  }
+  refinement_.apply(drawn_, normals_, openness_, mesh_.vertices);
+  bared_.deform(drawn_, normals_, openness_);
+  if (maps_strain_) show_strain();
+}
+
+void OrganSkin::map_strain(bool on) {
+  maps_strain_ = on;
+  if (on) show_strain();
+}
+
+void OrganSkin::show_strain() {
+  strain_.resize(rest_.size());
+  surface_strain(closed_, rest_, positions_, strain_);
+  refinement_.spread(strain_, &Vertex::strain, mesh_.vertices);
+  bared_.spread(strain_, &Vertex::strain);
 }
 
 }  // namespace omentum::render

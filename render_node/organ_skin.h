@@ -1,36 +1,71 @@
 // The drawn surface of a deforming organ.
 #pragma once
 
-#include "render_node/surface_refinement.h"
+#include "render_node/bared_skin.h"
+#include "render_node/organ_cut.h"
 
 namespace omentum::render {
 
-/// From displacements of the surface's nodes to lit vertices.
+/// Of a mesh's triangles, `count` from `first` on.
+struct TriangleRun {
+  std::size_t first = 0, count = 0;
+};
+
+/// From displacements of the surface's nodes to lit vertices. Nodes are numbered as in the organ's states.
 class OrganSkin {
  public:
   /// `rest`: [S], m, in the surface's order.
   OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest);
 
-  /// `displacements`: [3S], x, y, z of each node, m.
+  /// From here on the organ is cut like this (or whole again); its next state is to be shown before it is
+  /// drawn. The skin that is left stays as it was: its triangles keep their places in mesh(), those that are
+  /// gone become points.
+  void cut(const CutShape& shape);
+  /// Which triangles of mesh() the last cut() changed.
+  const std::vector<TriangleRun>& changed() const { return changed_; }
+
+  /// `displacements`: x, y, z of each node, m.
   void deform(std::span<const float> displacements);
 
+  /// From here on vertices have their strain, which costs a pass over the surface for each state. Shows the
+  /// last state anew.
+  void map_strain(bool on);
+
   const MeshData& mesh() const { return mesh_; }
+  /// What lies bare; without triangles where nothing does.
+  const MeshData& bared() const { return bared_.mesh(); }
   std::int32_t node_count() const { return static_cast<std::int32_t>(rest_.size()); }
+  /// Whether a triangle is left at that node.
+  bool has(geometry::SurfaceId node) const { return used_[static_cast<std::size_t>(node)] != 0; }
   Vec3f position(geometry::SurfaceId node) const { return positions_[node]; }
-  Vec3f normal(geometry::SurfaceId node) const { return normals_[node]; }
   Vec3f rest(geometry::SurfaceId node) const { return rest_[node]; }
   Vec3f rest_normal(geometry::SurfaceId node) const { return rest_normals_[node]; }
-  /// The largest displacement of any node, m: what linear elasticity must be small against (dents: dent.h).
+  /// The largest displacement of any node that is left, m: what linear elasticity must be small against
+  /// (dents: dent.h).
   double largest_displacement_m() const { return largest_displacement_m_; }
   /// The longest side of the box around the rest surface, m: "mesh size" in the limit of linearity.
   double extent_m() const { return extent_m_; }
 
  private:
-  std::vector<geometry::Triangle> triangles_;
-  std::vector<Vec3f> rest_, rest_normals_, positions_, normals_;  // [S]
-  std::vector<float> openness_;                                   // [S]
+  void take_away(const std::vector<std::uint8_t>& gone);
+  void set_nodes(const CutShape& shape);
+  void show_strain();
+
+  std::vector<geometry::Triangle> triangles_;  // of the whole organ
+  std::vector<geometry::Triangle> left_;       // of them
+  std::vector<geometry::Triangle> closed_;     // and what lies bare
+  std::vector<std::uint8_t> gone_;             // 1: of triangles_, not left
+  std::vector<std::uint8_t> used_;             // 1: a node of closed_
+  // of the nodes: normals_ of the skin alone, closed_normals_ of all that there is
+  std::vector<Vec3f> rest_, rest_normals_, positions_, normals_, closed_normals_;
+  std::vector<Vec3f> drawn_;  // positions_, without the teeth of a cut
+  std::vector<float> openness_, strain_;
+  bool maps_strain_ = false;
+  int level_;
   SurfaceRefinement refinement_;
+  BaredSkin bared_;
   MeshData mesh_;
+  std::vector<TriangleRun> changed_;
   double largest_displacement_m_ = 0;
   double extent_m_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "render_node/panel.h"
 
 #include "render_node/scene_view.h"
+#include "render_node/surface_strain.h"
 
 #include <imgui.h>
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr float kCurveHeight = 74, kCurveThickness = 1.8f;  // pixels
 constexpr float kAxisWidth = 40;                            // pixels: "100 N"
+constexpr double kKeepsUp = 0.98;  // of real time: what is less is seen as slow motion
 const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
 const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
 
@@ -190,16 +192,50 @@ void organ_line(const OrganRow& row) {
     ImGui::TextColored(kAmber, "%s%s for %s", of.c_str(),
                        row.known ? "organ stale: no state" : "no organ state", age.c_str());
   }
+  if (row.removed_tetrahedra > 0) {
+    ImGui::TextUnformatted((of + "removed tetrahedra").c_str());
+    ImGui::SameLine();
+    right_aligned(format("%d", row.removed_tetrahedra).c_str());
+  }
   if (row.beyond_linear()) {
     ImGui::TextColored(kAmber, "%smoved %.0f mm: beyond linear range (%.0f mm)", of.c_str(), row.moved_mm,
                        row.limit_mm);
   }
 }
 
+// The map's colours from left to right, with what they mean at both ends.
+void strain_scale() {
+  ImGui::TextUnformatted("strain  0");
+  ImGui::SameLine();
+  const std::string most = format("%.0f %%", 100.0 * static_cast<double>(kFullStrain));
+  const float height = ImGui::GetFontSize();
+  const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(most.c_str()).x -
+                      ImGui::GetStyle().ItemSpacing.x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float step = width / static_cast<float>(kStrainColourCount - 1);
+  for (std::size_t i = 0; i + 1 < kStrainColourCount; ++i) {
+    const float left = at.x + step * static_cast<float>(i);
+    const ImU32 from = ImGui::GetColorU32(display(strain_colours()[i]));
+    const ImU32 to = ImGui::GetColorU32(display(strain_colours()[i + 1]));
+    ImGui::GetWindowDrawList()->AddRectFilledMultiColor({left, at.y}, {left + step, at.y + height}, from, to,
+                                                        to, from);
+  }
+  ImGui::Dummy({width, height});
+  ImGui::SameLine();
+  right_aligned(most.c_str());
+}
+
 void organs(const PanelView& view) {
   ImGui::TextUnformatted("deepest dent");
   ImGui::SameLine();
   right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  if (view.strain) strain_scale();
+  if (view.real_time_factor > 0) {
+    ImGui::TextUnformatted("real time");
+    ImGui::SameLine();
+    const bool slow = view.real_time_factor < kKeepsUp;
+    right_aligned(format("%.2f x", view.real_time_factor).c_str(), slow ? &kAmber : nullptr);
+  }
   ImGui::PushTextWrapPos(0);  // an organ may have a long name
   for (const OrganRow& row : view.organs) organ_line(row);
   ImGui::PopTextWrapPos();
@@ -233,12 +269,13 @@ PanelActions buttons(const PanelView& view) {
   actions.reset = ImGui::Button("Reset", {third, 0});
   ImGui::SameLine();
   actions.clear_fault = ImGui::Button("Clear fault", {third, 0});
-  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers;
+  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers, strain = view.strain;
   actions.switch_camera = ImGui::Checkbox("endoscope", &endoscope);
   ImGui::SameLine();
   actions.switch_arrows = ImGui::Checkbox("arrows", &arrows);
   ImGui::SameLine();
   actions.switch_markers = ImGui::Checkbox("nodes", &markers);
+  actions.switch_strain = ImGui::Checkbox("strain (key S)", &strain);
   ImGui::TextDisabled("drag: turn   right drag: move   wheel: zoom");
   return actions;
 }

@@ -1,6 +1,7 @@
 #include "render_node/panel_view.h"
 
 #include <array>
+#include <cmath>
 
 namespace omentum::render {
 namespace {
@@ -36,6 +37,15 @@ msg::Percentiles device_round_trip(const std::vector<HeardStatus>& heard) {
       slowest = status.round_trip_us;
   }
   return slowest;
+}
+
+double real_time_factor(const std::vector<HeardStatus>& heard, std::int64_t now_ns) {
+  double factor = 0;
+  for (const auto& [status, arrived_ns] : heard) {
+    if (status.kind == msg::NODE_DEFORM && now_ns - arrived_ns <= kSilent_ns)
+      factor = status.real_time_factor;
+  }
+  return std::isfinite(factor) ? factor : 0;
 }
 
 std::optional<bool> haptic_paused(const std::vector<HeardStatus>& heard, std::int64_t now_ns) {

@@ -40,6 +40,7 @@ struct OrganRow {
   bool known = false;   // a state came
   std::int64_t age_ns = 0;  // of the newest state; where none came, since the start
   std::string name = {};    // empty where the scene has no other
+  std::int32_t removed_tetrahedra = 0;
 
   bool beyond_linear() const { return moved_mm > limit_mm; }
   bool stale() const { return age_ns > kStaleState_ns; }
@@ -52,14 +53,15 @@ struct PanelView {
   double time_s = 0;
   bool paused = false;
   bool interactive = false;  // somebody could press a button
-  bool endoscope = false, arrows = true, markers = true;
+  bool endoscope = false, arrows = true, markers = true, strain = false;
   std::vector<NodeRow> nodes;
   std::vector<ToolRow> tools;
   // from a pose to its force, as the device says, and from its arrival here to the end of the frame that
   // shows it; 0: unknown
   double hand_to_force_us = 0, hand_to_force_p99_us = 0;
   double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
-  double dent_mm = 0;  // the deepest of this moment (dent.h)
+  double real_time_factor = 0;  // of the organs that live in time of their own; 0: none does
+  double dent_mm = 0;           // the deepest of this moment (dent.h)
   std::vector<OrganRow> organs;
   std::uint64_t incomplete_states = 0;
   std::vector<std::string> faults;  // of all nodes, their name in front
@@ -68,7 +70,7 @@ struct PanelView {
 /// What the person pressed.
 struct PanelActions {
   bool start = false, pause = false, reset = false, clear_fault = false;
-  bool switch_camera = false, switch_arrows = false, switch_markers = false;
+  bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_strain = false;
 };
 
 /// Linear elasticity is trusted up to this share of the mesh's size (Cotin 1999, section 3-3).
@@ -79,6 +81,9 @@ std::vector<NodeRow> node_rows(const std::vector<HeardStatus>& heard, std::int64
 /// From a pose to its force, as the device measures it on its own clock, us; the slowest device's, count 0
 /// where none tells.
 msg::Percentiles device_round_trip(const std::vector<HeardStatus>& heard);
+/// The time that organs lived through over the time that went by, as the deform_node that serves says; 0
+/// where none speaks or none of its organs lives in time of its own.
+double real_time_factor(const std::vector<HeardStatus>& heard, std::int64_t now_ns);
 /// Whether a haptic_node that still speaks says that it is paused; nothing where none speaks.
 std::optional<bool> haptic_paused(const std::vector<HeardStatus>& heard, std::int64_t now_ns);
 /// "deform_node: TEXT" for each fault of each node.

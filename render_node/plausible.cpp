@@ -1,9 +1,8 @@
 #include "render_node/plausible.h"
 
+#include "geometry/boxes.h"
 #include "node_common/contact_bounds.h"
 #include "node_common/vectors.h"
-
-#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>
@@ -34,9 +33,7 @@ bool is_plausible(const msg::Contact& contact, double max_force_n) {
 }
 
 double reach_of(std::span<const Vec3> rest) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : rest) box.extend(p);
-  return box.isEmpty() ? 0 : kReachDiagonals * box.diagonal().norm();
+  return kReachDiagonals * geometry::diagonal_around(rest);
 }
 
 }  // namespace omentum::render

@@ -21,9 +21,25 @@ constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
-OrganShape shape_of(const node::OrganSource& source, const std::string& look) {
-  return {source.kind, source.organ.surface, source.rest, source.organ.surface_of_file_node(),
-          tissue_material(look)};
+OrganShape shape_of(node::OrganSource source, const std::string& look) {
+  std::vector<geometry::SurfaceId> surface_of_file_node = source.organ.surface_of_file_node();
+  return {source.kind,
+          std::move(source.organ.surface),
+          std::move(source.rest),
+          std::move(surface_of_file_node),
+          tissue_material(look),
+          bared_material(look),
+          std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh))};
+}
+
+LoadedOrgan loaded_organ(const node::OrganSource& source) {
+  return {.name = source.organ.name,
+          .hash = source.organ.hash,
+          .node_count = source.rest.size(),
+          .reach_m = reach_of(source.rest),
+          .state_kind = node::state_kind(source.kind),
+          .tetrahedron_count = source.organ.mesh.tetrahedra.size(),
+          .most_nodes = source.organ.mesh.positions.size()};
 }
 
 double picture_period_s(const RenderOptions& options, bool has_window) {
@@ -36,10 +52,9 @@ double picture_period_s(const RenderOptions& options, bool has_window) {
 RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
   Loaded loaded{node::load_scene(options.node), {}, {}};
   for (const scene::OrganSpec& spec : loaded.scene.organs) {
-    const node::OrganSource source = node::load_organ_source(loaded.scene, spec, organ::Load::kMeshOnly);
-    loaded.organs.push_back({source.organ.name, source.organ.hash, source.rest.size(), reach_of(source.rest),
-                             node::state_kind(source.kind)});
-    loaded.shapes.push_back(shape_of(source, spec.look));
+    node::OrganSource source = node::load_organ_source(loaded.scene, spec, organ::Load::kMeshOnly);
+    loaded.organs.push_back(loaded_organ(source));
+    loaded.shapes.push_back(shape_of(std::move(source), spec.look));
   }
   return loaded;
 }
@@ -95,6 +110,7 @@ void RenderLoop::frame(bool last) {
   const Input input = renderer_.begin_frame();
   closed_ = closed_ || input.close;
   steer(input);
+  if (input.switch_strain) switch_strain();
   if (!options_.no_panel) obey(lay_out_panel(panel_view(begin_ns)));
   if (due.indent) take_close_up(*dent);
   draw(due.numbered);
@@ -154,6 +170,12 @@ void RenderLoop::obey(const PanelActions& actions) {
   choices_.endoscope ^= actions.switch_camera;
   choices_.arrows ^= actions.switch_arrows;
   choices_.markers ^= actions.switch_markers;
+  if (actions.switch_strain) switch_strain();
+}
+
+void RenderLoop::switch_strain() {
+  choices_.strain = !choices_.strain;
+  view_.map_strain(choices_.strain);
 }
 
 void RenderLoop::command(std::uint32_t command) {
@@ -167,6 +189,7 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   panel.endoscope = choices_.endoscope;
   panel.arrows = choices_.arrows;
   panel.markers = choices_.markers;
+  panel.strain = choices_.strain;
   watch_.describe(view_, now_ns, panel);
   return panel;
 }
@@ -186,6 +209,7 @@ nlohmann::json RenderLoop::report() const {
           {"frames", record.ticks},
           {"frame_us", runtime::to_json(record.compute.percentiles())},
           {"deepest_dent_m", watch_.largest_dent_m()},
+          {"unmatched_states", watch_.unmatched_states()},
           {"closed", closed_},
           {"faults", faults_.lines()}};
 }

@@ -40,7 +40,7 @@ class RenderLoop {
   /// std::runtime_error when deform_node turns out to serve another organ.
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
-  /// window, and `deepest_dent_m` (dent.h).
+  /// window, `deepest_dent_m` (dent.h) and `unmatched_states` (inbox.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.
@@ -61,6 +61,7 @@ class RenderLoop {
   void finish_frame(std::int64_t begin_ns, bool for_disk);
   void steer(const Input& input);
   void obey(const PanelActions& actions);
+  void switch_strain();
   void command(std::uint32_t command);
   PanelView panel_view(std::int64_t now_ns) const;
   void tell_status(std::int64_t now_ns);

@@ -21,14 +21,17 @@ struct Size {
 };
 
 /// A corner of a triangle. `rest` is where it was before any deformation: patterns stick to it.
-/// `openness` is the fraction of ambient light that reaches it, 0 to 1.
+/// `openness` is the fraction of ambient light that reaches it, `charring` how far heat browned it, 0 to 1;
+/// `strain` by which share the tissue there is longer or shorter than at rest (surface_strain.h).
 struct Vertex {
   Vec3f position;
   Vec3f normal;  // outward, unit
   Vec3f rest;
   float openness = 1;
+  float charring = 0;
+  float strain = 0;
 };
-static_assert(sizeof(Vertex) == 10 * sizeof(float), "uploaded as it lies in memory");
+static_assert(sizeof(Vertex) == 12 * sizeof(float), "uploaded as it lies in memory");
 
 using MeshTriangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
 
@@ -43,6 +46,9 @@ enum class MeshId : std::uint32_t {};
 /// How light meets a surface.
 enum class Look : std::uint8_t {
   kTissue,  // wet, translucent, patterned
+  kCut,     // the same, of an organ that was cut: heat may have charred it
+  kBared,   // the inside of tissue, where it was cut or torn
+  kStrain,  // tissue as a map of its strain (surface_strain.h)
   kSolid,   // metal or plastic
   kGround,  // the drape below, fading into the background
   kSignal,  // arrows and markers: not part of the world, drawn over it, nearly unlit
@@ -105,6 +111,7 @@ struct Input {
   float orbit_x = 0, orbit_y = 0;  // pixels dragged with the left button
   float pan_x = 0, pan_y = 0;      // pixels dragged with the right or middle button
   float zoom = 0;                  // wheel steps, positive towards the target
+  bool switch_strain = false;      // the key S went down
   bool close = false;
 };
 
@@ -119,6 +126,10 @@ class Renderer {
   virtual MeshId add_mesh(const MeshData& mesh) = 0;
   /// As many vertices as the mesh was added with.
   virtual void update_vertices(MeshId mesh, std::span<const Vertex> vertices) = 0;
+  /// Some of its triangles, from `first` on, become others; their number stays.
+  virtual void update_triangles(MeshId mesh, std::size_t first, std::span<const MeshTriangle> triangles) = 0;
+  /// Becomes another one, of any size.
+  virtual void replace_mesh(MeshId mesh, const MeshData& with) = 0;
 
   virtual Input begin_frame() = 0;
   virtual void draw(const Frame& frame) = 0;  // the scene, then the panel over it

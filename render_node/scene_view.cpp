@@ -101,6 +101,38 @@ void SceneView::deform(std::size_t organ, std::span<const float> values) {
   renderer_.update_vertices(organs_[organ].mesh, drawing.mesh().vertices);
 }
 
+bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<const float> values) {
+  const CutOutcome outcome = organs_[organ].drawing->cut(removed, values.size() / 3);
+  if (outcome == CutOutcome::kMisfit) return false;
+  deform(organ, values);
+  if (outcome == CutOutcome::kCut) {
+    show_cut(organs_[organ]);
+  } else if (const auto& bared = organs_[organ].bared) {
+    renderer_.update_vertices(*bared, organs_[organ].drawing->bared()->vertices);
+  }
+  return true;
+}
+
+void SceneView::map_strain(bool on) {
+  for (const auto& [drawing, mesh, bared] : organs_) {
+    drawing->map_strain(on);
+    renderer_.update_vertices(mesh, drawing->mesh().vertices);
+    if (bared) renderer_.update_vertices(*bared, drawing->bared()->vertices);
+  }
+}
+
+void SceneView::show_cut(DrawnOrgan& organ) {
+  for (const auto& [first, count] : organ.drawing->changed())
+    renderer_.update_triangles(organ.mesh, first,
+                               std::span(organ.drawing->mesh().triangles).subspan(first, count));
+  const MeshData& bared = *organ.drawing->bared();
+  if (organ.bared) {
+    renderer_.replace_mesh(*organ.bared, bared);
+  } else {
+    organ.bared = renderer_.add_mesh(bared);
+  }
+}
+
 Camera SceneView::first_camera() const {
   return start_camera(scene_.camera, ball_, viewing_direction(scene_), renderer_.size().aspect());
 }
@@ -132,7 +164,10 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
   ViewChoices near = choices;
   near.markers = near.arrows = false;  // they would cover the dent
   std::vector<const MeshData*> meshes;
-  for (const DrawnOrgan& organ : organs_) meshes.push_back(&organ.drawing->mesh());
+  for (const DrawnOrgan& organ : organs_) {
+    meshes.push_back(&organ.drawing->mesh());
+    if (organ.drawing->bared()) meshes.push_back(organ.drawing->bared());
+  }
   const Camera camera = close_up_of(dent, meshes, shafts, choices.orbit, ground_m_);
   Frame frame = frame_from(camera, near, tools, 0);
   frame.lighting = rake_light(camera, shadow_ball());
@@ -166,8 +201,15 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
-  for (const DrawnOrgan& organ : organs_)
-    frame.items.push_back({organ.mesh, Look::kTissue, Mat4f::Identity(), organ.drawing->material()});
+  for (const auto& [drawing, mesh, bared] : organs_) {
+    const bool is_cut = bared && drawing->removed_count() > 0;
+    const Look skin = is_cut ? Look::kCut : Look::kTissue;
+    frame.items.push_back(
+        {mesh, choices.strain ? Look::kStrain : skin, Mat4f::Identity(), drawing->material()});
+    if (is_cut)
+      frame.items.push_back({*bared, choices.strain ? Look::kStrain : Look::kBared, Mat4f::Identity(),
+                             drawing->bared_material()});
+  }
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;
     add_instrument(t, tools[t], frame.items);

@@ -27,6 +27,7 @@ struct ViewChoices {
   Camera orbit;
   bool endoscope = false;
   bool arrows = true;
+  bool strain = false;   // organs as a map of their strain, after SceneView::map_strain
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
 };
 
@@ -43,6 +44,12 @@ class SceneView {
 
   /// `values`: of a whole state of that organ (OrganDrawing::deform).
   void deform(std::size_t organ, std::span<const float> values);
+  /// The organ as a state has it, of which `removed` is gone. False: it has no such states; nothing was
+  /// changed.
+  [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values);
+
+  /// Whether organs tell their strain from here on: ViewChoices::strain shows it.
+  void map_strain(bool on);
 
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
@@ -56,6 +63,8 @@ class SceneView {
   /// Where the orbit camera starts.
   Camera first_camera() const;
   const Ball& ball() const { return ball_; }
+  /// Tetrahedra of an organ as it is drawn.
+  std::int32_t removed_count(std::size_t organ) const { return organs_[organ].drawing->removed_count(); }
   /// Null for an organ that tools do not dent.
   const PressedSurface* surface(std::size_t organ) const { return organs_[organ].drawing->surface(); }
   std::size_t organ_count() const { return organs_.size(); }
@@ -64,11 +73,13 @@ class SceneView {
   struct DrawnOrgan {
     std::unique_ptr<OrganDrawing> drawing;
     MeshId mesh{};
+    std::optional<MeshId> bared{};  // made when it is first cut
   };
   struct DrawnPart {
     InstrumentPart part;
     MeshId mesh{};
   };
+  void show_cut(DrawnOrgan& organ);
   const PressedSurface* touched_surface(const ToolNow& tool) const;
   Ball shadow_ball() const;  // what the shadow map covers
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;

@@ -22,11 +22,6 @@ std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
   return infos;
 }
 
-bool is_cut(const msg::Topology& topology) {
-  return std::any_of(topology.removed_bits.begin(), topology.removed_bits.end(),
-                     [](std::uint8_t byte) { return byte != 0; });
-}
-
 }  // namespace
 
 SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
@@ -49,11 +44,12 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
 
 void SessionWatch::listen(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns) {
   listen_to_scene(inbox, faults, now_ns);
-  listen_to_organs(inbox, view, now_ns);
+  listen_to_organs(inbox, view, faults, now_ns);
   for (std::size_t t = 0; t < tools_.size(); ++t) listen_to_tool(inbox, t, now_ns);
   find_deepest_dent(view, now_ns);
   statuses_ = inbox.statuses();
   incomplete_states_ = inbox.incomplete_states();
+  unmatched_states_ = inbox.unmatched_states();
   ordered_to_pause_ = inbox.orders().paused();
   if (inbox.orders().take_reset()) {
     for (ForceHistory& history : histories_) history.clear();
@@ -66,17 +62,17 @@ void SessionWatch::listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std
     if (why && seconds_since_begin(now_ns) <= node::kSettled_s) throw std::runtime_error(*why);
     if (why) faults.raise(node::kForeignScene);
   }
-  for (std::size_t i = 0; i < loaded_.organ_count; ++i) {
-    if (const msg::Topology* topology = inbox.fetch_topology(i); topology && is_cut(*topology))
-      faults.raise("an organ was cut, but this render_node draws whole organs only");
-  }
 }
 
-void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t now_ns) {
+void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, runtime::FaultList& faults,
+                                    std::int64_t now_ns) {
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
     const AssembledState* state = inbox.fetch_state(i);
     if (!state) continue;
-    view.deform(i, state->values);
+    if (!view.show(i, state->removed, state->values)) {
+      faults.raise(kMisfitState);
+      continue;
+    }
     echoes_[i] = state->echoes;
     state_arrived_ns_[i] = now_ns;
     fresh_echoes_ = true;
@@ -177,11 +173,13 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   panel.hand_to_force_p99_us = round_trip.p99;
   panel.hand_to_picture_us = hand_to_picture_.percentile_us(0.5);
   panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
+  panel.real_time_factor = real_time_factor(statuses_, now_ns);
   panel.dent_mm = dent_ ? 1e3 * dent_->depth_m : 0;
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
     OrganRow& row = panel.organs.emplace_back();
     if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
     row.known = state_arrived_ns_[i] > 0;
+    row.removed_tetrahedra = view.removed_count(i);
     row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);
     if (const PressedSurface* surface = view.surface(i)) {
       row.moved_mm = 1e3 * surface->skin.largest_displacement_m();

@@ -31,13 +31,15 @@ class SessionWatch {
   const std::optional<Dent>& deepest_dent() const { return dent_; }
   /// Of the whole session, m.
   double largest_dent_m() const { return largest_dent_m_; }
+  /// States that were not drawn because of their topology (inbox.h).
+  std::uint64_t unmatched_states() const { return unmatched_states_; }
 
   /// Fills in everything but what the person at the window chose.
   void describe(const SceneView& view, std::int64_t now_ns, PanelView& panel) const;
 
  private:
   void listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std::int64_t now_ns) const;
-  void listen_to_organs(Inbox& inbox, SceneView& view, std::int64_t now_ns);
+  void listen_to_organs(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns);
   void listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
   void listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
   static void draw_contact(const msg::Contact& contact, ToolNow& now);
@@ -61,7 +63,7 @@ class SessionWatch {
   double largest_dent_m_ = 0;
   std::vector<HeardStatus> statuses_;
   bool ordered_to_pause_ = false;
-  std::uint64_t incomplete_states_ = 0;
+  std::uint64_t incomplete_states_ = 0, unmatched_states_ = 0;
   runtime::Histogram hand_to_picture_;
 };
 

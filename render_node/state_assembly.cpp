@@ -5,9 +5,9 @@
 
 namespace omentum::render {
 
-StateAssembly::StateAssembly(std::uint32_t kind, std::size_t node_count, double reach_m)
-    : kind_(kind), reach_m_(static_cast<float>(reach_m)) {
-  state_.values.assign(3 * node_count, 0.0f);
+StateAssembly::StateAssembly(std::uint32_t kind, NodeCounts counts, double reach_m)
+    : kind_(kind), counts_(counts), reach_m_(static_cast<float>(reach_m)) {
+  state_.values.assign(3 * counts.whole, 0.0f);
 }
 
 StateAssembly::Outcome StateAssembly::take(const msg::OrganState& block,
@@ -15,24 +15,33 @@ StateAssembly::Outcome StateAssembly::take(const msg::OrganState& block,
   if (!fits(block)) return Outcome::kMisfit;
   if (arrived_.empty() || block.seq != state_.seq) {
     if (!arrived_.empty() && !newer(block)) return Outcome::kLate;
-    if (state_.missing_blocks > 0) show(state_);
+    if (state_.missing_blocks > 0 && may_lack_blocks_) show(state_);
     begin(block);
   }
+  if (!of_this_state(block)) return Outcome::kMisfit;
   late_in_a_row_ = 0;
   if (arrived_.size() != block.block_count || arrived_[block.block]) return Outcome::kLate;  // a duplicate
   std::copy(block.values.begin(), block.values.end(),
             state_.values.begin() + 3 * std::ptrdiff_t{block.first});
   arrived_[block.block] = true;
-  if (--state_.missing_blocks == 0) show(state_);
+  if (--state_.missing_blocks == 0) {
+    may_lack_blocks_ = true;
+    show(state_);
+  }
   return Outcome::kTaken;
 }
 
 bool StateAssembly::fits(const msg::OrganState& block) const {
-  return block.kind == kind_ && 3 * std::size_t{block.node_count} == state_.values.size() &&
+  return block.kind == kind_ && block.node_count >= counts_.whole && block.node_count <= counts_.most &&
          block.block < block.block_count && block.block_count <= std::max(block.node_count, 1u) &&
-         3 * std::size_t{block.first} + block.values.size() <= state_.values.size() &&
+         3 * std::size_t{block.first} + block.values.size() <= 3 * std::size_t{block.node_count} &&
          std::all_of(block.values.begin(), block.values.end(),
                      [this](float x) { return std::abs(x) <= reach_m_; });
+}
+
+bool StateAssembly::of_this_state(const msg::OrganState& block) const {
+  return 3 * std::size_t{block.node_count} == state_.values.size() &&
+         block.topology_version == state_.topology_version;
 }
 
 bool StateAssembly::newer(const msg::OrganState& block) {
@@ -41,6 +50,11 @@ bool StateAssembly::newer(const msg::OrganState& block) {
 }
 
 void StateAssembly::begin(const msg::OrganState& block) {
+  if (!of_this_state(block)) {
+    state_.topology_version = block.topology_version;
+    state_.values.assign(3 * std::size_t{block.node_count}, 0.0f);
+    may_lack_blocks_ = false;
+  }
   state_.seq = block.seq;
   state_.stamp_ns = block.stamp_ns;
   state_.echoes = block.echoes;

@@ -48,7 +48,7 @@ class GridNumbering {
 
 SurfaceRefinement::SurfaceRefinement(std::span<const geometry::Triangle> triangles, std::int32_t node_count,
                                      int level) {
-  for (std::int32_t s = 0; s < node_count; ++s) vertices_.push_back({{s, s, s}, Vec3f::UnitX()});
+  for (std::int32_t s = 0; s < node_count; ++s) places_.push_back({{s, s, s}, Vec3f::UnitX()});
   GridNumbering numbering(node_count, level);
   std::vector<std::uint32_t> grid(static_cast<std::size_t>((level + 1) * (level + 1)));
   const auto at = [&](int i, int j) -> std::uint32_t& {
@@ -62,7 +62,7 @@ SurfaceRefinement::SurfaceRefinement(std::span<const geometry::Triangle> triangl
         const std::array<int, 3> w{level - i - j, i, j};
         bool fresh = false;
         at(i, j) = numbering.number(t, w, fresh);
-        if (fresh) vertices_.push_back({t, Vec3f(w[0], w[1], w[2]) / static_cast<float>(level)});
+        if (fresh) places_.push_back({t, Vec3f(w[0], w[1], w[2]) / static_cast<float>(level)});
       }
     }
     // small triangles of the same orientation, and the ones between them
@@ -75,8 +75,9 @@ SurfaceRefinement::SurfaceRefinement(std::span<const geometry::Triangle> triangl
   }
 }
 
-Vec3f SurfaceRefinement::curved(const RefinedVertex& v, std::span<const Vec3f> positions,
+Vec3f SurfaceRefinement::curved(std::size_t vertex, std::span<const Vec3f> positions,
                                 std::span<const Vec3f> normals) const {
+  const Place& v = places_[vertex];
   Vec3f flat = Vec3f::Zero();
   for (int c = 0; c < 3; ++c) flat += v.weight[c] * positions[v.node[c]];
   Vec3f offset = Vec3f::Zero();
@@ -89,14 +90,14 @@ Vec3f SurfaceRefinement::curved(const RefinedVertex& v, std::span<const Vec3f> p
 
 void SurfaceRefinement::curve(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                               std::span<Vec3f> out) const {
-  for (std::size_t i = 0; i < vertices_.size(); ++i) out[i] = curved(vertices_[i], positions, normals);
+  for (std::size_t i = 0; i < places_.size(); ++i) out[i] = curved(i, positions, normals);
 }
 
 void SurfaceRefinement::apply(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                               std::span<const float> openness, std::span<Vertex> out) const {
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    const RefinedVertex& v = vertices_[i];
-    out[i].position = curved(v, positions, normals);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& v = places_[i];
+    out[i].position = curved(i, positions, normals);
     Vec3f normal = Vec3f::Zero();
     out[i].openness = 0;
     for (int c = 0; c < 3; ++c) {
@@ -105,6 +106,15 @@ void SurfaceRefinement::apply(std::span<const Vec3f> positions, std::span<const 
     }
     const float length = normal.norm();
     out[i].normal = length > 0 ? Vec3f(normal / length) : normals[v.node[0]];
+  }
+}
+
+void SurfaceRefinement::spread(std::span<const float> of_nodes, float Vertex::*field,
+                               std::span<Vertex> out) const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto& [node, weight] = places_[i];
+    out[i].*field = 0;
+    for (int c = 0; c < 3; ++c) out[i].*field += weight[c] * of_nodes[static_cast<std::size_t>(node[c])];
   }
 }
 

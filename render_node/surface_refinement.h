@@ -17,7 +17,14 @@ class SurfaceRefinement {
   /// level >= 1; 1 leaves the surface as it is.
   SurfaceRefinement(std::span<const geometry::Triangle> triangles, std::int32_t node_count, int level);
 
-  std::size_t vertex_count() const { return vertices_.size(); }
+  /// Where a refined vertex lies: in a triangle, on an edge (one weight is 0) or at a node (two are).
+  struct Place {
+    std::array<std::int32_t, 3> node;
+    Vec3f weight;  // sums to 1
+  };
+  const std::vector<Place>& places() const { return places_; }  // the S nodes first
+  std::size_t vertex_count() const { return places_.size(); }
+  /// level^2 for each of the triangles that it was made of, in their order.
   const std::vector<MeshTriangle>& triangles() const { return triangles_; }
 
   /// Curved positions: `out` [vertex_count] from `positions` and `normals` [S].
@@ -25,16 +32,13 @@ class SurfaceRefinement {
   /// Everything that changes from frame to frame: position, normal, openness; `rest` is left alone.
   void apply(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
              std::span<const float> openness, std::span<Vertex> out) const;
+  /// One value of each node, [S], to a field of the vertices.
+  void spread(std::span<const float> of_nodes, float Vertex::*field, std::span<Vertex> out) const;
+  /// The curved position of one vertex.
+  Vec3f curved(std::size_t vertex, std::span<const Vec3f> positions, std::span<const Vec3f> normals) const;
 
  private:
-  struct RefinedVertex {
-    std::array<std::int32_t, 3> node;
-    Vec3f weight;  // sums to 1
-  };
-  Vec3f curved(const RefinedVertex& v, std::span<const Vec3f> positions,
-               std::span<const Vec3f> normals) const;
-
-  std::vector<RefinedVertex> vertices_;  // the S nodes first
+  std::vector<Place> places_;
   std::vector<MeshTriangle> triangles_;
 };
 

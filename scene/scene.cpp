@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "messages/common.h"
+#include "scene/dynamics_keys.h"
 #include "scene/toml_section.h"
 
 #include <algorithm>
@@ -12,8 +13,9 @@ namespace {
 
 using enum TomlSection::Need;
 
-// What organ_phantom makes: the liver in two sizes, and its gallbladder.
-constexpr std::array<std::string_view, 3> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder"};
+// What organ_phantom makes: the liver in two sizes, its gallbladder, and two pieces of tissue.
+constexpr std::array<std::string_view, 5> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder",
+                                                    "phantom:plate", "phantom:cylinder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
@@ -31,6 +33,9 @@ constexpr Range kStale_s{.minimum = 0, .maximum = 0.025, .above = true};
 // Faster is a blow, slower pushes a hand that has let go, or whose device is dead.
 constexpr Range kDecay_s{.minimum = 0.002, .maximum = 0.05};
 
+// No instrument's edge is longer: more is a wrong unit.
+constexpr double kLongestEdge_m = 0.2;
+
 // A path in a scene is meant from the scene's folder.
 std::filesystem::path beside(const std::filesystem::path& scene, const std::filesystem::path& file) {
   return (scene.parent_path() / file).lexically_normal();
@@ -40,12 +45,12 @@ void read_model(TomlSection& s, OrganSpec& organ) {
   std::vector<std::string> words;
   for (const OrganModelWord& model : kOrganModels) words.emplace_back(model.word);
   s.read_word("model", organ.model, kOptional, words);
-  organ.kind = std::find_if(kOrganModels.begin(), kOrganModels.end(), [&](const OrganModelWord& model) {
-                 return model.word == organ.model;
-               })->kind;
+  const OrganModelWord& chosen = *std::ranges::find(kOrganModels, organ.model, &OrganModelWord::word);
+  organ.kind = chosen.kind;
+  if (chosen.feel == Feel::kLocalModels) organ.dynamics = read_dynamics(s, organ.model);
 }
 
-RegionSpec read_region(TomlSection& s) {
+RegionSpec read_region(TomlSection& s, bool tears) {
   RegionSpec region;
   s.read("label", region.label);
   s.read("box", region.box, 6);
@@ -53,6 +58,7 @@ RegionSpec read_region(TomlSection& s) {
   s.read("young_pa", region.young_pa, kPositive);
   s.read("poisson", region.poisson, kPoisson);
   s.read("density_kg_m3", region.density_kg_m3, kPositive);
+  if (tears) region.tears = read_tears(s);
   s.refuse_unknown_keys();
   if (region.label.has_value() + !region.box.empty() + !region.ball.empty() != 1)
     s.refuse("label", "none or several of label, box and ball", "one of them");
@@ -76,17 +82,35 @@ OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   s.read("density_kg_m3", organ.density_kg_m3, kRequired, kPositive);
   s.read("fixed", organ.fixed, kRequired);
   s.read("file", file, kOptional);
-  for (TomlSection& region : s.sections("regions")) organ.regions.push_back(read_region(region));
+  for (TomlSection& region : s.sections("regions"))
+    organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
   s.read_word("look", organ.look, kOptional, {"liver", "gallbladder"});
   s.refuse_unknown_keys();
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();
   } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
     s.refuse("mesh", "\"" + organ.mesh + "\"",
-             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\" or a file");
+             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:plate\", "
+             "\"phantom:cylinder\" or a file");
   }
   if (!file.empty()) organ.file = beside(scene, file);
   return organ;
+}
+
+// What cuts, and where it does: both keys or none.
+void read_edge(TomlSection& s, ToolSpec& tool) {
+  bool cuts = false;
+  s.read("cuts", cuts, kOptional);
+  s.read("edge", tool.edge, cuts ? kRequired : kOptional);
+  if (!cuts && s.has("edge"))
+    s.refuse("edge", "an edge of a tool that does not cut", "cuts = true beside it");
+  if (!cuts) return;
+  if (tool.edge.size() != 2)
+    s.refuse("edge", std::to_string(tool.edge.size()) + " points", "two, its begin and end");
+  const double length_m = (tool.edge[1] - tool.edge[0]).norm();
+  if (!(length_m > 0 && length_m <= kLongestEdge_m))
+    s.refuse("edge", "an edge of " + std::to_string(length_m) + " m",
+             "one above 0 and up to " + std::to_string(kLongestEdge_m) + " m");
 }
 
 ToolSpec read_tool(TomlSection& s) {
@@ -98,6 +122,7 @@ ToolSpec read_tool(TomlSection& s) {
   s.read("shaft_radius_m", tool.shaft_radius_m, kOptional, kPositive);
   s.read("shaft_length_m", tool.shaft_length_m, kOptional, kPositive);
   s.read("trocar", tool.trocar);
+  read_edge(s, tool);
   s.refuse_unknown_keys();
   return tool;
 }
@@ -115,6 +140,7 @@ HandSpec read_hand(TomlSection& s) {
   s.read("hover_m", hand.hover_m, kOptional, kPositive);
   s.read("depth_m", hand.depth_m, kOptional, kNotNegative);
   s.read("slide_m", hand.slide_m, kOptional, kNotNegative);
+  s.read("cut", hand.cut, kOptional);
   s.read("start_s", hand.start_s, kOptional, kNotNegative);
   s.read("approach_s", hand.approach_s, kOptional, kPositive);
   s.read("press_s", hand.press_s, kOptional, kPositive);
@@ -177,9 +203,11 @@ void refuse_wrong_hands(const Scene& scene, std::vector<TomlSection>& sections) 
     const std::uint32_t id = scene.hands[i].tool;
     const auto is_tool = [id](const ToolSpec& tool) { return tool.id == id; };
     const auto is_hand = [id](const HandSpec& hand) { return hand.tool == id; };
-    if (std::none_of(scene.tools.begin(), scene.tools.end(), is_tool)) {
+    const auto tool = std::ranges::find_if(scene.tools, is_tool);
+    if (tool == scene.tools.end())
       sections[i].refuse("tool", std::to_string(id), "the id of one of the [[tools]]");
-    }
+    if (scene.hands[i].cut && tool->edge.empty())
+      sections[i].refuse("cut", "true with a tool that does not cut", "a tool with cuts = true");
     if (std::any_of(scene.hands.begin(), scene.hands.begin() + static_cast<std::ptrdiff_t>(i), is_hand)) {
       sections[i].refuse("tool", std::to_string(id) + " again", "another tool for each hand");
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/types.h"
+#include "scene/dynamics_spec.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,12 +18,24 @@ using geometry::Vec3;
 /// What an organ consists of: how it is loaded, touched and drawn. How it moves is its model's affair.
 enum class OrganKind : std::uint8_t { kTetrahedralMesh };
 
-/// A model that a scene may choose for an organ, and the kind of organ that it moves.
+/// How a hand knows what an organ answers.
+enum class Feel : std::uint8_t {
+  kTensors,      // haptic_node has its precomputed tensors
+  kLocalModels,  // deform_node tells of the surface around each tool, again and again
+};
+
+/// A model that a scene may choose for an organ, the kind of organ that it moves, and how that is felt.
 struct OrganModelWord {
   std::string_view word;
   OrganKind kind;
+  Feel feel = Feel::kTensors;
 };
-inline constexpr std::array kOrganModels{OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh}};
+inline constexpr std::array kOrganModels{
+    OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh},
+    OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+    OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+    OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+};
 
 /// A part of an organ that is of another material: at one of label, box and ball; what is absent of the
 /// material is the organ's (organ_build --region).
@@ -31,6 +44,7 @@ struct RegionSpec {
   std::vector<double> box;            // x0, y0, z0, x1, y1, z1, m; or empty
   std::vector<double> ball;           // x, y, z, radius, m; or empty
   std::optional<double> young_pa, poisson, density_kg_m3;
+  TearSpec tears;
 };
 
 /// An organ as the scene describes it: enough to build its file, or a built file.
@@ -42,10 +56,11 @@ struct OrganSpec {
       mesh;  // a mesh or organ file (relative to the scene), or "phantom:..." (scene.cpp has the words)
   double metres_per_unit = 1;
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
-  std::vector<RegionSpec> regions;  // of several that overlap the last one holds
-  std::string fixed;                // as organ_build --fixed takes it
-  std::string look = "liver";       // "liver" or "gallbladder": how it is drawn
-  std::filesystem::path file;       // the organ file (.h5); the launcher fills it in, --organ overrides it
+  std::vector<RegionSpec> regions;       // of several that overlap the last one holds
+  std::string fixed;                     // as organ_build --fixed takes it
+  std::string look = "liver";            // "liver" or "gallbladder": how it is drawn
+  std::optional<DynamicsSpec> dynamics;  // of a model that moves by itself
+  std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
 
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the
@@ -57,6 +72,7 @@ struct ToolSpec {
   std::vector<Vec3> points;  // [P] p_TP, m
   double shaft_radius_m = 0.0025, shaft_length_m = 0.3;
   std::optional<Vec3> trocar;  // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
+  std::vector<Vec3> edge;      // begin and end of what cuts while its button is pressed, in T, m; or empty
 };
 
 /// A simulated hand: a mass on a spring and damper to a target that moves along a script.
@@ -70,6 +86,7 @@ struct HandSpec {
   double hover_m = 0.03;                 // start this far above
   double depth_m = 0.01;                 // the target goes this far below the rest surface (0: hovers only)
   double slide_m = 0.03;
+  bool cut = false;  // presses the tool's button while it slides
   double start_s = 1, approach_s = 2, press_s = 1.5, hold_s = 2, slide_s = 3, release_s = 1.5;  // then again
 };
 

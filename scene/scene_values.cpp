@@ -13,6 +13,10 @@ std::string text_of(double number) {
   return {digits, std::to_chars(digits, digits + sizeof(digits), number).ptr};
 }
 
+std::string text_of(bool value) {
+  return value ? "true" : "false";
+}
+
 std::string text_of(std::uint32_t number) {
   return std::to_string(number);
 }
@@ -62,6 +66,25 @@ class Table {
   std::vector<std::string>& values_;
 };
 
+void add(const TearSpec& tears, const std::string& of, Table& table) {
+  table.add(of + "tear_volume_change", tears.volume_change);
+  table.add(of + "tear_mean_elongation", tears.mean_elongation);
+  table.add(of + "tear_edge_elongation", tears.edge_elongation);
+  table.add(of + "tear_stress_pa", tears.stress_pa);
+}
+
+void add(const DynamicsSpec& dynamics, Table& table) {
+  table.add("integrator", dynamics.integrator);
+  table.add("step_s", dynamics.step_s);
+  table.add("mass_damping_per_s", dynamics.mass_damping_per_s);
+  table.add("stiffness_damping_s", dynamics.stiffness_damping_s);
+  table.add("gravity_m_s2", dynamics.gravity_m_s2);
+  add(dynamics.tears, "", table);
+  table.add("cut_delay_s", dynamics.cut_delay_s);
+  table.add("cut_rate_per_s", dynamics.cut_rate_per_s);
+  table.add("smallest_piece_m3", dynamics.smallest_piece_m3);
+}
+
 void add(const OrganSpec& organ, Table table) {
   table.add("name", organ.name);
   table.add("model", organ.model);
@@ -69,6 +92,7 @@ void add(const OrganSpec& organ, Table table) {
   table.add("poisson", organ.poisson);
   table.add("density_kg_m3", organ.density_kg_m3);
   table.add("fixed", supports_of(organ));
+  if (organ.dynamics) add(*organ.dynamics, table);
   for (std::size_t i = 0; i < organ.regions.size(); ++i) {
     const RegionSpec& region = organ.regions[i];
     const std::string of = "regions[" + std::to_string(i) + "].";
@@ -78,6 +102,7 @@ void add(const OrganSpec& organ, Table table) {
     table.add(of + "young_pa", region.young_pa);
     table.add(of + "poisson", region.poisson);
     table.add(of + "density_kg_m3", region.density_kg_m3);
+    if (organ.dynamics) add(region.tears, of, table);
   }
 }
 
@@ -90,6 +115,8 @@ void add(const ToolSpec& tool, Table table) {
   table.add("shaft_radius_m", tool.shaft_radius_m);
   table.add("shaft_length_m", tool.shaft_length_m);
   table.add("trocar", tool.trocar);
+  for (std::size_t i = 0; i < tool.edge.size(); ++i)
+    table.add("edge[" + std::to_string(i) + "]", tool.edge[i]);
 }
 
 void add(const HandSpec& hand, Table table) {
@@ -104,6 +131,7 @@ void add(const HandSpec& hand, Table table) {
   table.add("hover_m", hand.hover_m);
   table.add("depth_m", hand.depth_m);
   table.add("slide_m", hand.slide_m);
+  table.add("cut", hand.cut);
   table.add("start_s", hand.start_s);
   table.add("approach_s", hand.approach_s);
   table.add("press_s", hand.press_s);

@@ -121,6 +121,15 @@ void TomlSection::read(const std::string& key, std::vector<Vec3>& value, Need ne
   }
 }
 
+void TomlSection::read(const std::string& key, bool& value, Need need) {
+  const std::string expected = "true or false";
+  const toml::node* node = find(key, need, expected);
+  if (node == nullptr) return;
+  const auto truth = node->value_exact<bool>();
+  if (!truth) refuse(key, as_written(*node), expected);
+  value = *truth;
+}
+
 void TomlSection::read_word(const std::string& key, std::string& value, Need need,
                             const std::vector<std::string>& words) {
   const toml::node* node = find(key, need, "one of " + join(words));

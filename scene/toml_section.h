@@ -45,6 +45,7 @@ class TomlSection {
   void read(const std::string& key, double& value, Need need, const Range& range = kAny);
   void read(const std::string& key, std::uint32_t& value, Need need, std::uint32_t maximum);
   void read(const std::string& key, std::string& value, Need need);
+  void read(const std::string& key, bool& value, Need need);
   void read(const std::string& key, Vec3& value, Need need);
   void read(const std::string& key, std::optional<Vec3>& value);
   void read(const std::string& key, std::optional<double>& value, const Range& range);

@@ -2,6 +2,7 @@
 import argparse
 import os
 import pathlib
+import tomllib
 from dataclasses import dataclass, field
 
 from .errors import Refusal
@@ -44,6 +45,15 @@ class OneLineParser(argparse.ArgumentParser):
         raise Refusal(f"{message} (see launch_scripts/run --help)")
 
 
+class ListScenes(argparse.Action):
+    """Says what there is, a line each, and ends."""
+
+    def __call__(self, parser, *_):
+        for file in sorted((REPOSITORY / "scenes").glob("*.toml")):
+            print(f"{file.stem:16}{tomllib.loads(file.read_text(encoding='utf-8'))['name']}")
+        parser.exit()
+
+
 def build_parser():
     parser = OneLineParser(
         prog="launch_scripts/run",
@@ -53,6 +63,7 @@ def build_parser():
         "the built programs (default: build/release/bin, built when needed).")
     add = parser.add_argument
     add("scene", nargs="?", metavar="SCENE", help="scene file or name of a file in scenes/ (default: liver)")
+    add("--list", nargs=0, action=ListScenes, help="say which scenes there are, and end")
     add("--seconds", type=float, metavar="N", help="end after N seconds (default: when told to)")
     add("--out", metavar="DIR", default="out", help="report.json and pictures go here (default: out)")
     add("--dds", default="fast", metavar="VENDOR",

@@ -13,7 +13,7 @@ LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to
 # Of a foreign mesh's length, where --fixed is not given: an organ is held at an edge (ligaments), but lies on its whole
 # underside; held at its lowest tip only, it would rock under the hand.
 SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
-
+PHANTOM_PARTS = ("gallbladder", "plate", "cylinder")  # beside the liver, in one size each
 
 told_warnings = set()  # without the program's name: organ_build and scene_prepare say the same of one organ
 
@@ -61,9 +61,9 @@ def describe(options, scene):
 
 
 def phantom_mesh(options, cache, kind):
-    """`kind`: what a scene's mesh "phantom:KIND" says, the gallbladder or a size of the liver."""
+    """`kind`: what a scene's mesh "phantom:KIND" says, a part of the phantom or a size of the liver."""
     program = options.programs / "organ_phantom"
-    option, name, what = (("--part", kind, f"the {kind}") if kind == "gallbladder" else
+    option, name, what = (("--part", kind, f"the {kind}") if kind in PHANTOM_PARTS else
                           ("--size", f"liver_{kind}", f"the liver ({kind} size)"))
     return cache.get(f"{name}.msh", ["phantom", kind, program],
                      lambda file: run_tool(options, ["organ_phantom", option, kind, "-o", file], f"making {what}"))

@@ -15,9 +15,12 @@ NO_LOOP = {"rate_hz": 0.0, "ticks": 0, "missed": 0, "period_us": NONE_US, "compu
 # every field that a report has, whatever became of the node
 FIELDS = {
     "haptic_node": {"loop": NO_LOOP, "force_n": {"mean": 0.0, "max": 0.0},
-                    "contacts": {"ticks_in_contact": 0, "nodes_max": 0}, "faults": []},
-    "deform_node": {"loop": NO_LOOP, "states": 0, "steps": 0, "removed_tetrahedra": 0, "faults": []},
-    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "closed": False, "faults": []},
+                    "contacts": {"ticks_in_contact": 0, "nodes_max": 0},
+                    "local_models": {"heard": 0, "dropped": 0, "gone": 0}, "faults": []},
+    "deform_node": {"loop": NO_LOOP, "states": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
+                    "cuts": {"way_cm": 0.0, "lost_cm3": 0.0, "lost_cm3_per_cm": 0.0}, "real_time_factor": 0.0, "faults": []},
+    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "closed": False,
+                    "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
 MEETING_S = 5.0  # two Fast participants may need 2.9 s to find each other, and haptic_node listens for one

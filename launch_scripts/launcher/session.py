@@ -55,7 +55,9 @@ class Session:
 
     # starting
     def make_nodes(self):
-        own = {"haptic_node": [], "deform_node": [], "render_node": ["--out", str(self.options.out.resolve())]}
+        journal = pathlib.Path(self.folder.name) / "cuts.json"  # ends with the session, outlives its nodes
+        own = {"haptic_node": [], "deform_node": ["--journal", str(journal)],
+               "render_node": ["--out", str(self.options.out.resolve())]}
         if self.options.device != "none":
             own["virtual_device"] = ["--trace", str(self.options.trace)] if self.options.trace else []
         if self.options.rate_hz:

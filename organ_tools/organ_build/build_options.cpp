@@ -29,12 +29,15 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
               "makes one node of those that are at most so far apart, m: for parts glued by copying")
       .not_negative()
       .type_name("METRES");
+  line.flag("--repair", command.check.repair,
+            "drops tetrahedra that hang on a node or an edge only, where these are refused; says which, and "
+            "how much volume");
   line.option(
           "--fixed", command.fixed,
           "what holds the organ; repeat for a union: FILE.csv of node numbers (one a line, or the column "
           "that "
           "a header calls node or id), plane:x<0.03 or box:x0,y0,z0,x1,y1,z1 in metres, each optionally with "
-          ":xz for single components")
+          ":xz for single components; + joins planes and boxes")
       .required()
       .type_name("SPEC");
   line.option(

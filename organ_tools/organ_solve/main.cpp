@@ -3,6 +3,8 @@
 #include "organ_tools/fast_blas.h"
 #include "organ_tools/numbering_option.h"
 #include "organ_tools/organ_solve/imposed_csv.h"
+#include "organ_tools/organ_solve/move_to_rest.h"
+#include "organ_tools/organ_solve/removed_csv.h"
 #include "organ_tools/organ_solve/solution_csv.h"
 #include "organ_tools/organ_solve/solve_models.h"
 #include "runtime/command_line.h"
@@ -18,7 +20,7 @@ struct SolveCommand {
   std::filesystem::path imposed;
   std::string model = "tensors";
   std::string gravity;
-  std::string removed;
+  std::filesystem::path removed;
   std::string prefix;
   geometry::Numbering numbering = geometry::Numbering::kFile;
 };
@@ -28,9 +30,16 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
   line.option("--imposed", command.imposed, "CSV: node,ux,uy,uz (m), in this order or as a header names them")
       .type_name("FILE");
   organ_tools::add_numbering_option(line, command.numbering);
-  line.option("--model", command.model, "tensors or direct").type_name("MODEL").show_default();
+  line.option("--model", command.model,
+              "tensors, direct, or one that moves until it rests: tensor-mass, corotational, spring-mass")
+      .type_name("MODEL")
+      .show_default();
   line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
-  line.option("--remove", command.removed, "removed tetrahedra: not part of this version").type_name("FILE");
+  line.option(
+          "--remove", command.removed,
+          "CSV: tetrahedra to take out first, with what then hangs on one node or edge; they weigh nothing "
+          "any more, and nodes without any left stay where they are")
+      .type_name("FILE");
   line.option(
           "-o,--output", command.prefix,
           "writes PREFIX.u.csv, displacements (m), and PREFIX.f.csv, all that holds each imposed node (N): "
@@ -40,13 +49,15 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
 }
 
 void require_offered(const SolveCommand& command) {
-  if (command.model != "tensors" && command.model != "direct") {
-    throw geometry::InputError("--model " + command.model +
-                               ": not part of this version; expected tensors or direct");
+  const bool tensors = command.model == "tensors";
+  if (!tensors && command.model != "direct" && !organ_tools::is_dynamic_model(command.model)) {
+    throw geometry::InputError(
+        "--model " + command.model +
+        ": not part of this version; expected tensors, direct, tensor-mass, corotational or spring-mass");
   }
-  if (!command.removed.empty()) {
-    throw geometry::InputError("--remove " + command.removed +
-                               ": not part of this version, which cuts nothing");
+  if (tensors && !command.removed.empty()) {
+    throw geometry::InputError("--remove " + command.removed.string() +
+                               ": stored tensors are of the uncut organ; expected another --model");
   }
   if (command.imposed.empty() && command.gravity.empty()) {
     throw geometry::InputError("nothing to solve: expected --imposed, --gravity or both");
@@ -65,6 +76,27 @@ geometry::Vec3 parse_gravity(const std::string& text) {
   return gravity;
 }
 
+organ_tools::CutOrgan cut_of(const SolveCommand& command, const organ::Organ& organ,
+                             organ_tools::Imposed imposed) {
+  std::vector<geometry::TetId> asked;
+  if (!command.removed.empty()) asked = organ_tools::read_removed(command.removed, organ, command.numbering);
+  organ_tools::CutOrgan cut = organ_tools::cut_organ(organ, asked, imposed, command.numbering);
+  if (cut.repaired > 0) {
+    std::cerr << "organ_solve: --remove " << command.removed.string() << ": " << cut.repaired
+              << " more tetrahedra then hang on one node or edge, and are taken out too" << std::endl;
+  }
+  return cut;
+}
+
+physics::StaticSolution answer(const SolveCommand& command, const organ::Organ& organ,
+                               const organ_tools::CutOrgan& cut, organ_tools::Imposed imposed,
+                               const geometry::Vec3& gravity, std::string& warning) {
+  if (command.model == "direct") return organ_tools::solve_directly(organ, cut, imposed, gravity);
+  if (command.model != "tensors")
+    return organ_tools::move_to_rest(command.model, organ, cut, imposed, gravity);
+  return organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity, command.numbering, warning);
+}
+
 void solve(const SolveCommand& command) {
   require_offered(command);
   const geometry::Vec3 gravity = parse_gravity(command.gravity);
@@ -72,13 +104,11 @@ void solve(const SolveCommand& command) {
   std::vector<physics::ImposedDisplacement> imposed;
   if (!command.imposed.empty())
     imposed = organ_tools::read_imposed(command.imposed, organ, command.numbering);
+  const organ_tools::CutOrgan cut = cut_of(command, organ, imposed);
   if (const std::string note = organ_tools::fast_blas_note(); !note.empty())
     std::cerr << "organ_solve: " << note << std::endl;
   std::string warning;
-  const physics::StaticSolution solution =
-      command.model == "direct" ? organ_tools::solve_directly(organ, imposed, gravity)
-                                : organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity,
-                                                                  command.numbering, warning);
+  const physics::StaticSolution solution = answer(command, organ, cut, imposed, gravity, warning);
   organ_tools::require_sensible(organ, imposed, solution, command.numbering);
   if (!warning.empty()) std::cerr << "organ_solve: warning: " << warning << std::endl;
   organ_tools::write_solution(command.prefix, organ, imposed, solution, command.numbering);

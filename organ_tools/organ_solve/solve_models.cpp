@@ -19,9 +19,9 @@ using geometry::Vec3;
 constexpr double kLargestInSizes = 1000;
 
 // Loads of gravity, or none.
-std::vector<Vec3> loads_of(const organ::Organ& organ, const Vec3& gravity) {
+std::vector<Vec3> loads_of(const organ::Organ& organ, const CutOrgan& cut, const Vec3& gravity) {
   if (gravity.isZero(0)) return {};
-  return physics::body_forces(organ.mesh, organ.material, gravity);
+  return weights_of(organ, cut, gravity);
 }
 
 // What messages call a node.
@@ -85,10 +85,11 @@ void add_support_shares(const organ::Organ& organ, const physics::Stiffness& sti
 
 }  // namespace
 
-physics::StaticSolution solve_directly(const organ::Organ& organ, Imposed imposed, const Vec3& gravity) {
-  const physics::Stiffness stiffness = physics::assemble_stiffness(organ.mesh, organ.material);
-  const std::vector<Vec3> loads = loads_of(organ, gravity);
-  physics::StaticSolution solution = physics::direct_solve(stiffness, organ.fixed, imposed, loads);
+physics::StaticSolution solve_directly(const organ::Organ& organ, const CutOrgan& cut, Imposed imposed,
+                                       const Vec3& gravity) {
+  const physics::Stiffness stiffness = stiffness_of(organ, cut);
+  const std::vector<Vec3> loads = loads_of(organ, cut, gravity);
+  physics::StaticSolution solution = physics::direct_solve(stiffness, cut.fixed, imposed, loads);
   add_support_shares(organ, stiffness, imposed, loads, solution);
   return solution;
 }
@@ -97,7 +98,7 @@ physics::StaticSolution solve_with_tensors(const organ::Organ& organ, const std:
                                            Imposed imposed, const Vec3& gravity, Numbering numbering,
                                            std::string& warning) {
   const physics::Stiffness stiffness = physics::assemble_stiffness(organ.mesh, organ.material);
-  const std::vector<Vec3> loads = loads_of(organ, gravity);
+  const std::vector<Vec3> loads = loads_of(organ, {}, gravity);
   std::vector<Vec3> displacements(organ.mesh.positions.size(), Vec3::Zero());
   if (!loads.empty()) displacements = physics::direct_solve(stiffness, organ.fixed, {}, loads).displacements;
 

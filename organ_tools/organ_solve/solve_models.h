@@ -1,8 +1,7 @@
 // The models that organ_solve offers: the same question, answered with and without precomputation.
 #pragma once
 
-#include "organ/organ.h"
-#include "physics/static_solution.h"
+#include "organ_tools/organ_solve/cut_organ.h"
 
 #include <filesystem>
 #include <span>
@@ -16,7 +15,7 @@ using geometry::Numbering;
 /// A constrained solve from scratch. `gravity`: m/s^2. The holding force of an imposed node is, here and
 /// below, all that holds it there: in its free components the hand, in held ones its support. Throws
 /// geometry::InputError.
-physics::StaticSolution solve_directly(const organ::Organ& organ, Imposed imposed,
+physics::StaticSolution solve_directly(const organ::Organ& organ, const CutOrgan& cut, Imposed imposed,
                                        const geometry::Vec3& gravity);
 
 /// The stored tensors, read from `file` in their own precision, with the contact system in double; inner

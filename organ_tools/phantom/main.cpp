@@ -4,6 +4,7 @@
 #include "organ_tools/phantom/label_volume.h"
 #include "organ_tools/phantom/liver_shape.h"
 #include "organ_tools/phantom/tetrahedralize.h"
+#include "organ_tools/phantom/tissue_samples.h"
 #include "runtime/command_line.h"
 
 #include <cstdio>
@@ -28,11 +29,12 @@ struct Part {
 };
 
 Part chosen(const std::string& part, const std::string& size) {
-  if (part == "gallbladder") {
-    if (!size.empty()) throw std::runtime_error("--size " + size + ": the gallbladder comes in one size");
-    return {phantom::gallbladder(), phantom::gallbladder_size()};
-  }
-  return {phantom::liver(), size == "fine" ? phantom::fine_size() : phantom::paper_size()};
+  if (part == "liver")
+    return {phantom::liver(), size == "fine" ? phantom::fine_size() : phantom::paper_size()};
+  if (!size.empty()) throw std::runtime_error("--size " + size + ": the " + part + " comes in one size");
+  if (part == "gallbladder") return {phantom::gallbladder(), phantom::gallbladder_size()};
+  if (part == "plate") return {phantom::plate(), phantom::plate_size()};
+  return {phantom::cylinder(), phantom::cylinder_size()};
 }
 
 }  // namespace
@@ -40,11 +42,12 @@ Part chosen(const std::string& part, const std::string& size) {
 int main(int argc, char** argv) {
   runtime::CommandLine line("organ_phantom",
                             "Makes the phantom's organs, in one frame: a liver of about 18 cm, z up, the "
-                            "inferior edge towards -y, and its gallbladder; in metres.");
+                            "inferior edge towards -y, and its gallbladder; and two pieces of tissue to cut "
+                            "and tear, a plate and a cylinder; in metres.");
   std::string part = "liver", size;
   std::filesystem::path mesh_file, labels_file;
-  line.option("--part", part, "liver or gallbladder (700-1,000 nodes)")
-      .one_of({"liver", "gallbladder"})
+  line.option("--part", part, "liver, gallbladder (700-1,000 nodes), plate (700-820) or cylinder (238-262)")
+      .one_of({"liver", "gallbladder", "plate", "cylinder"})
       .show_default();
   line.option("--size", size, "of the liver: paper (the default: 1,500-1,800 nodes) or fine (above 16,000)")
       .one_of({"paper", "fine"});

@@ -64,14 +64,14 @@ geometry::RawMesh to_raw(const Complex& complex) {
   return raw;
 }
 
-geometry::RawMesh mesh_with_edges(const ImplicitShape& shape, double edge_m) {
+geometry::RawMesh mesh_with_edges(const ImplicitShape& shape, double edge_m, double cell_size) {
   namespace parameters = CGAL::parameters;
   CGAL::get_default_random() = CGAL::Random(0);
   const Domain domain = make_domain(shape);
   const Criteria criteria(parameters::facet_angle = kFacetAngleDegrees, parameters::facet_size = edge_m,
                           parameters::facet_distance = kFacetDistance * edge_m,
                           parameters::cell_radius_edge_ratio = kRadiusEdgeRatio,
-                          parameters::cell_size = edge_m);
+                          parameters::cell_size = cell_size * edge_m);
   // sliver removal without a time limit, so that the result does not depend on the machine
   const Complex complex = CGAL::make_mesh_3<Complex>(
       domain, criteria, parameters::manifold(), parameters::no_odt(), parameters::no_lloyd(),
@@ -93,12 +93,20 @@ MeshSize gallbladder_size() {
   return {700, 1000, 2500, 5000, 0.0042};
 }
 
+MeshSize plate_size() {
+  return {700, 820, 2000, 2450, 0.0105};
+}
+
+MeshSize cylinder_size() {
+  return {238, 262, 840, 940, 0.0172, 0.7};
+}
+
 geometry::TetraMesh tetrahedralize(const ImplicitShape& shape, const MeshSize& size) {
   double edge_m = size.first_edge_m;
   const double wanted = 0.5 * static_cast<double>(size.fewest_nodes + size.most_nodes);
   std::string tried;
   for (int i = 0; i < kMostTries; ++i) {
-    const geometry::RawMesh raw = mesh_with_edges(shape, edge_m);
+    const geometry::RawMesh raw = mesh_with_edges(shape, edge_m, size.cell_size);
     const std::size_t nodes = raw.positions.size(), tetrahedra = raw.tetrahedra.size();
     tried = std::to_string(nodes) + " nodes and " + std::to_string(tetrahedra) + " tetrahedra";
     const bool fits = nodes >= size.fewest_nodes && nodes <= size.most_nodes &&

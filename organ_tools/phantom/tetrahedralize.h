@@ -10,7 +10,8 @@ namespace omentum::phantom {
 struct MeshSize {
   std::size_t fewest_nodes, most_nodes;
   std::size_t fewest_tetrahedra, most_tetrahedra;
-  double first_edge_m;  // where the search for the right edge length starts
+  double first_edge_m;   // where the search for the right edge length starts
+  double cell_size = 1;  // bound on tetrahedra over that on facets: below 1 the inside is finer
 };
 
 /// The liver's. The papers' size: 1,500-1,800 nodes, 6,500-8,000 tetrahedra.
@@ -19,6 +20,10 @@ MeshSize paper_size();
 MeshSize fine_size();
 /// The gallbladder's: elements of about half the length of those of a liver of the papers' size.
 MeshSize gallbladder_size();
+/// The plate's: about 759 nodes and 2,212 tetrahedra (Cotin 1998, fig. 2).
+MeshSize plate_size();
+/// The cylinder's: about 248 nodes and 889 tetrahedra (Cotin 1998, fig. 3).
+MeshSize cylinder_size();
 
 /// Fills the shape with a valid mesh within the bounds: Delaunay refinement with a manifold
 /// boundary, then sliver removal, with the edge length adjusted until the counts fit. The same input gives

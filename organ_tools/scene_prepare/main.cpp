@@ -2,6 +2,7 @@
 #include "files/whole_file.h"
 #include "organ/plausibility.h"
 #include "organ_tools/scene_prepare/loaded_organs.h"
+#include "organ_tools/scene_prepare/own_material.h"
 #include "organ_tools/scene_prepare/scene_fit.h"
 #include "organ_tools/scene_prepare/scene_text.h"
 #include "organ_tools/scene_prepare/tip_size.h"
@@ -48,6 +49,7 @@ void prepare(const Options& options) {
     warn_of_what_can_hardly_be_meant(organs[i], scene);
     const scene_prepare::OrganSkin skin(organs[i]);
     if (i > 0 || options.keep_points) {
+      scene_prepare::require_own_material(organs[i], i, scene);
       scene_prepare::project_hands(skin, i, scene);
     } else {
       for (const std::string& note : scene_prepare::replace_first(organs[i].name, skin, scene))

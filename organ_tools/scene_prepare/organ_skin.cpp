@@ -1,8 +1,7 @@
 #include "organ_tools/scene_prepare/organ_skin.h"
 
+#include "geometry/boxes.h"
 #include "geometry/closest_points.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <limits>
@@ -10,12 +9,6 @@
 namespace omentum::scene_prepare {
 
 namespace {
-
-double box_diagonal(const std::vector<Vec3>& x) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : x) box.extend(p);
-  return box.diagonal().norm();
-}
 
 Vec3 mean(const std::vector<Vec3>& x) {
   Vec3 sum = Vec3::Zero();
@@ -31,7 +24,7 @@ OrganSkin::OrganSkin(const organ::Organ& organ)
       normals_(geometry::surface_normals(surface_, positions_)),
       centre_(mean(positions_)),
       support_centre_(centre_),
-      diagonal_(box_diagonal(positions_)) {
+      diagonal_(geometry::diagonal_around(positions_)) {
   measure_supports(organ);
 }
 

@@ -130,13 +130,31 @@ std::vector<std::string> replace_first(const std::string& name, const OrganSkin&
   return notes;
 }
 
+namespace {
+
+// Where the region with this label of the organ file tears: boxes and balls have the labels that no region
+// names, in the scene's order (organ/region_spec.h). A file of other regions than the scene's says nothing.
+scene::TearSpec tears_of(std::int32_t label, std::vector<scene::RegionSpec>& regions) {
+  auto own = std::ranges::find(regions, std::optional(label), &scene::RegionSpec::label);
+  if (own == regions.end())
+    own = std::ranges::find(regions, std::optional<std::int32_t>(), &scene::RegionSpec::label);
+  if (own == regions.end()) return {};
+  own->label = label;
+  return own->tears;
+}
+
+}  // namespace
+
 void take_material(const physics::MaterialMap& material, scene::OrganSpec& organ) {
   organ.young_pa = material.common.young_pa;
   organ.poisson = material.common.poisson;
   organ.density_kg_m3 = material.common.density_kg_m3;
+  std::vector<scene::RegionSpec> of_scene = std::move(organ.regions);
+  if (of_scene.size() != material.regions.size()) of_scene.clear();
   organ.regions.clear();
   for (const auto& [label, own] : material.regions)
-    organ.regions.push_back({label, {}, {}, own.young_pa, own.poisson, own.density_kg_m3});
+    organ.regions.push_back(
+        {label, {}, {}, own.young_pa, own.poisson, own.density_kg_m3, tears_of(label, of_scene)});
 }
 
 }  // namespace omentum::scene_prepare

@@ -32,6 +32,10 @@ toml::table to_table(const scene::RegionSpec& region) {
   if (region.young_pa) table.insert("young_pa", *region.young_pa);
   if (region.poisson) table.insert("poisson", *region.poisson);
   if (region.density_kg_m3) table.insert("density_kg_m3", *region.density_kg_m3);
+  if (region.tears.volume_change) table.insert("tear_volume_change", *region.tears.volume_change);
+  if (region.tears.mean_elongation) table.insert("tear_mean_elongation", *region.tears.mean_elongation);
+  if (region.tears.edge_elongation) table.insert("tear_edge_elongation", *region.tears.edge_elongation);
+  if (region.tears.stress_pa) table.insert("tear_stress_pa", *region.tears.stress_pa);
   return table;
 }
 

@@ -67,6 +67,9 @@ class GlfwContext final : public GlContext {
       if (mouse.other && mouse_.other) input.pan_x = dx, input.pan_y = dy;
       input.zoom = scrolled_;
     }
+    const bool key = glfwGetKey(window_, GLFW_KEY_S) == GLFW_PRESS;
+    input.switch_strain = key && !strain_key_;
+    strain_key_ = key;
     mouse_ = mouse;
     scrolled_ = 0;
     return input;
@@ -90,6 +93,7 @@ class GlfwContext final : public GlContext {
   GLFWwindow* window_ = nullptr;
   Mouse mouse_;
   float scrolled_ = 0;
+  bool strain_key_ = false;  // was down
 };
 
 }  // namespace

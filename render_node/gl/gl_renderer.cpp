@@ -5,6 +5,7 @@
 #include "render_node/gl/panel_backend.h"
 #include "render_node/gl/program.h"
 #include "render_node/gl/render_target.h"
+#include "render_node/surface_strain.h"
 #include "render_node/tissue_pattern.h"
 #include "shader_sources.h"  // generated from gl/shaders/
 
@@ -54,16 +55,26 @@ struct Programs {
       : backdrop("backdrop", shaders::screen_vert, prefix, shaders::backdrop_frag),
         lens("lens", shaders::screen_vert, prefix, shaders::lens_frag),
         tissue("tissue", shaders::surface_vert, prefix, shaders::tissue_frag),
+        cut("cut tissue", shaders::surface_vert, prefix + "#define CUT\n", shaders::tissue_frag),
+        bared("bared tissue", shaders::surface_vert, prefix + "#define CUT\n#define BARED\n",
+              shaders::tissue_frag),
+        strain("strain", shaders::surface_vert, prefix, shaders::strain_frag),
         solid("solid", shaders::surface_vert, prefix, shaders::solid_frag),
         ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
         signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
 
-  Program backdrop, lens, tissue, solid, ground, signal;
+  Program backdrop, lens, tissue, cut, bared, strain, solid, ground, signal;
 
   const Program& of(Look look) const {
     switch (look) {
       case Look::kTissue:
         return tissue;
+      case Look::kCut:
+        return cut;
+      case Look::kBared:
+        return bared;
+      case Look::kStrain:
+        return strain;
       case Look::kGround:
         return ground;
       case Look::kSignal:
@@ -89,6 +100,13 @@ class GlRenderer final : public Renderer {
   }
   void update_vertices(MeshId mesh, std::span<const Vertex> vertices) override {
     meshes_[static_cast<std::size_t>(mesh)].update(vertices);
+  }
+
+  void update_triangles(MeshId mesh, std::size_t first, std::span<const MeshTriangle> triangles) override {
+    meshes_[static_cast<std::size_t>(mesh)].update(first, triangles);
+  }
+  void replace_mesh(MeshId mesh, const MeshData& with) override {
+    meshes_[static_cast<std::size_t>(mesh)].replace(with);
   }
 
   Input begin_frame() override { return panel_->begin_frame(); }
@@ -177,7 +195,8 @@ class GlRenderer final : public Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look : {Look::kSolid, Look::kTissue, Look::kGround, Look::kSignal})
+    for (const Look look :
+         {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kStrain, Look::kGround, Look::kSignal})
       draw_items(frame, look);
     glDisable(GL_CULL_FACE);
     glDepthRange(kSignalDepth, 1);
@@ -199,6 +218,7 @@ class GlRenderer final : public Renderer {
     program.use();
     set_scene(program, frame);
     program.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
+    if (look == Look::kStrain) set_scale(program);
     const bool over = look == Look::kSignal;
     glDepthRange(over ? 0 : kSignalDepth, over ? kSignalDepth : 1);
     for (const DrawItem& item : frame.items) {
@@ -221,6 +241,12 @@ class GlRenderer final : public Renderer {
     program.set("scope", frame.through_endoscope ? 1.0f : 0.0f);
     program.set("shadow_map", kShadowUnit);
     program.set("pattern", kPatternUnit);
+  }
+
+  static void set_scale(const Program& program) {
+    program.set("full_strain", kFullStrain);
+    for (std::size_t i = 0; i < kStrainColourCount; ++i)
+      program.set(("strain_colours[" + std::to_string(i) + "]").c_str(), strain_colours()[i]);
   }
 
   void fill_screen(const Program& program, const Frame& frame) {

@@ -1,5 +1,7 @@
 #include "render_node/gl/mesh_buffer.h"
 
+#include "geometry/precondition.h"
+
 #include <epoxy/gl.h>
 
 #include <cstddef>
@@ -16,19 +18,19 @@ void attribute(unsigned location, int components, std::size_t offset) {
 
 }  // namespace
 
-MeshBuffer::MeshBuffer(const MeshData& mesh) : index_count_(static_cast<int>(3 * mesh.triangles.size())) {
+MeshBuffer::MeshBuffer(const MeshData& mesh) {
   glGenVertexArrays(1, &array_);
   glGenBuffers(1, &vertices_);
   glGenBuffers(1, &indices_);
   glBindVertexArray(array_);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(MeshTriangle)),
-               mesh.triangles.data(), GL_STATIC_DRAW);
-  update(mesh.vertices);
+  fill(mesh);
   attribute(0, 3, offsetof(Vertex, position));
   attribute(1, 3, offsetof(Vertex, normal));
   attribute(2, 3, offsetof(Vertex, rest));
   attribute(3, 1, offsetof(Vertex, openness));
+  attribute(4, 1, offsetof(Vertex, charring));
+  attribute(5, 1, offsetof(Vertex, strain));
   glBindVertexArray(0);
 }
 
@@ -36,7 +38,7 @@ MeshBuffer::MeshBuffer(MeshBuffer&& other) noexcept
     : array_(std::exchange(other.array_, 0)),
       vertices_(std::exchange(other.vertices_, 0)),
       indices_(std::exchange(other.indices_, 0)),
-      index_count_(other.index_count_) {}
+      triangle_count_(other.triangle_count_) {}
 
 MeshBuffer::~MeshBuffer() {
   glDeleteVertexArrays(1, &array_);
@@ -50,9 +52,29 @@ void MeshBuffer::update(std::span<const Vertex> vertices) {
                GL_STREAM_DRAW);
 }
 
+void MeshBuffer::update(std::size_t first, std::span<const MeshTriangle> triangles) {
+  geometry::require(first + triangles.size() <= triangle_count_, "triangles that the mesh has");
+  glBindVertexArray(array_);
+  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof(MeshTriangle)),
+                  static_cast<GLsizeiptr>(triangles.size_bytes()), triangles.data());
+}
+
+void MeshBuffer::replace(const MeshData& mesh) {
+  glBindVertexArray(array_);
+  fill(mesh);
+}
+
+// The array is bound.
+void MeshBuffer::fill(const MeshData& mesh) {
+  triangle_count_ = mesh.triangles.size();
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangle_count_ * sizeof(MeshTriangle)),
+               mesh.triangles.data(), GL_DYNAMIC_DRAW);
+  update(mesh.vertices);
+}
+
 void MeshBuffer::draw() const {
   glBindVertexArray(array_);
-  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangle_count_), GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace omentum::render::gl

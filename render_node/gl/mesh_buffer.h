@@ -14,11 +14,16 @@ class MeshBuffer {
   ~MeshBuffer();
 
   void update(std::span<const Vertex> vertices);
+  /// From the triangle `first` on, within those that there are.
+  void update(std::size_t first, std::span<const MeshTriangle> triangles);
+  void replace(const MeshData& mesh);
   void draw() const;
 
  private:
+  void fill(const MeshData& mesh);
+
   unsigned array_ = 0, vertices_ = 0, indices_ = 0;
-  int index_count_ = 0;
+  std::size_t triangle_count_ = 0;
 };
 
 }  // namespace omentum::render::gl

@@ -14,6 +14,7 @@ namespace {
 using deform_test::contact_on;
 using deform_test::file_node;
 using deform_test::kNs_per_s;
+using deform_test::node_of;
 using deform_test::odd_numbers;
 
 constexpr std::int32_t kSurfaceNodes = 20;
@@ -78,10 +79,10 @@ TEST_F(ContactBookTest, NewestContactOfEachToolCounts) {
   book_.advance(kNs_per_s);
   const auto loads = book_.loads(0);
   ASSERT_EQ(loads.size(), 2U);
-  EXPECT_THAT(loads[0].nodes, ::testing::ElementsAre(SurfaceId(5)));
+  EXPECT_THAT(loads[0].nodes, ::testing::ElementsAre(node_of(5)));
   EXPECT_EQ(loads[0].forces[0], 2 * kPush);
   EXPECT_EQ(loads[1].tool, 3U);
-  EXPECT_THAT(loads[1].nodes, ::testing::ElementsAre(SurfaceId(6)));
+  EXPECT_THAT(loads[1].nodes, ::testing::ElementsAre(node_of(6)));
 }
 
 // Two organs, tools 0 and 3: what a tool does to one is nobody else's.
@@ -156,7 +157,7 @@ TEST_F(ContactBookTest, PinnedNodesAreLeftOutWithoutFault) {
   book_.take(contact_on(0, {kSurfaceNodes - 1, 3}, {kPush, 2 * kPush}), kNs_per_s);
   book_.advance(kNs_per_s);
   ASSERT_EQ(book_.loads(0).size(), 1U);
-  EXPECT_THAT(book_.loads(0)[0].nodes, ::testing::ElementsAre(SurfaceId(3)));
+  EXPECT_THAT(book_.loads(0)[0].nodes, ::testing::ElementsAre(node_of(3)));
   EXPECT_EQ(book_.loads(0)[0].forces[0], 2 * kPush);
   EXPECT_FALSE(faults_.any());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/contact_book.h"
+#include "geometry/surface.h"
 #include "physics/surface_compliance.h"
 
 #include <memory>
@@ -10,6 +11,7 @@
 
 namespace omentum::deform_test {
 
+using geometry::NodeId;
 using geometry::SurfaceId;
 using geometry::Vec3;
 
@@ -42,17 +44,34 @@ inline physics::SurfaceCompliance random_compliance(std::int32_t mobile, unsigne
   return {mobile, tiles, storage->bounds.data(), storage};
 }
 
-/// File node 2 n + 1 is surface node n; even numbers are inside. The last `pinned` surface nodes are held.
+/// Node 2 n + 1 of the mesh, and of its file, is surface node n; even ones are inside.
+inline geometry::Surface odd_surface(std::int32_t surface_nodes) {
+  geometry::Surface surface;
+  surface.of_node.resize(2 * static_cast<std::size_t>(surface_nodes) + 1);
+  for (std::int32_t n = 0; n < surface_nodes; ++n) {
+    surface.node.emplace_back(2 * n + 1);
+    surface.of_node[surface.node.back()] = SurfaceId(n);
+  }
+  return surface;
+}
+
+/// How contacts with it are read. The last `pinned` surface nodes are held.
 inline deform::OrganNumbers odd_numbers(std::int32_t surface_nodes, std::int32_t pinned) {
   deform::OrganNumbers numbers;
-  numbers.surface_of_file_node.resize(2 * static_cast<std::size_t>(surface_nodes) + 1);
-  for (std::int32_t n = 0; n < surface_nodes; ++n) numbers.surface_of_file_node[2 * n + 1] = SurfaceId(n);
-  numbers.mobile_count = surface_nodes - pinned;
+  const geometry::Surface surface = odd_surface(surface_nodes);
+  numbers.surface_of_node = surface.of_node;
+  for (std::size_t n = 0; n < surface.of_node.size(); ++n) {
+    numbers.node_of_file.emplace_back(n);
+    numbers.pinned.push_back(surface.of_node[n] >= surface_nodes - pinned);
+  }
   return numbers;
 }
 
+inline NodeId node_of(std::int32_t surface_node) {
+  return NodeId(2 * surface_node + 1);
+}
 inline std::uint32_t file_node(std::int32_t surface_node) {
-  return 2 * static_cast<std::uint32_t>(surface_node) + 1;
+  return static_cast<std::uint32_t>(node_of(surface_node));
 }
 
 /// A contact of `tool` that pushes each surface node with its force.

@@ -96,6 +96,33 @@ TEST(LoadOrgans, AnOrganWithoutAFileIsRefusedNamingSceneAndOrgan) {
   }
 }
 
+// Its topology needs more bits than a message has.
+class LargeMass final : public OrganModel {
+ public:
+  ModelSizes sizes() const override { return {.values = 3, .removed_bytes = msg::MAX_REMOVED_BYTES + 1}; }
+  void step(const TickLoads& /*loads*/, double /*dt_s*/) noexcept override {}
+  void reset() noexcept override {}
+  OrganView view() const noexcept override { return {}; }
+  ModelStatus status() const noexcept override { return {}; }
+};
+
+TEST(LoadOrgans, AnOrganWhoseCutsNoMessageHoldsIsRefusedNamingSceneAndOrgan) {
+  SceneOfOneBlock block("large mass");
+  block.scene.file = "s.toml";
+  const std::vector<ModelEntry> table{
+      {"large mass", organ::Load::kMeshOnly,
+       [](const node::OrganSource&, const scene::OrganSpec&) -> std::unique_ptr<OrganModel> {
+         return std::make_unique<LargeMass>();
+       }}};
+  try {
+    load_organs(block.scene, table);
+    FAIL() << "it was loaded";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("s.toml: organ block can be cut"));
+    EXPECT_THAT(error.what(), HasSubstr("8388608"));
+  }
+}
+
 class OrganGroupTest : public ::testing::Test {
  protected:
   static std::vector<ServedOrgan> two_masses() {
@@ -163,7 +190,7 @@ TEST_F(OrganGroupTest, OrgansThatMeetPushEachOtherApart) {
 TEST_F(OrganGroupTest, ResetBringsAllToRestAndKeepsTheCounts) {
   press(0, {0, 0, -1});
   group_.step(book_, kTick_s);
-  group_.reset();
+  group_.reset(book_);
   EXPECT_EQ(mass(0).position(), Vec3::Zero());
   EXPECT_EQ(group_.steps(), 2u);
 }

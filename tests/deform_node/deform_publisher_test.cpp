@@ -5,6 +5,7 @@
 #include "tests/deform_node/deform_toy.h"
 #include "tests/deform_node/written_messages.h"
 #include "tests/support/heap_count.h"
+#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,13 +26,13 @@ class PublisherTest : public ::testing::Test {
  protected:
   PublisherTest() { organs_.push_back(deform_test::hanging_organ("toy")); }
 
-  StatePublisher make_publisher() {
+  StatePublisher make_publisher(CutJournal* journal = nullptr) {
     scene::Scene scene;
     scene.name = "a toy";
     msg::NodeStatus introduction;
     introduction.kind = msg::NODE_DEFORM;
     introduction.instance = 7;
-    return {{scenes_, topologies_, states_, statuses_},
+    return {{scenes_, topologies_, states_, statuses_, journal},
             organs_,
             kManyNodes,
             node::to_message(node::loaded_scene(scene, describe(organs_)), scene.name),
@@ -83,6 +84,23 @@ TEST_F(PublisherTest, SceneAndTopologyComeBeforeTheFirstStateAndItsStatusAfterIt
   EXPECT_TRUE(status.paused);
   EXPECT_EQ(status.echoes.at(0).seq, 101u) << "of the state that was just written";
   EXPECT_EQ(status.faults.size(), 1u);
+}
+
+// Else two sets could have one version: the one that was told, and what a node cuts that is started again.
+TEST_F(PublisherTest, WhatIsCutIsInTheJournalBeforeAnybodyIsTold) {
+  const test::ScratchFolder folder;
+  const JournalScene scene = journal_scene("hash", organs_);
+  CutJournal journal(folder / "cuts.json", scene, faults_);
+  topologies_.refuse(true);
+  cut();
+  {
+    StatePublisher publisher = make_publisher(&journal);
+    publish(publisher, 1);
+  }
+  EXPECT_TRUE(topologies_.all().empty());
+  const OrganCuts kept = read_journal(folder / "cuts.json", scene).organs.at(0);
+  EXPECT_EQ(kept.version, 1u);
+  EXPECT_THAT(kept.removed_bits, ElementsAre(1, 0, 0));
 }
 
 TEST_F(PublisherTest, NothingIsWrittenBeforeTheLoopPublishes) {
@@ -175,7 +193,7 @@ TEST_F(PublisherTest, WhatWasRefusedIsToldAgainAndNoStateLeavesBefore) {
 /// Tool 0 at the toy.
 class LocalPublisherTest : public PublisherTest {
  protected:
-  ToolPlace tool_at(const Vec3& tip) const { return {0, {tip, kPatchRadius_m}}; }
+  ToolPlace tool_at(const Vec3& tip) const { return {0, {0, tip, kPatchRadius_m}}; }
   void offer(LocalPublisher& publisher, const Vec3& tip, std::int64_t now_ns) {
     const ToolPlace place = tool_at(tip);
     publisher.offer({&place, 1}, {&echo_, 1}, now_ns);

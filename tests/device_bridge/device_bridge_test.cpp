@@ -2,7 +2,8 @@
 #include "device_bridge/device_bridge.h"
 
 #include "device_bridge/virtual_hand.h"
-#include "runtime/clock.h"
+#include "node_common/node_identity.h"
+#include "runtime/rate_loop.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -122,12 +123,14 @@ class DeviceBridgeTest : public ::testing::TestWithParam<const char*> {
   DeviceBridgeTest() {
     options_.node.dds = GetParam();
     options_.node.domain = test::domain_of_test();
+    options_.rate_hz = loop_.rate_hz();
     wall_ = std::make_unique<Wall>(options_.node.dds, options_.node.domain);
     auto hand = std::make_unique<ObservedHand>(eager_hand(), scene::ToolSpec{}, loop_.rate_hz());
     hand_ = hand.get();
     std::vector<std::unique_ptr<Device>> devices;
     devices.push_back(std::move(hand));
-    bridge_ = std::make_unique<DeviceBridge>(options_, std::move(devices), loop_);
+    const auto open_bus = [this] { return node::open_bus(options_.node, "virtual_device"); };
+    bridge_ = std::make_unique<DeviceBridge>(options_, std::move(devices), open_bus, loop_);
     thread_ = std::thread([this] { bridge_->run(); });
   }
   ~DeviceBridgeTest() override { end(); }

@@ -57,6 +57,18 @@ TEST(VirtualHand, TheWholePressFeelsTheSameAt300And1000Hz) {
               0.02 * fast.report()["mean_force_n"].get<double>());
 }
 
+TEST(VirtualHand, PressesTheButtonWhileItSlidesAndOnlyWhereItCuts) {
+  scene::HandSpec hand;
+  for (const bool cut : {false, true}) {
+    hand.cut = cut;
+    VirtualHand device(hand, {}, 100);
+    for (int i = 1; i < static_cast<int>(100 * script_period_s(hand)); ++i) {
+      const bool slides = script_at(hand, 0.01 * i).phase == Phase::kSlide;
+      ASSERT_EQ(device.measure(0).buttons, cut && slides ? msg::BUTTON_CUT : 0u) << i;
+    }
+  }
+}
+
 TEST(VirtualHand, AnUnstableForceIsSeenAsOscillation) {
   // a wall that answers late and is far stiffer than the hand: the simulated hand must not hide it
   const scene::HandSpec hand;

@@ -3,6 +3,7 @@
 #include "organ_tools/phantom/gallbladder_shape.h"
 #include "organ_tools/phantom/label_volume.h"
 #include "organ_tools/phantom/liver_shape.h"
+#include "organ_tools/phantom/tissue_samples.h"
 #include "tests/support/process.h"
 
 #include <gmock/gmock.h>
@@ -235,6 +236,33 @@ TEST_F(OrganPhantom, TheGallbladdersMeshIsValidAndKeepsItsGapToTheLivers) {
   EXPECT_GT(distance_between(x, liver_skin, liver_x), 2e-3);
   EXPECT_GT(distance_between(liver_x, skin, x), 2e-3);
   for (const Vec3& p : liver_x) EXPECT_GT(gallbladder_distance(p), 2e-3) << "no part of the liver is inside";
+}
+
+TEST(TissueSamples, AreAPlateAndACylinderOfTheirSizesWithRoundedEdges) {
+  EXPECT_NEAR(plate_distance({0, 0, 0.005}), 0, 1e-12);
+  EXPECT_NEAR(plate_distance({0.1, 0, 0}), 0, 1e-12);
+  EXPECT_GT(plate_distance({0.1, 0.1, 0}), 0) << "rounded";
+  EXPECT_NEAR(plate_distance({0.13, 0, 0}), 0.03, 1e-12);
+  EXPECT_NEAR(cylinder_distance({0.03, 0, -0.06}), 0, 1e-12);
+  EXPECT_NEAR(cylinder_distance({0, 0, -0.12}), 0, 1e-12);
+  EXPECT_NEAR(cylinder_distance({0, 0, -0.06}), -0.03, 1e-12);
+  EXPECT_GT(cylinder_distance({0.03, 0, 0}), 0) << "rounded";
+}
+
+// Cotin 1998, figures 2 and 3.
+TEST_F(OrganPhantom, ThePlateAndTheCylinderHaveThePapersSizes) {
+  const struct {
+    const char* part;
+    std::size_t nodes, tetrahedra;
+  } samples[] = {{"plate", 759, 2212}, {"cylinder", 248, 889}};
+  for (const auto& [part, nodes, tetrahedra] : samples) {
+    const std::string file = folder_ / (std::string(part) + ".msh");
+    ASSERT_EQ(test::Process("organ_phantom", {"--part", part, "-o", file}).wait(), 0);
+    const geometry::CheckedMesh checked = geometry::check_mesh(geometry::read_mesh(file), 1.0);
+    EXPECT_TRUE(checked.warnings.empty());
+    EXPECT_NEAR(checked.mesh.positions.size() / static_cast<double>(nodes), 1, 0.1);
+    EXPECT_NEAR(checked.mesh.tetrahedra.size() / static_cast<double>(tetrahedra), 1, 0.12);
+  }
 }
 
 TEST_F(OrganPhantom, WrongArgumentsEndWithTwoAndOneLine) {

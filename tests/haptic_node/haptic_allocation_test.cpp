@@ -1,7 +1,9 @@
 // The step takes nothing from the heap: proved by counting every way to ask for memory.
 #include "haptic_fixtures.h"
 #include "haptic_node/contact_message.h"
+#include "haptic_node/local_body.h"
 #include "haptic_node/tool_line.h"
+#include "tests/support/organ_patch.h"
 
 #include <cerrno>
 #include <cstddef>
@@ -128,6 +130,49 @@ TEST(Allocation, NoneWhenABodyComesUnderAPress) {
     }
     EXPECT_EQ(allocations_of([&] { bench.step_to({0.05, 0.05, 0.036}); }), 0u) << "tick " << i;
   }
+}
+
+// A piece of the organ around a place, that swings.
+haptic::LocalPatch patch_of(const haptic::ElasticSurface& organ, const Vec3& place, std::int64_t now_ns) {
+  const test::OrganPatch around = test::nearest_patch(organ.surface, organ.rest, place, 24);
+  haptic::LocalPatch patch;
+  patch.arrival_ns = now_ns;
+  for (const SurfaceId n : around.nodes) {
+    patch.nodes.push_back(organ.file_node[n]);
+    patch.positions.push_back(organ.rest[n] +
+                              Vec3(0, 0, 1e-3 * std::sin(1e-8 * static_cast<double>(now_ns))));
+  }
+  patch.velocities.assign(around.nodes.size(), Vec3(0, 0, 0.02));
+  patch.forces.assign(around.nodes.size(), Vec3::Zero());
+  for (const auto& t : around.triangles)
+    patch.triangles.push_back(
+        {SurfaceId(std::int32_t{t[0]}), SurfaceId(std::int32_t{t[1]}), SurfaceId(std::int32_t{t[2]})});
+  for (std::size_t i = 0; i < 3 * around.nodes.size(); ++i) {
+    for (std::size_t j = i; j < 3 * around.nodes.size(); ++j)
+      patch.compliance.push_back(
+          static_cast<float>(organ.compliance.block(around.nodes[i / 3], around.nodes[j / 3])(i % 3, j % 3)));
+  }
+  return patch;
+}
+
+TEST(Allocation, NoneWhereLocalModelsFollowOneAnother) {
+#ifndef OMENTUM_COUNTS_MALLOC
+  GTEST_SKIP() << "the sanitizer owns malloc";
+#endif
+  Bench bench(make_model(block(), {round_tool()}));
+  const Vec3 pressed(0.05, 0.05, 0.036);
+  bench.step_to({0.05, 0.05, 0.045});
+  for (int i = 0; i < 300; ++i) {
+    bench.state().now_ns += 1'000'000;
+    if (i % 5 == 0) {
+      const haptic::LocalPatch patch = patch_of(bench.model().organs[0], pressed, bench.state().now_ns);
+      ASSERT_EQ(haptic::reason_against(patch, 1), std::nullopt);
+      bench.work().doors[0].post(haptic::make_local_body(patch));
+    }
+    const Vec3 tip = pressed + Vec3(0, 0, 0.009 * std::max(0.0, 1 - i / 100.0));
+    EXPECT_EQ(allocations_of([&] { bench.step_to(tip); }), 0u) << "tick " << i;
+  }
+  EXPECT_GT(bench.output().force.z(), 0.1);
 }
 
 TEST(Allocation, CountingSeesTheHeap) {

@@ -1,12 +1,6 @@
-#include "physics/contact_problem.h"
+#include "tests/haptic_node/contact_problems.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-
-#include <memory>
-#include <random>
 
 namespace omentum::physics {
 namespace {
@@ -14,38 +8,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Compliances below are of the order of a soft organ's, 1e-2 m/N: a gap tolerance of 1e-6 m is 1e-4 N, times
-// the condition of the problems drawn here.
-constexpr double kCompliance = 1e-2;
-constexpr double kForceTolerance_n = 100 * kGapTolerance_m / kCompliance;
-
-Vec3 random_vector(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return {normal(random), normal(random), normal(random)};
-}
-
-// A random contact problem with a compliance like an elastic body's: symmetric, positive definite, blocks
-// that decay away from the diagonal. Normals lie within 30 degrees or so of z.
-std::unique_ptr<ContactProblem> random_problem(int count, double friction, std::mt19937& random) {
-  auto problem = std::make_unique<ContactProblem>();
-  problem->count = count;
-  problem->friction = friction;
-  std::uniform_real_distribution<double> uniform(-0.5, 1.0);
-  MatrixXd factor(3 * count, 3 * count + 2);
-  std::normal_distribution<double> normal;
-  for (auto& entry : factor.reshaped()) entry = 0.3 * normal(random);
-  const MatrixXd W =
-      kCompliance * (factor * factor.transpose() / count + MatrixXd::Identity(3 * count, 3 * count));
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) problem->W(i, j) = W.block<3, 3>(3 * i, 3 * j);
-    problem->contacts[i].normal = (Vec3::UnitZ() + 0.3 * random_vector(random)).normalized();
-    // between 10 mm deep and 5 mm open, with some tangential motion
-    problem->contacts[i].free_gap =
-        -0.01 * uniform(random) * problem->contacts[i].normal + 0.003 * random_vector(random);
-  }
-  return problem;
-}
 
 std::vector<Vec3> gaps(const ContactProblem& problem, const std::vector<Vec3>& forces) {
   std::vector<Vec3> result;
@@ -55,14 +17,6 @@ std::vector<Vec3> gaps(const ContactProblem& problem, const std::vector<Vec3>& f
     result.push_back(gap);
   }
   return result;
-}
-
-std::vector<Vec3> solve(const ContactProblem& problem) {
-  std::vector<Vec3> forces(problem.count, Vec3::Zero());
-  const auto work = std::make_unique<ContactWorkspace>();
-  const ContactSolution solution = solve_contacts(problem, forces, *work);
-  EXPECT_EQ(solution.status, ContactStatus::kConverged) << "residual " << solution.residual_m;
-  return forces;
 }
 
 void expect_contact_laws(const ContactProblem& problem, const std::vector<Vec3>& forces) {
@@ -252,79 +206,6 @@ TEST(ContactProblem, WhatIsNoNumberIsNotConverged) {
       }
     }
   }
-}
-
-// ---- what a device can render
-
-// A tool of `count` points pressed into a wall of which the points feel `W`, each to its own depth.
-std::unique_ptr<ContactProblem> wall(int count, double stiffness, std::mt19937& random) {
-  auto problem = std::make_unique<ContactProblem>();
-  problem->count = count;
-  std::uniform_real_distribution<double> depth(0, 0.01);
-  for (int i = 0; i < count; ++i) {
-    problem->contacts[i].free_gap = Vec3(0, 0, -depth(random));
-    problem->contacts[i].max_stiffness_n_m = stiffness;
-    for (int j = 0; j < count; ++j) problem->W(i, j).setZero();
-  }
-  return problem;
-}
-
-double push_of(const std::vector<Vec3>& forces) {
-  double push = 0;
-  for (const Vec3& f : forces) push -= f.z();
-  return push;
-}
-
-TEST(StiffnessLimit, APinnedWallIsAsStiffAsTheDeviceHoweverManyPointsTouch) {
-  std::mt19937 random(8);
-  constexpr double kStiffness = 2000;
-  for (const double friction : {0.0, 0.3}) {
-    for (int trial = 0; trial < 100; ++trial) {
-      const auto problem = wall(1 + trial % 8, kStiffness, random);
-      problem->friction = friction;
-      double deepest = 0;
-      for (int i = 0; i < problem->count; ++i) {
-        deepest = std::max(deepest, -problem->contacts[i].free_gap.z());
-      }
-      limit_stiffness(*problem);
-      const double push = push_of(solve(*problem));
-      EXPECT_LE(push, kStiffness * (deepest + kGapTolerance_m));
-      EXPECT_GE(push, 0.99 * kStiffness * (deepest - kGapTolerance_m)) << "and no softer than it must be";
-    }
-  }
-}
-
-TEST(StiffnessLimit, TwoToolsOnOneWallFeelOneSpringEach) {
-  std::mt19937 random(9);
-  const auto problem = wall(2, 1000, random);
-  for (int i = 0; i < 2; ++i) problem->contacts[i].free_gap = Vec3(0, 0, -0.004);
-  problem->contacts[1].body = 1;
-  limit_stiffness(*problem);
-  for (const Vec3& f : solve(*problem)) EXPECT_NEAR(f.z(), -4, 0.01);
-}
-
-TEST(StiffnessLimit, ASoftOrgansAnswerIsUnchanged) {
-  std::mt19937 random(10);
-  for (int trial = 0; trial < 50; ++trial) {
-    const auto problem = random_problem(8, trial % 2 ? 0.3 : 0, random);
-    const std::vector<Vec3> before = solve(*problem);
-    for (int i = 0; i < problem->count; ++i) problem->contacts[i].max_stiffness_n_m = 3 / kCompliance;
-    limit_stiffness(*problem);
-    EXPECT_EQ(solve(*problem), before);
-  }
-}
-
-// A soft point that is pressed deep keeps its force when a point on the support begins to touch.
-TEST(StiffnessLimit, APointThatBeginsToTouchMovesNoForce) {
-  std::mt19937 random(11);
-  const auto problem = wall(2, 1000, random);
-  problem->W(0, 0) = kCompliance * Matrix3d::Identity();
-  problem->contacts[0].free_gap = Vec3(0, 0, -0.01);
-  problem->contacts[1].free_gap = Vec3(0, 0, -1e-9);
-  limit_stiffness(*problem);
-  const std::vector<Vec3> forces = solve(*problem);
-  EXPECT_NEAR(forces[0].z(), -0.01 / kCompliance, kForceTolerance_n);
-  EXPECT_NEAR(forces[1].z(), 0, kForceTolerance_n);
 }
 
 TEST(ContactProblem, OpenContactsCarryNoForce) {

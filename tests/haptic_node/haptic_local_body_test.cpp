@@ -66,6 +66,48 @@ TEST(LocalBody, OneThatComesUnderAPressHoldsTheSameForce) {
   for (int i = 0; i < 20; ++i) EXPECT_LE((bench.step_to(pressed) - before).norm(), 2e-3 * before.norm());
 }
 
+// Pressed while it is soft and left while it is stiff, tissue would give energy in each round.
+TEST(LocalBody, ModelsThatTakeTurnsGiveAHandNothingInSum) {
+  Bench bench(with_spare_place(make_model(block(), {round_tool()})));
+  const Vec3 over(0.05, 0.05, kTop_m + 0.003), shallow(0.05, 0.05, kTop_m - 0.003),
+      deep(0.05, 0.05, kTop_m - 0.006);
+  const haptic::LocalPatch soft = patch_around({0.05, 0.05, kTop_m}, 0.035, bench);
+  haptic::LocalPatch stiff = soft;
+  for (float& c : stiff.compliance) c *= 0.7f;
+  double given_j = 0, highest_n = 0;
+  Vec3 at = over, force = Vec3::Zero();
+  const auto go = [&](const Vec3& to, int ticks) {
+    const Vec3 from = at;
+    for (int i = 1; i <= ticks; ++i) {
+      bench.state().now_ns += 1'000'000;
+      const Vec3 next = from + (to - from) * i / ticks, felt = bench.step_to(next);
+      given_j += 0.5 * (felt + force).dot(next - at);
+      force = felt;
+      at = next;
+      highest_n = std::max(highest_n, force.norm());
+    }
+  };
+  const auto becomes = [&](const haptic::LocalPatch& patch) {
+    bench.work().doors[0].post(haptic::make_local_body(patch));
+    go(at, 20);
+  };
+  becomes(soft);
+  go(over, 1);
+  go(shallow, 100);
+  constexpr int kRounds = 20;
+  const double naive_j = 0.3 * highest_n * (shallow - deep).norm() * kRounds;
+  for (int i = 0; i < kRounds; ++i) {
+    go(deep, 50);
+    becomes(stiff);
+    go(shallow, 50);
+    becomes(soft);
+  }
+  go(over, 100);
+  EXPECT_LT(given_j, 0.05 * naive_j);
+  EXPECT_LE(bench.state().tools[0].changes.credited_j, 0);
+  EXPECT_GT(bench.state().tools[0].changes.given_j, 0) << "counted";
+}
+
 TEST(LocalBody, NobodyIsInsideBeyondItsBorder) {
   Bench bench(make_model(block(), {needle()}));
   bench.work().doors[0].post(haptic::make_local_body(patch_around({0.05, 0.05, kTop_m}, 0.025, bench)));

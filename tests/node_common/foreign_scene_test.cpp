@@ -26,7 +26,9 @@ class ForeignSceneTest : public ::testing::TestWithParam<Vendors> {
     return test::comes_true([&] { return heard_.load(); });
   }
 
-  BlockScene block_{4};
+  BlockScene block_{4, std::string(BlockScene::kProbe) +
+                           "[[hands]]\ntool = 0\npress_point = [0, 0, 0.1]\n"
+                           "press_normal = [0, 0, 1]\n"};
   int domain_ = test::domain_of_test();
   test::Process served_{"deform_node", arguments(block_.scene(), GetParam().session)};
   std::atomic<bool> heard_{false};
@@ -39,7 +41,7 @@ class ForeignSceneTest : public ::testing::TestWithParam<Vendors> {
 TEST_P(ForeignSceneTest, IsRefusedWithTheFirstValueThatDiffers) {
   ASSERT_TRUE(is_served()) << served_.messages();
   const std::string other = block_.scene_with("young_pa = 10000", "young_pa = 12000");
-  for (const std::string program : {"haptic_node", "deform_node"}) {
+  for (const std::string program : {"haptic_node", "deform_node", "virtual_device"}) {
     test::Process newcomer(program, arguments(other, GetParam().newcomer));
     EXPECT_EQ(newcomer.wait(), 2);
     const std::string messages = newcomer.messages();

@@ -44,6 +44,14 @@ TEST_F(SupportSpecTest, PlaneHoldsOneSide) {
   EXPECT_EQ(count(parse({"plane:z>0.5"}), 7), 18);
 }
 
+TEST_F(SupportSpecTest, SeveralPlacesAreJoinedByAPlus) {
+  const auto fixed = parse({"box:0,0,0,0.5,0.5,2+box:1.5,1.5,0,2,2,2:z+plane:x>+1.5:y"});
+  EXPECT_EQ(count(fixed, 7), 3);
+  EXPECT_EQ(count(fixed, 4 | 2), 3) << "held by the second and the third";
+  EXPECT_EQ(count(fixed, 2), 6);
+  EXPECT_THAT(refusal("box:0,0,0,1,1,1+plane:x"), HasSubstr("--fixed plane:x: not a plane"));
+}
+
 TEST_F(SupportSpecTest, BoxHoldsItsInsideAndFacesInAnyOrderOfCorners) {
   EXPECT_EQ(count(parse({"box:0,0,0,1,1,1"}), 7), 8);
   EXPECT_EQ(count(parse({"box:1,1,1,0,0,0"}), 7), 8);

@@ -90,5 +90,18 @@ TEST_P(SuperposeTest, SurfaceEqualsPlainSumAtAnyAlignment) {
   for (int cluster = 0; cluster < kClusters; ++cluster) expect_equal(u.data() + 1 + 48 * cluster, cluster);
 }
 
+using SurfaceComplianceDeathTest = SurfaceComplianceTest;
+
+// Its column would be read past the end of the tensors.
+TEST_F(SurfaceComplianceDeathTest, ANodeThatDoesNotMoveEndsTheProcess) {
+  std::vector<float> u(48 * kClusters);
+  const std::vector<Vec3> push{Vec3::UnitX()};
+  for (const SurfaceId wrong : {SurfaceId(kMobile), SurfaceId()}) {
+    const std::vector<SurfaceId> node{wrong};
+    EXPECT_DEATH(superpose_cluster(*compliance, 0, node, push, u.data()), "mobile nodes");
+    EXPECT_DEATH(superpose_surface(*compliance, node, push, u), "mobile nodes");
+  }
+}
+
 }  // namespace
 }  // namespace omentum::physics

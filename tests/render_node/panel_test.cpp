@@ -261,6 +261,16 @@ TEST_F(PanelLayout, StaleOrganIsTold) {
   EXPECT_LT(height_of(view), told);
 }
 
+TEST_F(PanelLayout, CutsAndTheirTimeAreTold) {
+  PanelView view = busy();
+  const float whole = height_of(view);
+  view.organs[0].removed_tetrahedra = 312;
+  const float cut = height_of(view);
+  EXPECT_GT(cut, whole);
+  view.real_time_factor = 1;
+  EXPECT_GT(height_of(view), cut);
+}
+
 TEST_F(PanelLayout, ALongSceneNameLeavesRoomForWhatStandsBesideIt) {
   const auto amber = [&](const std::string& name) {  // corners of "paused"
     PanelView view;

@@ -3,6 +3,7 @@
 
 #include "render_node/renderer.h"
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
@@ -21,6 +22,18 @@ class RecordingRenderer final : public Renderer {
     if (vertices.size() != mesh.vertices.size()) throw std::logic_error("another number of vertices");
     mesh.vertices.assign(vertices.begin(), vertices.end());
     ++updates;
+  }
+  void update_triangles(MeshId id, std::size_t first, std::span<const MeshTriangle> triangles) override {
+    MeshData& mesh = meshes.at(static_cast<std::size_t>(id));
+    if (first + triangles.size() > mesh.triangles.size())
+      throw std::logic_error("more triangles than there are");
+    std::copy(triangles.begin(), triangles.end(),
+              mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first));
+    triangles_sent += triangles.size();
+  }
+  void replace_mesh(MeshId id, const MeshData& with) override {
+    meshes.at(static_cast<std::size_t>(id)) = with;
+    triangles_sent += with.triangles.size();
   }
   Input begin_frame() override { return on_begin_frame ? on_begin_frame() : Input{}; }
   void draw(const Frame& frame) override {
@@ -42,6 +55,7 @@ class RecordingRenderer final : public Renderer {
   std::vector<MeshData> meshes;
   std::vector<Frame> frames;
   int updates = 0;
+  std::size_t triangles_sent = 0;           // of meshes that were added before
   std::vector<std::size_t> read_back_from;  // numbers of the frames that became pictures
 
   // a scripted person at a window

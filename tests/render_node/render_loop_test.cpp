@@ -188,6 +188,38 @@ TEST_F(RenderLoopTest, AStateThatDoesNotFitIsAFaultAndNotDrawn) {
   EXPECT_EQ(renderer_.updates, updates);
 }
 
+TEST_F(RenderLoopTest, DrawsACutOfTheOrganThatItLoaded) {
+  start();
+  frames(1);
+  const geometry::TetId removed = organ().surface.tetrahedron.front();
+  geometry::MeshEditor books(organ().mesh, {.uncut_surface = organ().surface.node});
+  books.remove(std::array{removed});
+  msg::Topology topology{};
+  topology.version = 1;
+  topology.tetrahedron_count = static_cast<std::uint32_t>(organ().mesh.tetrahedra.size());
+  topology.removed_bits.assign(books.removed_bits().begin(), books.removed_bits().end());
+  bus_.post(topology);
+  msg::OrganState state = test::state_of(organ(), 1, {0, 0, 0});
+  state.topology_version = 1;
+  state.node_count = static_cast<std::uint32_t>(books.surface_nodes().size());
+  state.values.assign(3 * books.surface_nodes().size(), 0);
+  bus_.post(state);
+  EXPECT_THAT(faults(), IsEmpty());
+  EXPECT_THAT(renderer_.frames.back().items, Contains(Field(&DrawItem::look, Look::kBared)));
+  EXPECT_EQ(close()["unmatched_states"], 0);
+}
+
+TEST_F(RenderLoopTest, TheMapOfStrainHasAButtonAndAKey) {
+  const auto map = Contains(Field(&DrawItem::look, Look::kStrain));
+  start();
+  frames(1);
+  EXPECT_THAT(renderer_.frames.back().items, testing::Not(map));
+  click("strain (key S)");
+  EXPECT_THAT(renderer_.frames.back().items, map);
+  frame({.switch_strain = true});
+  EXPECT_THAT(renderer_.frames.back().items, testing::Not(map));
+}
+
 TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {
   start();
   frames(1000);

@@ -75,27 +75,6 @@ TEST_F(SessionWatchTest, OfSeveralOrgansThePanelSaysWhichOneItMeans) {
   EXPECT_EQ(panel.organs[1].name, "right");
 }
 
-TEST_F(SessionWatchTest, EachOrganHasItsOwnTopology) {
-  msg::Topology cut{}, whole{}, nowhere{};
-  cut.version = 1;
-  cut.removed_bits = {0, 4};
-  whole.organ = 1;
-  nowhere.organ = 7;
-  for (const msg::Topology& topology : {cut, whole, nowhere}) bus_.post(topology);
-  EXPECT_TRUE(has_fault("topology of an organ that the scene does not have"));
-  listen(kSecond);
-  EXPECT_TRUE(has_fault("an organ was cut"));
-}
-
-TEST_F(SessionWatchTest, AnOrganThatIsWholeAgainIsNotCutWhateverItsVersion) {
-  msg::Topology restored{};
-  restored.version = 7;
-  restored.removed_bits = {0, 0};
-  bus_.post(restored);
-  listen(kSecond);
-  EXPECT_FALSE(has_fault("an organ was cut"));
-}
-
 TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
   msg::ToolPose pose{};
   pose.seq = 1;

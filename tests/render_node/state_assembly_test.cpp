@@ -26,7 +26,7 @@ msg::OrganState block(std::uint64_t seq, std::uint32_t number, float value) {
 
 struct Shown {
   std::vector<AssembledState> states;
-  StateAssembly assembly{msg::KIND_SURFACE, kNodes, kReach_m};
+  StateAssembly assembly{msg::KIND_SURFACE, {kNodes, kNodes}, kReach_m};
   StateAssembly::Outcome take(const msg::OrganState& block) {
     return assembly.take(block, [this](const AssembledState& s) { states.push_back(s); });
   }
@@ -111,8 +111,51 @@ TEST(StateAssembly, MisfitsAreRefusedWhole) {
   EXPECT_TRUE(shown.states.empty());
 }
 
+// A block of a state that has one more block than the others: what a cut bared.
+msg::OrganState cut_block(std::uint64_t seq, std::uint32_t number, float value) {
+  msg::OrganState state = block(seq, number, value);
+  state.topology_version = 1;
+  state.block_count = kBlocks + 1;
+  state.node_count = kNodes + kPerBlock;
+  return state;
+}
+
+TEST(StateAssembly, StatesGrowWithTheirTopology) {
+  Shown shown{{}, {msg::KIND_SURFACE, {kNodes, kNodes + kPerBlock}, kReach_m}};
+  for (std::uint32_t b = 0; b < kBlocks; ++b) shown.take(block(1, b, 1));
+  for (std::uint32_t b = 0; b <= kBlocks; ++b) shown.take(cut_block(2, b, 2));
+  for (std::uint32_t b = 0; b < kBlocks; ++b) shown.take(block(3, b, 3));
+  ASSERT_EQ(shown.states.size(), 3u);
+  EXPECT_EQ(shown.states[1].topology_version, 1u);
+  EXPECT_EQ(shown.states[1].values, std::vector<float>(3 * (kNodes + kPerBlock), 2));
+  EXPECT_EQ(shown.states[2].values, std::vector<float>(3 * kNodes, 3));
+  EXPECT_EQ(shown.states[2].topology_version, 0u);
+}
+
+TEST(StateAssembly, AStateOfANewTopologyIsShownWholeOrNotAtAll) {
+  Shown shown{{}, {msg::KIND_SURFACE, {kNodes, kNodes + kPerBlock}, kReach_m}};
+  for (std::uint32_t b = 0; b < kBlocks; ++b) shown.take(block(1, b, 1));
+  shown.take(cut_block(2, 0, 2));
+  for (std::uint32_t b = 0; b <= kBlocks; ++b) shown.take(cut_block(3, b, 3));
+  ASSERT_EQ(shown.states.size(), 2u) << "the lost blocks' old values were other nodes'";
+  EXPECT_EQ(shown.states[1].seq, 3u);
+  shown.take(cut_block(4, 0, 4));
+  shown.take(cut_block(5, 0, 5));
+  ASSERT_EQ(shown.states.size(), 3u) << "but now they are the same nodes'";
+  EXPECT_EQ(shown.states[2].values.back(), 3);
+}
+
+TEST(StateAssembly, ABlockThatContradictsItsStateIsAMisfit) {
+  Shown shown{{}, {msg::KIND_SURFACE, {kNodes, kNodes + kPerBlock}, kReach_m}};
+  shown.take(block(1, 0, 1));
+  EXPECT_EQ(shown.take(cut_block(1, kBlocks, 1)), StateAssembly::Outcome::kMisfit);
+  msg::OrganState too_many = cut_block(2, 0, 1);
+  ++too_many.node_count;
+  EXPECT_EQ(shown.take(too_many), StateAssembly::Outcome::kMisfit) << "more than the mesh has";
+}
+
 TEST(StateAssembly, TakesStatesOfItsOwnKindOnly) {
-  StateAssembly tube(msg::KIND_TUBE, kPerBlock, kReach_m);
+  StateAssembly tube(msg::KIND_TUBE, {kPerBlock, kPerBlock}, kReach_m);
   msg::OrganState state = block(1, 0, 1);
   state.block_count = 1;
   state.node_count = kPerBlock;

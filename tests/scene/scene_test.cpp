@@ -1,65 +1,14 @@
-#include "scene/scene.h"
+#include "tests/scene/written_scene.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
-#include <string>
 
 namespace omentum::scene {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-// A scene with everything that is required, one key a line, so that a test can replace one of them.
-const std::string kGood = R"(name = "test"
-[[organs]]
-name = "liver"
-mesh = "meshes/liver.msh"
-young_pa = 12000
-poisson = 0.45
-density_kg_m3 = 1060
-fixed = "plane:x<0.03"
-[[tools]]
-id = 2
-name = "probe"
-shape = "probe"
-points = [[0, 0, 0], [0, 0.001, 0]]
-[[hands]]
-tool = 2
-press_point = [0, 0, 0.1]
-press_normal = [0, 0, 1]
-)";
-
-std::filesystem::path write_scene(const std::string& text) {
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string(info->test_suite_name()) + "_" + info->name() + ".toml";
-  std::replace(name.begin(), name.end(), '/', '_');
-  const auto file = std::filesystem::path(::testing::TempDir()) / name;
-  std::ofstream(file) << text;
-  return file;
-}
-
-std::string with(const std::string& line, const std::string& replacement) {
-  std::string text = kGood;
-  const auto at = text.find(line);
-  EXPECT_NE(at, std::string::npos) << line;
-  return text.replace(at, line.size(), replacement);
-}
-
-std::string message_of(const std::filesystem::path& file) {
-  try {
-    load_scene(file);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "accepted";
-}
 
 TEST(Scene, WhatIsNotWrittenKeepsItsDefault) {
   const auto file = write_scene(kGood);
@@ -77,49 +26,6 @@ TEST(Scene, WhatIsNotWrittenKeepsItsDefault) {
   EXPECT_EQ(scene.hands[0].organ, "liver") << "the first organ";
   EXPECT_EQ(scene.haptics.contact, "point");
   EXPECT_EQ(scene.camera.mode, "orbit");
-}
-
-TEST(Scene, RegionsAreReadWithThePlaceAndWhatDiffers) {
-  const Scene scene = load_scene(write_scene(with("[[tools]]", R"([[organs.regions]]
-label = -3
-young_pa = 30000
-[[organs.regions]]
-box = [0, 0, 0, 1, 2, 3]
-poisson = 0.3
-[[organs.regions]]
-ball = [0.01, 0, 0.02, 0.005]
-density_kg_m3 = 1200
-[[tools]])")));
-  const std::vector<RegionSpec>& regions = scene.organs[0].regions;
-  ASSERT_EQ(regions.size(), 3u);
-  EXPECT_EQ(regions[0].label, -3);
-  EXPECT_EQ(regions[0].young_pa, 30000);
-  EXPECT_FALSE(regions[0].poisson);
-  EXPECT_EQ(regions[1].box, (std::vector<double>{0, 0, 0, 1, 2, 3}));
-  EXPECT_EQ(regions[1].poisson, 0.3);
-  EXPECT_FALSE(regions[1].label);
-  EXPECT_EQ(regions[2].ball, (std::vector<double>{0.01, 0, 0.02, 0.005}));
-  EXPECT_EQ(regions[2].density_kg_m3, 1200);
-}
-
-TEST(Scene, RegionsThatSayTooLittleOrTooMuchAreRefused) {
-  const auto refusal = [](const std::string& keys) {
-    return message_of(write_scene(with("[[tools]]", "[[organs.regions]]\n" + keys + "\n[[tools]]")));
-  };
-  const std::string where = ":9: organs[0].regions[0].";
-  EXPECT_THAT(refusal("young_pa = 1"),
-              HasSubstr(where + "label: found none or several of label, box and ball"));
-  EXPECT_THAT(refusal("label = 1\nball = [0, 0, 0, 1]\nyoung_pa = 1"), HasSubstr("none or several"));
-  EXPECT_THAT(refusal("label = 1"),
-              HasSubstr(where + "young_pa: found nothing, nor poisson or density_kg_m3"));
-  EXPECT_THAT(refusal("label = 1.5\nyoung_pa = 1"), HasSubstr("label: found 1.5, expected a whole number"));
-  EXPECT_THAT(refusal("ball = [0, 0, 0, 0]\nyoung_pa = 1"), HasSubstr("ball: found a radius of 0"));
-  EXPECT_THAT(refusal("ball = [0, 0, 0]\nyoung_pa = 1"), HasSubstr("expected a list of 4 numbers"));
-  EXPECT_THAT(refusal("box = [0, 0, 0, 1, 1, \"x\"]\nyoung_pa = 1"),
-              HasSubstr("expected a list of 6 numbers"));
-  EXPECT_THAT(refusal("label = 1\npoisson = 0.5"),
-              HasSubstr("poisson: found 0.5, expected a number above -1 and below"));
-  EXPECT_THAT(refusal("label = 1\nyuong_pa = 1"), HasSubstr("yuong_pa: found an unknown key"));
 }
 
 TEST(Scene, WhatIsWrittenIsRead) {
@@ -146,11 +52,12 @@ target = [4, 5, 6]
 }
 
 TEST(Scene, AnOrgansModelSaysItsKind) {
-  for (const auto& [word, kind] : kOrganModels) {
-    const Scene scene = load_scene(
-        write_scene(with("name = \"liver\"", "name = \"liver\"\nmodel = \"" + std::string(word) + "\"")));
-    EXPECT_EQ(scene.organs[0].model, word);
-    EXPECT_EQ(scene.organs[0].kind, kind);
+  for (const OrganModelWord& model : kOrganModels) {
+    const Scene scene = load_scene(write_scene(
+        with("name = \"liver\"", "name = \"liver\"\nmodel = \"" + std::string(model.word) + "\"")));
+    EXPECT_EQ(scene.organs[0].model, model.word);
+    EXPECT_EQ(scene.organs[0].kind, model.kind);
+    EXPECT_EQ(scene.organs[0].dynamics.has_value(), model.feel == Feel::kLocalModels);
   }
 }
 

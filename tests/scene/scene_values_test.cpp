@@ -50,6 +50,10 @@ TEST(SceneValues, EveryDifferenceThatIsFeltChangesTheHash) {
       [](Scene& s) { s.tools[0].trocar = Vec3{}; },
       [](Scene& s) { std::swap(s.tools[0], s.tools[1]); },
       [](Scene& s) { s.hands[0].press_s += 1; },
+      [](Scene& s) { s.hands[0].cut = true; },
+      [](Scene& s) {
+        s.tools[0].edge = {{0, 0, 0}, {0, 0, 0.01}};
+      },
       [](Scene& s) { s.haptics.max_force_n = 4; },
   };
   const std::string hash = scene_hash(scene_values(small_scene()));

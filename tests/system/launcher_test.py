@@ -42,11 +42,13 @@ SHAPE = {
     "machine": {"cores": int, "kernel": str, "realtime": bool, "steal_share": float},
     "nodes": {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
-                        "contacts": {"ticks_in_contact": int, "nodes_max": int}, "faults": list},
+                        "contacts": {"ticks_in_contact": int, "nodes_max": int},
+                        "local_models": {"heard": int, "dropped": int, "gone": int}, "faults": list},
         "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "steps": int, "removed_tetrahedra": int,
-                        "faults": list},
+                        "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
+                        "real_time_factor": float, "faults": list},
         "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
-                        "closed": bool, "faults": list},
+                        "unmatched_states": int, "closed": bool, "faults": list},
         "virtual_device": {"dds": str, "exit": int, "round_trip_us": TIMES, "sent": int, "lost": int, "energy_j": float,
                            "faults": list},
     },
@@ -399,6 +401,21 @@ class Parts(unittest.TestCase):
         with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
             return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed)
 
+    def test_a_node_without_a_report_has_every_field_all_the_same(self):
+        seen_by_the_launcher = {"dds", "exit", "restarts"}
+        for name in NODES:
+            self.assertEqual(set(report.FIELDS[name]) | seen_by_the_launcher, set(SHAPE["nodes"][name]) | seen_by_the_launcher)
+
+    def test_each_scene_of_the_project_is_found_by_its_name_and_told_in_the_readme(self):
+        readme = (REPOSITORY / "README.md").read_text(encoding="utf-8")
+        names = {file.stem for file in (REPOSITORY / "scenes").glob("*.toml")}
+        self.assertLessEqual({"liver", "plate_cut", "cylinder_tear", "liver_dynamic"}, names)
+        for name in names:
+            self.assertEqual(options.find_scene(name), REPOSITORY / "scenes" / f"{name}.toml")
+            self.assertIn(name, readme)
+        listed = subprocess.run([REPOSITORY / "launch_scripts" / "run", "--list"], capture_output=True, text=True, check=True)
+        self.assertEqual({line.split()[0] for line in listed.stdout.splitlines()}, names)
+
     def test_changed_support_file_is_another_organ(self):
         nodes = self.folder / "nodes.csv"
         for fixed in (str(nodes), f"{nodes}:xz"):
@@ -607,6 +624,18 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertIn("deform_node", self.ended("deform_node", -11).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 0).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 2).restarts)
+
+    def test_a_session_has_one_journal_of_cuts_for_every_deform_node_and_none_from_before(self):
+        def journal():
+            made = session.Session.__new__(session.Session)
+            made.options = options.parse([str(HOLD), "--headless"])
+            made.scene, made.headless, made.domain = HOLD, True, mock.Mock(number=1)
+            made.folder = tempfile.TemporaryDirectory()
+            self.addCleanup(made.folder.cleanup)
+            command, = (node.command for node in made.make_nodes() if node.name == "deform_node")
+            return pathlib.Path(command[command.index("--journal") + 1])
+        self.assertFalse(journal().exists())
+        self.assertNotEqual(journal(), journal())
 
     def test_stolen_time_is_a_share_of_the_time_since_the_watch_began(self):
         stat = self.folder / "stat"

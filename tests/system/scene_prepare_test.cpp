@@ -1,80 +1,17 @@
 // scene_prepare: a scene fits its organ, whichever organ that is.
-#include "geometry/closest_points.h"
-#include "organ/organ.h"
-#include "scene/scene.h"
-
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
+#include "tests/system/prepared_skin.h"
 #include "tests/system/session_on_trial.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
-
-#include <limits>
 
 namespace omentum::test {
 namespace {
 
-using geometry::Vec3;
-
 const std::string kOwnScene = OMENTUM_SOURCE_DIR "/scenes/liver.toml";
-/// Closest points and interpolated positions are doubles on an organ of decimetres.
-constexpr double kOnSurface_m = 1e-9;
 /// A slide may leave a curved surface by this part of its length: the hand's target is 10 mm below it.
 constexpr double kLiftShare = 0.3;
-
-class Skin {
- public:
-  explicit Skin(const std::string& organ_file)
-      : organ_(organ::load_organ(organ_file, organ::Load::kMeshOnly)),
-        x_(geometry::surface_positions(organ_.mesh, organ_.surface)) {}
-
-  double distance(const Vec3& p) const {
-    double best = std::numeric_limits<double>::infinity();
-    for (const geometry::Triangle& t : organ_.surface.triangles)
-      best = std::min(best,
-                      geometry::closest_point_on_triangle(p, x_[t[0]], x_[t[1]], x_[t[2]]).squared_distance);
-    return std::sqrt(best);
-  }
-  /// By the parity of a ray's crossings, in a direction that no mesh is aligned with.
-  bool inside(const Vec3& p) const {
-    const Vec3 far = p + Vec3(0.5773, 0.3217, 0.7512) * 10;
-    int crossings = 0;
-    for (const geometry::Triangle& t : organ_.surface.triangles)
-      crossings +=
-          geometry::intersect_segment_triangle(p, far, x_[t[0]], x_[t[1]], x_[t[2]]).has_value() ? 1 : 0;
-    return crossings % 2 == 1;
-  }
-  double diagonal() const {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : x_) box.extend(p);
-    return box.diagonal().norm();
-  }
-  double to_support(const Vec3& p) const {
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 0; n < organ_.fixed.size(); ++n)
-      if (organ_.fixed[n] != 0) best = std::min(best, (organ_.mesh.positions[n] - p).norm());
-    return best;
-  }
-
- private:
-  organ::Organ organ_;
-  std::vector<Vec3> x_;
-};
-
-void expect_hand_fits(const Skin& skin, const scene::HandSpec& hand) {
-  const Vec3 p = hand.press_point, n = hand.press_normal, d = hand.slide_direction;
-  EXPECT_LE(skin.distance(p), kOnSurface_m);
-  EXPECT_NEAR(n.norm(), 1, 1e-9);
-  EXPECT_NEAR(d.norm(), 1, 1e-9);
-  EXPECT_NEAR(n.dot(d), 0, 1e-9) << "the slide is tangential";
-  const double step = 0.01 * skin.diagonal();
-  EXPECT_FALSE(skin.inside(p + step * n)) << "the normal points outward";
-  EXPECT_TRUE(skin.inside(p - step * n));
-  EXPECT_TRUE(skin.inside(p - hand.depth_m * n)) << "the organ is thicker than the hand presses";
-}
 
 class ForeignOrganTest : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
 
@@ -240,6 +177,43 @@ TEST_F(TwoOrgansTest, AForeignOrganTakesThePlaceOfTheFirstAndItsHandAndTheOtherH
   expect_hand_fits(Skin(foreign), scene.hands[0]);
   EXPECT_LE(Skin(own).distance(scene.hands[1].press_point), kOnSurface_m);
   EXPECT_EQ(scene.hands[1].depth_m, scene::load_scene(scene_).hands[1].depth_m);
+}
+
+// An organ file as the scene's mesh has its tensors: another stiffness in the scene would change nothing.
+TEST_F(TwoOrgansTest, ABuiltOrganIsOfTheMaterialThatItWasBuiltOf) {
+  const std::string first = box("a", -0.2), second = box("b", 0.2), scene = folder_ / "built.toml";
+  const std::string built =
+      "name = \"x\"\nmesh = \"b.h5\"\nyoung_pa = 12000\npoisson = 0.45\n"
+      "density_kg_m3 = 1060\nfixed = \"plane:z<0.01\"\n# end\n";
+  const auto write = [&](const std::string& from, const std::string& to) {
+    std::string text = read_text(scene_);
+    const std::size_t begin = text.find("name = \"gallbladder\""), end = text.find("[[tools]]");
+    std::string organ = built;
+    organ.replace(organ.find(from), from.size(), to);
+    text.replace(begin, end - begin, organ);
+    text.replace(text.find("organ = \"gallbladder\""), 21, "organ = \"x\"");
+    std::ofstream(scene) << text;
+    const auto line =
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(to, begin)), '\n') + 1;
+    return scene + ":" + std::to_string(line) + ": organs[1].";
+  };
+  write("12000", "12000");
+  prepared({scene, "--keep-points", "--organ", first, "--organ", second});
+  std::filesystem::remove(fitted_);
+  for (const auto& [from, to, says] : std::vector<std::array<std::string, 3>>{
+           {"young_pa = 12000", "young_pa = 6000", "young_pa: found 6000, expected 12000: the organ file is"},
+           {"poisson = 0.45", "poisson = 0.3", "poisson: found 0.3, expected 0.45"},
+           {"# end", "[[organs.regions]]\nlabel = 2\nyoung_pa = 1",
+            "regions[0]: found another material, expected one of those that organ_check lists"}}) {
+    const std::string place = write(from, to);
+    Process prepare("scene_prepare",
+                    {scene, "--keep-points", "--organ", first, "--organ", second, "-o", fitted_});
+    EXPECT_EQ(prepare.wait(), 2);
+    const std::string messages = prepare.messages();
+    EXPECT_NE(messages.find(place + says), std::string::npos) << messages << place;
+    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1) << messages;
+    EXPECT_FALSE(std::filesystem::exists(fitted_));
+  }
 }
 
 TEST_F(TwoOrgansTest, WrongFilesAreRefusedWithOneLineAndNothingIsWritten) {

@@ -3,12 +3,16 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest_position;
 layout(location = 3) in float openness_in;
+layout(location = 4) in float charring_in;
+layout(location = 5) in float strain_in;
 uniform mat4 W_from_mesh;
 uniform mat4 clip_from_W;
 out vec3 p_W;
 out vec3 n_W;
 out vec3 rest;
 out float openness;
+out float charring;
+out float strain;
 
 void main() {
   vec4 p = W_from_mesh * vec4(position, 1.0);
@@ -18,5 +22,7 @@ void main() {
   n_W = linear * (normal / vec3(dot(linear[0], linear[0]), dot(linear[1], linear[1]), dot(linear[2], linear[2])));
   rest = rest_position;
   openness = openness_in;
+  charring = charring_in;
+  strain = strain_in;
   gl_Position = clip_from_W * p;
 }

@@ -1,8 +1,11 @@
+// CUT is defined for an organ that was cut: heat may have charred it. BARED too for what lies bare of it: no capsule, but
+// parenchyma, vessels, blood.
 // Wet organ: light that enters comes out reddened and spread around the edge of the shade; a film of water mirrors.
 in vec3 p_W;
 in vec3 n_W;
 in vec3 rest;
 in float openness;
+in float charring;
 uniform sampler3D pattern;   // rgb: gradient (0.5 is none), a: value of a smooth noise
 uniform vec3 material_colour;
 uniform float material_roughness;
@@ -20,6 +23,35 @@ const float scattered = 0.35;  // more, where light creeps: what entered elsewhe
 // The relief of the capsule: slopes of mottling and grain; grain is seen up to this many unit_lengths away.
 const float mottle_slope = 0.20, grain_slope = 0.13, grain_sight = 5.0;
 const float soft_relief = 0.3;  // of it shades the body: light inside tissue does not see the capsule's grain
+
+#ifdef CUT
+// Tissue that a hot edge went through: baked brown, black in crusts, and dull; from so much charring on, frayed by the
+// pattern. On the capsule a narrow seam of it is seen.
+const vec3 baked = vec3(0.060, 0.021, 0.010), crust = vec3(0.0062, 0.0042, 0.0035);
+const float char_fray = 0.55, crust_from = 0.42, crust_full = 0.68, dried = 0.6, char_mirror = 0.25;
+#ifdef BARED
+const float char_from = 0.30, char_full = 0.95, char_most = 0.88;
+#else
+const float char_from = 0.62, char_full = 1.0, char_most = 0.8;
+#endif
+#endif
+
+#ifdef BARED
+// Vessels run through the inside in two directions, one in most squares of this side, m; a cut shows their mouths: a pale
+// wall around a dark lumen. They meander with the mottling.
+const float vessel_spacing = 0.017, widest_vessel = 0.0026, vessel_wall = 0.0007, meander = 0.003;
+const vec3 wall_tint = vec3(0.150, 0.060, 0.048), lumen_tint = vec3(0.020, 0.0020, 0.0024);
+// Lobules, a millimetre or two across, stand out where they were parted.
+const float lobule_period = 0.019, lobule_slope = 0.34, lobule_weight = 1.0;
+
+// The distance to the outside of the vessel that crosses this square of a plane, m; large where none does.
+float off_vessel(vec2 p) {
+  vec2 square = floor(p / vessel_spacing);
+  float radius = widest_vessel * (1.6 * grain(square + 41.0) - 0.6);
+  vec2 middle = (square + 0.25 + 0.5 * vec2(grain(square), grain(square.yx + 17.0))) * vessel_spacing;
+  return radius > 0.0 ? distance(p, middle) - radius : 1.0;
+}
+#endif
 
 // The pattern's share in the colour, and the tint of spots where blood stands.
 const float mottle_weight = 1.7, grain_weight = 0.8, contrast = 0.38;
@@ -55,6 +87,10 @@ void main() {
   // the relief fades with distance, where it would only flicker
   float near = clamp(unit_length * grain_sight / distance(eye, p_W), 0.0, 1.0);
   vec3 slope = (mottle.rgb - 0.5) * mottle_slope + (fine.rgb - 0.5) * grain_slope * near;
+#ifdef BARED
+  vec4 lobules = texture(pattern, rest.zxy / lobule_period);
+  slope += (lobules.gbr - 0.5) * lobule_slope * near;
+#endif
   vec3 n = normalize(n0 - (slope - n0 * dot(slope, n0)));
   vec3 n_soft = normalize(mix(n0, n, soft_relief));
 
@@ -62,6 +98,23 @@ void main() {
   float spot = (mottle.a - 0.5) * mottle_weight + (fine.a - 0.5) * grain_weight;
   vec3 albedo = material_colour * (1.0 + contrast * spot);
   albedo = mix(albedo, albedo * blood_tint, clamp(-spot, 0.0, 1.0));
+#ifdef BARED
+  albedo *= 1.0 + lobule_weight * (lobules.a - 0.5);
+  vec3 bent = rest + meander * (mottle.rgb - 0.5);
+  float off = min(off_vessel(bent.xy), off_vessel(bent.yz));
+  float blur = 0.5 * fwidth(off) + 0.0001;
+  albedo = mix(wall_tint, albedo, smoothstep(-blur, blur, off));
+  albedo = mix(lumen_tint, albedo, smoothstep(-blur, blur, off + vessel_wall));
+#endif
+  float wet = material_roughness * (smoothest + roughened * mottle.a);
+  float mirroring = 1.0;
+#ifdef CUT
+  float fray = char_fray * (fine.a + mottle.a - 1.0);
+  float burnt = char_most * smoothstep(char_from, char_full, charring * (1.0 + fray));
+  albedo = mix(albedo, mix(baked, crust, smoothstep(crust_from, crust_full, 0.5 * (fine.a + mottle.a))), burnt);
+  wet = mix(wet, dried, burnt);
+  mirroring = mix(1.0, char_mirror, burnt);
+#endif
 
   // shadows on tissue are red, not grey: light enters beside them
   float shade = lit(p_W, n0, dot(n0, towards_key));
@@ -77,13 +130,12 @@ void main() {
   vec3 body = albedo * light * mix(vec3(1.0), open, hollow_share);
 
   // the film of water: sharp glints of both lights and a mirror of the room, strongest at grazing angles
-  float wet = material_roughness * (smoothest + roughened * mottle.a);
   vec3 glint = gloss(n, v, towards_key, wet, water_f0) * key_colour * pi * shade * key_glint;
   glint += gloss(n, v, v, wet, water_f0) * fill_colour * torch * pi * fill_glint;
   glint *= openness;
   float grazing = pow(1.0 - nv, 5.0);
   vec3 mirror = room(reflect(-v, n), mirror_blur) * (mirror_straight + mirror_grazing * grazing);
-  mirror *= openness * openness * mix(mirror_in_shade, 1.0, shade);
+  mirror *= openness * openness * mix(mirror_in_shade, 1.0, shade) * mirroring;
 
   colour = vec4(film(body + glint + mirror), 1.0);
 }

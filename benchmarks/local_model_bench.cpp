@@ -1,0 +1,143 @@
+// The haptic step on local models: two tools of eight points, each pressing its own patch, which a new model
+// replaces every 10 ms; and how long an ordinary thread takes to check a model and make a body of it. Goal:
+// median of the step below 20 us.
+#include "benchmarks/bench_json.h"
+#include "haptic_node/haptic_step.h"
+#include "haptic_node/local_body.h"
+#include "runtime/clock.h"
+#include "runtime/realtime.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace {
+
+using namespace omentum;
+using geometry::SurfaceId;
+using geometry::Vec3;
+
+constexpr int kTicks = 20'000;  // 20 s at 1 kHz
+constexpr int kTicksPerModel = 10;
+constexpr std::int64_t kTick_ns = 1'000'000;
+constexpr double kEdge_m = 6e-3, kDepth_m = 3e-3, kRadius_m = 4e-3, kDrift_m_s = 0.02;
+constexpr double kGoal_us = 20;
+
+/// Rows of a flat sheet; compliance falls off by e-folds over two edges, as tissue's does.
+haptic::LocalPatch sheet(int rows, int columns, const Vec3& corner) {
+  haptic::LocalPatch patch;
+  for (int i = 0; i < rows * columns; ++i) {
+    patch.nodes.push_back(static_cast<std::uint32_t>(i));
+    patch.positions.emplace_back(corner + kEdge_m * Vec3(i % columns, i / columns, 0));
+  }
+  patch.velocities.assign(patch.positions.size(), Vec3(0, 0, 1e-3));
+  patch.forces.assign(patch.positions.size(), Vec3::Zero());
+  for (int r = 0; r + 1 < rows; ++r) {
+    for (int c = 0; c + 1 < columns; ++c) {
+      const SurfaceId a(r * columns + c), b(a + 1), d(a + columns), e(d + 1);
+      patch.triangles.push_back({a, b, e});
+      patch.triangles.push_back({a, e, d});
+    }
+  }
+  for (std::size_t i = 0; i < 3 * patch.positions.size(); ++i) {
+    for (std::size_t j = i; j < 3 * patch.positions.size(); ++j) {
+      const double apart_m = (patch.positions[i / 3] - patch.positions[j / 3]).norm();
+      patch.compliance.push_back(i % 3 == j % 3 ? static_cast<float>(2e-3 * std::exp(-apart_m / 2 / kEdge_m))
+                                                : 0.0f);
+    }
+  }
+  return patch;
+}
+
+haptic::ToolModel ring() {
+  haptic::ToolModel tool;
+  for (int i = 0; i < 8; ++i) {
+    const double turn = i * std::numbers::pi / 4;
+    tool.points.emplace_back(kRadius_m * std::cos(turn), kRadius_m * std::sin(turn), 0);
+  }
+  return tool;
+}
+
+double median_us(std::vector<std::int64_t>& ns, double share = 0.5) {
+  const auto at = ns.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(ns.size() - 1));
+  std::nth_element(ns.begin(), at, ns.end());
+  return 1e-3 * static_cast<double>(*at);
+}
+
+class Session {
+ public:
+  Session(int rows, int columns) : rows_(rows), columns_(columns) {}
+
+  void run() {
+    for (int i = 0; i < kTicks; ++i) {
+      state_.now_ns += kTick_ns;
+      if (i % kTicksPerModel == 0) post();
+      const double way = kDrift_m_s * 1e-3 * i / kRadius_m;
+      for (std::size_t t = 0; t < 2; ++t) {
+        const Vec3 around = kRadius_m * Vec3(std::sin(way), std::cos(way), 0);
+        const double depth_m = kDepth_m * std::min(1.0, i / 200.0 - 0.5);
+        inputs_[t].engaged = true;
+        inputs_[t].frame.p_WT = middle_of(t) + around - Vec3(0, 0, depth_m);
+      }
+      const std::int64_t begin = runtime::steady_now_ns();
+      const haptic::StepResult result = haptic_step(model_, inputs_, state_, *work_, outputs_);
+      const std::int64_t took = runtime::steady_now_ns() - begin;
+      if (i < 1000) continue;
+      (i % kTicksPerModel == 0 ? taken : stepped).push_back(took);
+      contacts = std::max(contacts, result.contacts);
+    }
+  }
+
+  std::vector<std::int64_t> stepped, taken, made;
+  int contacts = 0;
+
+ private:
+  Vec3 corner_of(std::size_t tool) const { return Vec3(tool == 0 ? 0.0 : 0.2, 0, 0); }
+  Vec3 middle_of(std::size_t tool) const {
+    return corner_of(tool) + 0.5 * kEdge_m * Vec3(columns_ - 1, rows_ - 1, 0);
+  }
+  void post() {
+    for (std::size_t t = 0; t < 2; ++t) {
+      haptic::LocalPatch patch = sheet(rows_, columns_, corner_of(t));
+      patch.tool = t;
+      patch.arrival_ns = state_.now_ns;
+      const std::int64_t begin = runtime::steady_now_ns();
+      if (const auto why = reason_against(patch, 1)) throw std::runtime_error(*why);
+      auto body = make_local_body(patch);
+      made.push_back(runtime::steady_now_ns() - begin);
+      work_->doors[t].post(std::move(body));
+    }
+  }
+
+  int rows_, columns_;
+  haptic::HapticModel model_{.organs = {}, .tools = {ring(), ring()}, .spare_places = 2};
+  haptic::HapticState state_{model_};
+  std::unique_ptr<haptic::HapticWorkspace> work_ = std::make_unique<haptic::HapticWorkspace>(model_);
+  std::vector<haptic::ToolInput> inputs_{2};
+  std::vector<haptic::ToolOutput> outputs_{2};
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bench::Results results(argc, argv);
+  const std::string refused = runtime::request_realtime(runtime::kHandLoopPriority).warning;
+  if (!refused.empty()) std::printf("warning: %s\n", refused.c_str());
+  for (const auto& [rows, columns] : {std::pair(4, 6), std::pair(8, 12)}) {
+    Session session(rows, columns);
+    session.run();
+    const std::string name = "haptic_step_local/" + std::to_string(rows * columns);
+    const double step_us = median_us(session.stepped), late_us = median_us(session.stepped, 0.99);
+    const double taken_us = median_us(session.taken), made_us = median_us(session.made);
+    std::printf(
+        "%d nodes: step median %.1f us, p99 %.1f us; with two new models %.1f us; a body is made in %.0f us; "
+        "contacts at most %d\n",
+        rows * columns, step_us, late_us, taken_us, made_us, session.contacts);
+    results.add({.name = name + "/p50", .value = step_us, .unit = "us", .limit = kGoal_us});
+    results.add({.name = name + "/p99", .value = late_us, .unit = "us"});
+    results.add({.name = name + "/new_models", .value = taken_us, .unit = "us"});
+    results.add({.name = name + "/make", .value = made_us, .unit = "us"});
+  }
+  results.write();
+}

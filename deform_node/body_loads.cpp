@@ -1,0 +1,120 @@
+#include "deform_node/body_loads.h"
+
+#include <algorithm>
+
+namespace omentum::deform {
+
+using geometry::MeshEditor;
+using geometry::TetId;
+
+BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap& material,
+                     const Vec3& gravity_m_s2)
+    : mesh_(mesh),
+      gravity_(gravity_m_s2),
+      uncut_kg_(mesh.positions.size()),
+      weights_(3 * mesh.positions.size()),
+      external_(weights_.size()),
+      pressed_(mesh.positions.size(), Vec3::Zero()) {
+  quarter_kg_.reserve(mesh.tetrahedra.size());
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    const auto& x = mesh.positions;
+    quarter_kg_.push_back(material.of(mesh, TetId(t)).density_kg_m3 *
+                          geometry::signed_volume(x[a], x[b], x[c], x[d]) / 4);
+    for (const NodeId n : mesh.tetrahedra[t]) uncut_kg_[n] += quarter_kg_.back();
+  }
+  held_.reserve(kMaxTools);
+  presses_.reserve(kMaxTools);
+  restore();
+}
+
+physics::Press BodyLoads::HeldPress::press() const noexcept {
+  return {{nodes.data(), count}, {displacements.data(), count}, {forces.data(), count}};
+}
+
+void BodyLoads::weigh(NodeId n) noexcept {
+  const Vec3 weight = carried_kg_[n] * gravity_;
+  Vec3::Map(&weights_[3 * n]) = weight;
+  Vec3::Map(&external_[3 * n]) = weight + pressed_[n];
+}
+
+Vec3 BodyLoads::of_tool(std::uint32_t tool, NodeId n) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (const HeldPress& held : held_)
+    for (std::size_t i = 0; i < held.count; ++i)
+      if (held.tool == tool && held.nodes[i] == n) sum += held.strength * held.forces[i];
+  return sum;
+}
+
+void BodyLoads::press(std::span<const ToolLoad> presses, const MeshEditor& editor) noexcept {
+  forget_presses();
+  for (const ToolLoad& load : presses) {
+    if (held_.size() == kMaxTools) break;
+    HeldPress& held = held_.emplace_back();
+    held.tool = load.tool;
+    held.count = std::min<std::size_t>(load.nodes.size(), kMaxNodesPerTool);
+    std::copy_n(load.nodes.begin(), held.count, held.nodes.begin());
+    std::copy_n(load.displacements.begin(), held.count, held.displacements.begin());
+    std::copy_n(load.forces.begin(), held.count, held.forces.begin());
+    keep_attached(held, editor);
+    presses_.push_back(held.press());
+    for (std::size_t i = 0; i < held.count; ++i) pressed_[held.nodes[i]] += held.forces[i];
+    for (std::size_t i = 0; i < held.count; ++i) weigh(held.nodes[i]);
+  }
+}
+
+void BodyLoads::act(std::span<const double> strengths) noexcept {
+  for (std::size_t p = 0; p < held_.size(); ++p) {
+    HeldPress& held = held_[p];
+    for (std::size_t i = 0; i < held.count; ++i) {
+      pressed_[held.nodes[i]] += (strengths[p] - held.strength) * held.forces[i];
+      weigh(held.nodes[i]);
+    }
+    held.strength = strengths[p];
+  }
+}
+
+void BodyLoads::forget_presses() noexcept {
+  for (const HeldPress& held : held_) {
+    for (std::size_t i = 0; i < held.count; ++i) {
+      pressed_[held.nodes[i]].setZero();
+      weigh(held.nodes[i]);
+    }
+  }
+  held_.clear();
+  presses_.clear();
+}
+
+void BodyLoads::keep_attached(HeldPress& held, const MeshEditor& editor) noexcept {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < held.count; ++i) {
+    if (editor.uses(held.nodes[i]) == 0) continue;
+    held.nodes[kept] = held.nodes[i];
+    held.displacements[kept] = held.displacements[i];
+    held.forces[kept++] = held.forces[i];
+  }
+  held.count = kept;
+}
+
+void BodyLoads::lighten(std::span<const TetId> gone, const MeshEditor& editor) noexcept {
+  for (const TetId t : gone) {
+    for (const NodeId n : mesh_.tetrahedra[t]) {
+      // nothing, not what rounding leaves of it
+      carried_kg_[n] = editor.uses(n) == 0 ? 0 : carried_kg_[n] - quarter_kg_[t];
+      if (editor.uses(n) == 0) pressed_[n].setZero();
+      weigh(n);
+    }
+  }
+  for (std::size_t p = 0; p < held_.size(); ++p) {
+    keep_attached(held_[p], editor);
+    presses_[p] = held_[p].press();
+  }
+}
+
+void BodyLoads::restore() noexcept {
+  forget_presses();
+  carried_kg_ = uncut_kg_;
+  for (std::size_t n = 0; n < uncut_kg_.size(); ++n) weigh(NodeId(n));
+}
+
+}  // namespace omentum::deform

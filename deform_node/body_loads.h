@@ -1,0 +1,62 @@
+// What pulls and pushes the nodes of an organ with masses: its weight and the tools.
+#pragma once
+
+#include "deform_node/contact_book.h"
+#include "geometry/mesh_editor.h"
+#include "physics/dynamics/imposed_press.h"
+
+#include <vector>
+
+namespace omentum::deform {
+
+/// External forces on all nodes. A node carries the weight of the tissue that is left around it: what burnt
+/// away is gone, though its mass stays for the integrator's sake (physics/dynamics/body_state.h), and a node
+/// without any carries nothing, whoever presses it. Takes its memory when it is made.
+class BodyLoads {
+ public:
+  BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap& material, const Vec3& gravity_m_s2);
+
+  /// What the tools' hands want from now on, in place of the last ones; as strong as they say.
+  void press(std::span<const ToolLoad> presses, const geometry::MeshEditor& editor) noexcept;
+  std::span<const physics::Press> presses() const noexcept { return presses_; }
+  /// How strong each of presses() really is, as a share of what its hand said.
+  void act(std::span<const double> strengths) noexcept;
+  /// What is left in `editor` after these went, or after all came back.
+  void lighten(std::span<const geometry::TetId> gone, const geometry::MeshEditor& editor) noexcept;
+  void restore() noexcept;
+
+  /// Weights alone / with the tools' forces as they act, [3N], N.
+  std::span<const double> weights() const noexcept { return weights_; }
+  std::span<const double> external() const noexcept { return external_; }
+  /// One tool's share at a node, N.
+  Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
+
+ private:
+  /// One tool's, without nodes that nothing is left around.
+  struct HeldPress {
+    std::uint32_t tool = 0;
+    double strength = 1;
+    std::size_t count = 0;
+    std::array<NodeId, kMaxNodesPerTool> nodes;
+    std::array<Vec3, kMaxNodesPerTool> displacements, forces;
+
+    physics::Press press() const noexcept;
+  };
+
+  void keep_attached(HeldPress& held, const geometry::MeshEditor& editor) noexcept;
+  void weigh(NodeId n) noexcept;
+  void forget_presses() noexcept;
+
+  const geometry::TetraMesh& mesh_;
+  Vec3 gravity_;
+  std::vector<double> quarter_kg_;  // [T], of each tetrahedron's mass
+  std::vector<double> carried_kg_;  // [N]
+  std::vector<double> uncut_kg_;    // [N]
+  std::vector<double> weights_;     // [3N]
+  std::vector<double> external_;    // [3N]
+  std::vector<Vec3> pressed_;       // [N], by the tools
+  std::vector<HeldPress> held_;     // capacity kMaxTools
+  std::vector<physics::Press> presses_;
+};
+
+}  // namespace omentum::deform

@@ -1,0 +1,107 @@
+#include "deform_node/dynamic_maker.h"
+
+#include "deform_node/dynamic_model.h"
+#include "deform_node/tear_limits.h"
+#include "physics/dynamics/corotational.h"
+#include "physics/dynamics/spring_mesh.h"
+#include "physics/dynamics/stable_step.h"
+#include "physics/dynamics/tensor_mass.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace omentum::deform {
+
+namespace {
+
+// One in each tick at deform_node's own rate: a hand goes by a local model until the next one comes, and that
+// is good for one step. With two in a tick it met a plate of 1 cm too stiff, and was fed energy.
+constexpr double kImplicitStep_s = 0.01;
+// Of the largest step that is stable: contacts and cuts come between.
+constexpr double kShareOfStable = 0.5;
+
+std::optional<physics::ExplicitScheme> scheme_of(const std::string& integrator) {
+  if (integrator == "euler") return physics::ExplicitScheme::kForwardEuler;
+  if (integrator == "symplectic") return physics::ExplicitScheme::kSymplecticEuler;
+  if (integrator == "rk4") return physics::ExplicitScheme::kRungeKutta4;
+  return {};
+}
+
+physics::Inertia inertia_of(const organ::Organ& organ, const scene::DynamicsSpec& dynamics) {
+  return {.mass = physics::lumped_masses(organ.mesh, organ.material),
+          .fixed = organ.fixed,
+          .mass_damping_per_s = dynamics.mass_damping_per_s,
+          .stiffness_damping_s = dynamics.stiffness_damping_s};
+}
+
+struct Stepping {
+  std::unique_ptr<BodyStepper> stepper;
+  double energy_margin = 2;  // backward Euler's: it loses energy
+};
+
+// By the scene's own step, or a share of what the mesh allows.
+Stepping step_explicitly(const SteppedBody& body, const scene::DynamicsSpec& dynamics,
+                         physics::ExplicitScheme scheme, std::unique_ptr<physics::ForceLaw> law,
+                         bool is_linear_at_rest = true) {
+  const double highest_rad_s = physics::highest_frequency(*law, body.inertia).rad_s;
+  const double stable_s = physics::stable_step_s(scheme, body.inertia, highest_rad_s);
+  const double step_s = dynamics.step_s.value_or(kShareOfStable * stable_s);
+  if (step_s > 0 && step_s < stable_s)
+    return {make_explicit_stepper(body, std::move(law), scheme, step_s, is_linear_at_rest),
+            physics::energy_margin(scheme, step_s / stable_s)};
+  char line[160];
+  std::snprintf(line, sizeof line,
+                ": step_s: found %g, expected less than %.3g: below that \"%s\" is stable on this mesh",
+                step_s, stable_s, dynamics.integrator.c_str());
+  throw std::runtime_error(dynamics.where + line);
+}
+
+// `step`: of a body, by what its scene says.
+template <class Step>
+std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec, Step&& step) {
+  const organ::Organ& organ = source.organ;
+  const scene::DynamicsSpec& dynamics = *spec.dynamics;
+  DynamicParts parts{.body = {organ.mesh, organ.material, inertia_of(organ, dynamics)},
+                     .uncut_surface = organ.surface.node};
+  Stepping stepping = step(parts.body, dynamics);
+  parts.stepper = std::move(stepping.stepper);
+  parts.energy_margin = stepping.energy_margin;
+  parts.gravity_m_s2 = dynamics.gravity_m_s2;
+  parts.tears = tear_limits_of(organ, spec);
+  parts.cut_delay_s = dynamics.cut_delay_s;
+  parts.cut_rate_per_s = dynamics.cut_rate_per_s;
+  parts.smallest_piece_m3 = dynamics.smallest_piece_m3;
+  return std::make_unique<DynamicModel>(std::move(parts));
+}
+
+template <class Law>
+std::unique_ptr<physics::ForceLaw> law_of(const SteppedBody& body) {
+  return std::make_unique<Law>(body.mesh, body.material);
+}
+
+}  // namespace
+
+std::unique_ptr<OrganModel> make_tensor_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
+  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
+    if (const auto scheme = scheme_of(dynamics.integrator))
+      return step_explicitly(body, dynamics, *scheme, law_of<physics::TensorMass>(body));
+    return {make_implicit_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
+  });
+}
+
+std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, const scene::OrganSpec& spec) {
+  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
+    if (const auto scheme = scheme_of(dynamics.integrator))
+      return step_explicitly(body, dynamics, *scheme, law_of<physics::Corotational>(body));
+    return {make_warped_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
+  });
+}
+
+std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
+  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
+    return step_explicitly(body, dynamics, scheme_of(dynamics.integrator).value(),
+                           law_of<physics::SpringMesh>(body), false);
+  });
+}
+
+}  // namespace omentum::deform

@@ -1,0 +1,239 @@
+#include "deform_node/dynamic_model.h"
+
+#include "node_common/organ_reach.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace omentum::deform {
+
+using geometry::TetId;
+
+namespace {
+
+constexpr std::size_t kPatchNodes = BodyStepper::kPatchNodes;
+// As often as a screen shows it.
+constexpr double kTearCheck_s = 1.0 / 60;
+// Of one check: a crack runs by hundreds of tetrahedra a second, and each check leaves time for a step.
+constexpr std::size_t kMostTorn = 4;
+// Below this no eye and no hand finds a motion, J: a gram at 1 mm/s.
+constexpr double kUnnoticed_j = 5e-10;
+// A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
+constexpr double kRounding = 1e-9;
+
+double volume_of(const geometry::TetraMesh& mesh, TetId t) {
+  const auto& [a, b, c, d] = mesh.tetrahedra[t];
+  const auto& x = mesh.positions;
+  return geometry::signed_volume(x[a], x[b], x[c], x[d]);
+}
+
+Vec3 at(const std::vector<double>& components, NodeId n) {
+  return Eigen::Map<const Vec3>(components.data() + 3 * n);
+}
+
+// What is held does not yield, and a hand's matrix has to be definite: supports yield a millionth of what
+// else does.
+void stiffen_supports(std::span<float> compliance, std::size_t rows) {
+  float most = 0;
+  for (std::size_t r = 0; r < rows; ++r) most = std::max(most, compliance[r * rows + r]);
+  const float held = most > 0 ? 1e-6F * most : 1e-7F;
+  for (std::size_t r = 0; r < rows; ++r) compliance[r * rows + r] = std::max(compliance[r * rows + r], held);
+}
+
+}  // namespace
+
+DynamicModel::DynamicModel(DynamicParts parts)
+    : mesh_(parts.body.mesh),
+      inertia_(std::move(parts.body.inertia)),
+      editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
+      loads_(mesh_, parts.body.material, parts.gravity_m_s2),
+      state_(physics::state_at_rest(mesh_.positions.size())),
+      before_(state_),
+      stepper_(std::move(parts.stepper)),
+      watch_(parts.energy_margin, kUnnoticed_j),
+      swept_(mesh_),
+      burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
+      tearing_(mesh_, parts.body.material, parts.tears),
+      reach_m_(node::reach_m(mesh_.positions)),
+      burnt_((mesh_.tetrahedra.size() + 7) / 8),
+      values_(state_.u.size()),
+      gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
+      felt_(std::make_unique<Felt>()) {
+  felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
+  felt_->u.resize(state_.u.size());
+  gone_.reserve(mesh_.tetrahedra.size());
+  fallen_.reserve(mesh_.tetrahedra.size());
+}
+
+ModelSizes DynamicModel::sizes() const {
+  return {.values = values_.size(),
+          .removed_bytes = burnt_.size(),
+          .local_nodes = stepper_->is_felt() ? kPatchNodes : 0,
+          .spheres = 0};
+}
+
+void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
+  status_.fault = {};
+  const double step_s = stepper_->step_s();
+  ahead_s_ += dt_s;
+  const auto steps = static_cast<int>(ahead_s_ / step_s + kRounding);
+  ahead_s_ -= steps * step_s;
+  // not in a tick without a step: a local model says the forces that brought the surface where it is
+  if (steps > 0) loads_.press(loads.presses, editor_);
+  cut(loads.cuts, dt_s);
+  check(dt_s);
+  if (steps > 0 && !status_.diverged) advance(steps);
+  show();
+}
+
+void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
+  if (!strokes.empty()) swept_.follow(state_.u);
+  for (const CutStroke& stroke : strokes) {
+    const std::span<const TetId> met = swept_.find({stroke.from, stroke.to});
+    burning_.meet(met, editor_);
+    if (!met.empty())
+      status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
+  }
+  const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
+  for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
+  for (const TetId t : remove(burnt)) status_.cuts.lost_m3 += volume_of(mesh_, t);
+}
+
+void DynamicModel::check(double dt_s) noexcept {
+  until_check_s_ -= dt_s;
+  if (until_check_s_ > 0) return;
+  until_check_s_ = std::max(until_check_s_ + kTearCheck_s, 0.0);
+  remove(tearing_.check(state_.u, editor_.removed_bits(), kMostTorn));
+  drop_what_fell();
+}
+
+void DynamicModel::drop_what_fell() noexcept {
+  const auto is_gone = [&](NodeId n) { return !(at(state_.u, n).squaredNorm() < reach_m_ * reach_m_); };
+  fallen_.clear();
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+    if (!editor_.is_removed(TetId(t)) && std::ranges::any_of(mesh_.tetrahedra[t], is_gone))
+      fallen_.push_back(TetId(t));
+  remove(fallen_);
+}
+
+std::span<const TetId> DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
+  if (tetrahedra.empty()) return {};
+  const geometry::Removal removal = editor_.remove(tetrahedra);
+  gone_.assign(removal.asked.begin(), removal.asked.end());
+  gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
+  gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
+  if (gone_.empty()) return {};
+  ++version_;
+  status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
+  forgo_gone();
+  return gone_;
+}
+
+void DynamicModel::forgo_gone() noexcept {
+  status_.removed_tetrahedra = static_cast<std::uint32_t>(editor_.removed_count());
+  if (!stepper_->remove(gone_)) status_.diverged = true;
+  loads_.lighten(gone_, editor_);
+  for (const TetId t : gone_)
+    for (const NodeId n : mesh_.tetrahedra[t])
+      if (editor_.uses(n) == 0) Eigen::Map<Vec3>(state_.v.data() + 3 * n).setZero();
+}
+
+void DynamicModel::advance(int steps) noexcept {
+  std::ranges::copy(state_.u, before_.u.begin());
+  std::ranges::copy(state_.v, before_.v.begin());
+  const physics::EnergyWatch watch = watch_;
+  stepper_->prepare();
+  status_.diverged = !run(steps, &BodyStepper::step);
+  if (status_.diverged) {
+    std::swap(state_, before_);
+    watch_ = watch;
+    status_.diverged = !run(steps, &BodyStepper::step_shorter);
+    if (!status_.diverged) status_.fault = "would diverge, goes on in shorter steps";
+  }
+  status_.simulated_s += steps * stepper_->step_s();
+  status_.steps += static_cast<std::uint64_t>(steps);
+}
+
+bool DynamicModel::run(int steps, Step step) noexcept {
+  for (int i = 0; i < steps; ++i) {
+    const auto work_j = (stepper_.get()->*step)(state_, loads_);
+    if (!work_j) return false;
+    watch_.add_work(*work_j);
+  }
+  const double energy_j = stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v);
+  return watch_.accepts(energy_j, steps * stepper_->step_s());
+}
+
+void DynamicModel::list_removed() noexcept {
+  gone_.clear();
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+    if (editor_.is_removed(TetId(t))) gone_.push_back(TetId(t));
+}
+
+void DynamicModel::reset() noexcept {
+  list_removed();
+  if (!gone_.empty()) ++version_;
+  stepper_->restore(gone_);
+  editor_.restore();
+  loads_.restore();
+  burning_.clear();
+  std::ranges::fill(burnt_, std::uint8_t{0});
+  watch_.restart(0);
+  std::ranges::fill(state_.u, 0.0);
+  std::ranges::fill(state_.v, 0.0);
+  ahead_s_ = until_check_s_ = 0;
+  status_.removed_tetrahedra = 0;
+  status_.diverged = false;
+  show();
+}
+
+void DynamicModel::take_up(std::span<const std::uint8_t> removed_bits,
+                           std::span<const std::uint8_t> burnt_bits, std::uint64_t version) noexcept {
+  reset();
+  editor_.set_removed(removed_bits);
+  list_removed();
+  if (!gone_.empty()) forgo_gone();
+  std::copy_n(burnt_bits.begin(), std::min(burnt_bits.size(), burnt_.size()), burnt_.begin());
+  version_ = version;
+  show();
+}
+
+void DynamicModel::show() noexcept {
+  felt_->is_foreseen = false;
+  float* value = values_.data();
+  for (const NodeId n : editor_.surface_nodes())
+    for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(state_.u[3 * n + axis]);
+}
+
+OrganView DynamicModel::view() const noexcept {
+  return {.kind = StateKind::kSurface,
+          .topology_version = version_,
+          .values = std::span(values_).first(3 * editor_.surface_nodes().size()),
+          .removed_bits = editor_.removed_bits(),
+          .burnt_bits = burnt_};
+}
+
+bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
+  if (!stepper_->is_felt() || !gatherer_->gather(place, editor_, state_.u, patch)) return false;
+  const std::span<const NodeId> nodes = gatherer_->nodes();
+  if (!felt_->is_foreseen) stepper_->foresee(state_, loads_.external(), felt_->u);
+  felt_->is_foreseen = true;
+  patch.topology_version = version_;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 u = at(state_.u, nodes[i]);
+    patch.velocities[i] = (at(felt_->u, nodes[i]) - u) / stepper_->felt_s();
+    patch.positions[i] = mesh_.positions[nodes[i]] + u + ahead_s_ * patch.velocities[i];
+    patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
+  }
+  const std::size_t rows = 3 * nodes.size();
+  const std::span<float> block = std::span(felt_->compliance).first(rows * rows);
+  stepper_->compliance(nodes, block);
+  stiffen_supports(block, rows);
+  float* upper = patch.compliance.data();
+  for (std::size_t r = 0; r < rows; ++r)
+    upper = std::copy(block.begin() + static_cast<std::ptrdiff_t>(r * rows + r),
+                      block.begin() + static_cast<std::ptrdiff_t>((r + 1) * rows), upper);
+  return true;
+}
+
+}  // namespace omentum::deform

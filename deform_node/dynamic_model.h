@@ -1,0 +1,87 @@
+// An organ with masses that swings, is cut and tears (Cotin 1998, section 5).
+#pragma once
+
+#include "deform_node/body_loads.h"
+#include "deform_node/body_stepper.h"
+#include "deform_node/cut_queue.h"
+#include "deform_node/organ_models.h"
+#include "deform_node/patch_gatherer.h"
+#include "physics/dynamics/energy_watch.h"
+#include "physics/dynamics/swept_cut.h"
+#include "physics/dynamics/tearing.h"
+
+namespace omentum::deform {
+
+/// What a dynamic organ consists of.
+struct DynamicParts {
+  SteppedBody body;                        // its mesh outlives the model
+  std::span<const NodeId> uncut_surface;   // in the organ file's order; read at construction alone
+  std::unique_ptr<BodyStepper> stepper{};  // of the same body
+  double energy_margin = 2;                // of a sound integration by it (physics/dynamics/energy_watch.h)
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  std::vector<physics::TearLimits> tears{};  // [T]
+  double cut_delay_s = 0, cut_rate_per_s = 1;
+  double smallest_piece_m3 = 0;
+};
+
+/// Steps of its own fixed length as the clock goes on; strokes burn through, what is loaded too much tears, a
+/// piece that falls out of reach is dropped. Every removal is a new topology version, and every reset of an
+/// organ that was cut. What its energy may be is what was done to it: more says that it diverges.
+class DynamicModel final : public OrganModel {
+ public:
+  explicit DynamicModel(DynamicParts parts);
+
+  ModelSizes sizes() const override;
+  void step(const TickLoads& loads, double dt_s) noexcept override;
+  void reset() noexcept override;
+  /// What hung and was repaired is not told apart from the rest: it counts as none.
+  void take_up(std::span<const std::uint8_t> removed_bits, std::span<const std::uint8_t> burnt_bits,
+               std::uint64_t version) noexcept override;
+  OrganView view() const noexcept override;
+  ModelStatus status() const noexcept override { return status_; }
+  bool local_model(const PatchPlace& place, LocalPatch& patch) const noexcept override;
+
+ private:
+  void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
+  void check(double dt_s) noexcept;
+  void drop_what_fell() noexcept;
+  /// Those that are there, and what then has to go. Returns them all.
+  std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
+  /// What the editor took, `gone_`, goes off the body.
+  void forgo_gone() noexcept;
+  void list_removed() noexcept;
+  void advance(int steps) noexcept;
+  using Step = decltype(&BodyStepper::step);
+  /// False: the energy afterwards cannot be.
+  bool run(int steps, Step step) noexcept;
+  void show() noexcept;
+
+  const geometry::TetraMesh& mesh_;
+  physics::Inertia inertia_;
+  geometry::MeshEditor editor_;
+  BodyLoads loads_;
+  physics::BodyState state_, before_;  // now, and when this tick began
+  std::unique_ptr<BodyStepper> stepper_;
+  physics::EnergyWatch watch_;
+  physics::SweptCut swept_;
+  CutQueue burning_;
+  physics::Tearing tearing_;
+  double reach_m_;            // farther nothing falls
+  double ahead_s_ = 0;        // of the clock's time, not yet stepped
+  double until_check_s_ = 0;  // of tearing
+  std::uint64_t version_ = 0;
+  ModelStatus status_;
+  std::vector<geometry::TetId> gone_, fallen_;  // workspace, capacity T
+  std::vector<std::uint8_t> burnt_;             // bits, of what edges burnt away
+  std::vector<float> values_;                   // [3N], of them 3 for each node of the surface
+  // workspace of local_model()
+  struct Felt {
+    std::vector<float> compliance;  // [3 kPatchNodes squared]
+    std::vector<double> u;          // [3N] after one more step under the same forces ...
+    bool is_foreseen = false;       // ... from where the body is now
+  };
+  std::unique_ptr<PatchGatherer> gatherer_;
+  std::unique_ptr<Felt> felt_;
+};
+
+}  // namespace omentum::deform

@@ -1,0 +1,36 @@
+// What moves (state) and what stays (inertia, supports, damping) of a body that swings.
+#pragma once
+
+#include "physics/material_map.h"
+#include "physics/supports.h"
+
+#include <span>
+#include <vector>
+
+namespace omentum::physics {
+
+/// [3 N] each, x y z of each node in the mesh's order.
+struct BodyState {
+  std::vector<double> u;  // displacement from rest, m
+  std::vector<double> v;  // velocity, m/s
+};
+
+BodyState state_at_rest(std::size_t node_count);
+
+/// The terms of M a = f(u) - D v + f_ext that never change, cuts included: the mass of what is removed stays
+/// on its nodes. Damping is Rayleigh's, D = a M + b K: the share of critical
+/// damping of a mode of angular frequency w is a / (2 w) + b w / 2.
+struct Inertia {
+  std::vector<double> mass;        // [N], kg, above zero
+  FixedComponents fixed;           // [N]
+  double mass_damping_per_s = 0;   // a, 1/s: drag in proportion to mass; Cotin 1998's d is a times the mass
+  double stiffness_damping_s = 0;  // b, s: viscosity in proportion to stiffness
+};
+
+/// A quarter of each tetrahedron's mass at each of its corners, [N], kg (Cotin 1998, section 5.2).
+std::vector<double> lumped_masses(const geometry::TetraMesh& mesh, const MaterialMap& material);
+
+/// v^T M v / 2, J.
+double kinetic_energy(const Inertia& inertia, std::span<const double> v) noexcept;
+
+}  // namespace omentum::physics

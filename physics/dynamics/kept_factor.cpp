@@ -1,0 +1,210 @@
+#include "physics/dynamics/kept_factor.h"
+
+#include "physics/dynamics/element_root.h"
+#include "physics/dynamics/flush_tiny.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace omentum::physics {
+
+namespace {
+
+using kernels::kTileRows;
+
+// A over all nodes.
+Stiffness system_of(const Stiffness& K, std::span<const double> mass, const SystemWeights& weights) {
+  Stiffness A = K;
+  for (std::int32_t n = 0; n < A.node_count(); ++n) {
+    for (std::int32_t b = A.start[n]; b < A.start[n + 1]; ++b) {
+      A.block[b] *= weights.stiffness;
+      if (A.neighbour[b] == n) A.block[b].diagonal().array() += weights.mass * mass[n];
+    }
+  }
+  return A;
+}
+
+std::vector<std::int32_t> free_components(const FreeDofs& free) {
+  std::vector<std::int32_t> components(free.count);
+  for (std::size_t c = 0; c < free.index.size(); ++c) {
+    if (free.index[c] >= 0) components[free.index[c]] = static_cast<std::int32_t>(c);
+  }
+  return components;
+}
+
+}  // namespace
+
+struct KeptFactor::Assembled {
+  FreeDofs free;
+  Stiffness stiffness;
+  std::optional<StiffnessFactor> factor;  // none where everything is held
+
+  Assembled(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
+            std::span<const double> mass, const SystemWeights& weights)
+      : free(free_dofs(fixed)), stiffness(assemble_stiffness(mesh, material)) {
+    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free);
+  }
+  Supernodes supernodes() const { return factor ? factor->supernodes() : Supernodes{}; }
+};
+
+KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
+                       const FixedComponents& fixed, const std::vector<double>& mass,
+                       const SystemWeights& weights, int most_compliance_nodes)
+    : KeptFactor(mesh, material, mass, weights, most_compliance_nodes,
+                 Assembled(mesh, material, fixed, mass, weights)) {}
+
+KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
+                       const std::vector<double>& mass, const SystemWeights& weights,
+                       int most_compliance_nodes, const Assembled& assembled)
+    : mesh_(mesh),
+      material_(material),
+      mass_(mass),
+      weights_(weights),
+      start_(assembled.stiffness.start),
+      neighbour_(assembled.stiffness.neighbour.begin(), assembled.stiffness.neighbour.end()),
+      block_(assembled.stiffness.block.begin(), assembled.stiffness.block.end()),
+      uncut_block_(block_),
+      component_(assembled.free.count),
+      position_(assembled.free.index.size(), -1),
+      panels_(assembled.supernodes()),
+      uncut_(panels_),
+      downdate_(panels_),
+      changed_(panels_.supernodes().size()),
+      scratch_(std::max(1, panels_.most_rows() / kTileRows)),
+      x_(panels_.size()),
+      residual_(position_.size()),
+      correction_(position_.size()),
+      columns_(static_cast<std::size_t>(3 * most_compliance_nodes) * panels_.size()),
+      on_way_(panels_.supernodes().size()) {
+  const std::vector<std::int32_t> components = free_components(assembled.free);
+  const Supernodes order = assembled.supernodes();
+  for (std::int32_t p = 0; p < order.size; ++p) {
+    component_[p] = components[order.permutation[p]];
+    position_[component_[p]] = p;
+  }
+  ways_.reserve(on_way_.size());
+}
+
+RankSix KeptFactor::root_of(geometry::TetId t) const noexcept {
+  const ElementRoot W =
+      std::sqrt(weights_.stiffness) * element_root(corners_of(mesh_, t), material_.of(mesh_, t));
+  RankSix root;
+  for (int i = 0; i < 12; ++i) {
+    root.position[i] = position_[3 * mesh_.tetrahedra[t][i / 3] + i % 3];
+    for (int k = 0; k < kernels::kRank; ++k) root.w[i][k] = W(i, k);
+  }
+  return root;
+}
+
+void KeptFactor::subtract_element(geometry::TetId t) noexcept {
+  const ElementTensors element = element_tensors(corners_of(mesh_, t), material_.of(mesh_, t));
+  const geometry::Tetrahedron& tet = mesh_.tetrahedra[t];
+  for (int j = 0; j < 4; ++j) {
+    const auto row = neighbour_.begin() + start_[tet[j]], row_end = neighbour_.begin() + start_[tet[j] + 1];
+    for (int k = 0; k < 4; ++k)
+      block_[std::lower_bound(row, row_end, tet[k]) - neighbour_.begin()] -= element[j][k];
+  }
+}
+
+bool KeptFactor::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
+  bool definite = true;
+  while (!tetrahedra.empty()) {
+    const auto now = tetrahedra.first(std::min<std::size_t>(tetrahedra.size(), FactorDowndate::kMost));
+    std::array<RankSix, FactorDowndate::kMost> roots;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      roots[i] = root_of(now[i]);
+      subtract_element(now[i]);
+    }
+    definite &= downdate_.apply(panels_, {roots.data(), now.size()});
+    for (const std::int32_t s : downdate_.changed()) changed_[s] = 1;
+    tetrahedra = tetrahedra.subspan(now.size());
+  }
+  return definite;
+}
+
+void KeptFactor::restore() noexcept {
+  std::ranges::copy(uncut_block_, block_.begin());
+  for (std::size_t s = 0; s < changed_.size(); ++s) {
+    if (changed_[s] == 0) continue;
+    panels_.copy(panels_.supernodes()[s], uncut_);
+    changed_[s] = 0;
+  }
+}
+
+void KeptFactor::solve_roughly(std::span<const double> b, std::span<double> x) noexcept {
+  for (std::size_t p = 0; p < x_.size(); ++p) x_[p] = static_cast<float>(b[component_[p]]);
+  panels_.solve(x_.data(), scratch_.data()->value);
+  for (std::size_t c = 0; c < position_.size(); ++c) x[c] = position_[c] >= 0 ? x_[position_[c]] : 0.0;
+}
+
+void KeptFactor::solve(std::span<const double> b, std::span<double> x) noexcept {
+  solve_roughly(b, x);
+  multiply(x, residual_);
+  for (std::size_t c = 0; c < residual_.size(); ++c) residual_[c] = b[c] - residual_[c];
+  solve_roughly(residual_, correction_);
+  for (std::size_t c = 0; c < residual_.size(); ++c) x[c] += correction_[c];
+}
+
+void KeptFactor::holding_forces(std::span<const double> u, std::span<double> f) const noexcept {
+  kernels::multiply_block_rows(start_.data(), neighbour_.data(), block_.front().data(), node_count(),
+                               u.data(), f.data());
+}
+
+void KeptFactor::multiply(std::span<const double> x, std::span<double> y) const noexcept {
+  holding_forces(x, y);
+  for (std::size_t c = 0; c < y.size(); ++c)
+    y[c] = position_[c] < 0 ? 0.0 : weights_.mass * mass_[c / 3] * x[c] + weights_.stiffness * y[c];
+}
+
+void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
+  ways_.clear();
+  for (const geometry::NodeId n : nodes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int32_t p = position_[3 * n + axis];
+      if (p < 0) continue;
+      for (std::int32_t s = panels_.supernode_of(p); s >= 0 && on_way_[s] == 0;
+           s = panels_.supernodes()[s].parent) {
+        on_way_[s] = 1;
+        ways_.push_back(s);
+      }
+    }
+  }
+  std::ranges::sort(ways_);
+  for (const std::int32_t s : ways_) on_way_[s] = 0;
+}
+
+// With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
+void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
+  const FlushTiny flush;
+  mark_ways(nodes);
+  const std::size_t width = 3 * nodes.size(), n = x_.size();
+  for (std::size_t r = 0; r < width; ++r) {
+    float* z = columns_.data() + r * n;
+    for (const std::int32_t s : ways_) {
+      const FactorPanels::Supernode& node = panels_.supernodes()[s];
+      std::fill_n(z + node.first, node.width, 0.0f);
+    }
+    const std::int32_t p = position_[3 * nodes[r / 3] + static_cast<std::int32_t>(r % 3)];
+    if (p >= 0) z[p] = 1;
+  }
+  std::fill_n(block.begin(), width * width, 0.0f);
+  for (const std::int32_t s : ways_) {
+    const FactorPanels::Supernode& node = panels_.supernodes()[s];
+    for (std::size_t r = 0; r < width; ++r) {
+      float* z = columns_.data() + r * n;
+      panels_.forward(node, z, scratch_.data()->value);
+      for (std::int32_t p = node.first; p < node.first + node.width; ++p)
+        z[p] *= std::sqrt(panels_.inverse_pivot(p));
+      for (std::size_t q = 0; q <= r; ++q) {
+        block[r * width + q] +=
+            kernels::column_dot(z + node.first, columns_.data() + q * n + node.first, node.width);
+      }
+    }
+  }
+  for (std::size_t r = 0; r < width; ++r) {
+    for (std::size_t q = 0; q < r; ++q) block[q * width + r] = block[r * width + q];
+  }
+}
+
+}  // namespace omentum::physics

@@ -1,0 +1,187 @@
+#include "physics/dynamics/warped_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace omentum::physics {
+
+namespace {
+
+double dot(std::span<const double> a, std::span<const double> b) noexcept {
+  return Eigen::Map<const Eigen::VectorXd>(a.data(), static_cast<Eigen::Index>(a.size()))
+      .dot(Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size())));
+}
+
+// y += scale x
+void add(double scale, std::span<const double> x, std::span<double> y) noexcept {
+  for (std::size_t c = 0; c < y.size(); ++c) y[c] += scale * x[c];
+}
+
+// From the identity, what Q^T Q may be: a mean that is further away is none, and its node is not turned.
+constexpr double kNoRotation = 0.1;
+
+// A mean of rotations that hardly differ, once more towards the nearest rotation (Newton and Schulz). What it
+// is off by costs iterations, not truth.
+Eigen::Matrix3d rotation_near(const Eigen::Matrix3d& mean) noexcept {
+  const Eigen::Matrix3d Q = 0.5 * mean * (3 * Eigen::Matrix3d::Identity() - mean.transpose() * mean);
+  const bool found = (Q.transpose() * Q - Eigen::Matrix3d::Identity()).norm() < kNoRotation;
+  return found ? Q : Eigen::Matrix3d::Identity();
+}
+
+}  // namespace
+
+WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& material, const Inertia& inertia,
+                       Corotational law, const WarpedOptions& options)
+    : mesh_(mesh),
+      inertia_(inertia),
+      law_(std::move(law)),
+      options_(options),
+      factor_(mesh, material, inertia.fixed, inertia.mass, weights_of(inertia, options.step_s),
+              options.most_compliance_nodes),
+      left_(mesh.tetrahedra.size(), 1),
+      rotation_(inertia.mass.size(), Eigen::Matrix3d::Identity()),
+      ahead_(3 * inertia.mass.size()),
+      forces_(ahead_.size()),
+      change_(ahead_.size()),
+      direction_(ahead_.size()),
+      product_(ahead_.size()),
+      turned_(ahead_.size()),
+      lacking_(ahead_.size()),
+      residual_(ahead_.size()) {}
+
+bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
+  linearize(state);
+  add_impulse(state, external, residual_);
+  if (!solve(residual_, change_)) {
+    std::ranges::fill(residual_, 0.0);
+    return false;
+  }
+  add(1, change_, state.v);
+  add(options_.step_s, state.v, state.u);
+  return std::isfinite(dot(state.v, state.v));
+}
+
+void WarpedStep::foresee(const BodyState& state, std::span<const double> external,
+                         std::span<double> u) noexcept {
+  linearize(state);
+  std::ranges::copy(residual_, lacking_.begin());
+  add_impulse(state, external, lacking_);
+  solve(lacking_, change_);
+  for (std::size_t c = 0; c < u.size(); ++c) u[c] = state.u[c] + options_.step_s * (state.v[c] + change_[c]);
+}
+
+void WarpedStep::linearize(const BodyState& state) noexcept {
+  for (std::size_t c = 0; c < ahead_.size(); ++c) ahead_[c] = state.u[c] + options_.step_s * state.v[c];
+  law_.linearize(ahead_, Tangent::kWarped);
+  mean_rotations();
+}
+
+// Nodes that are held in part are not turned: a held component has to stay one.
+void WarpedStep::mean_rotations() noexcept {
+  std::ranges::fill(rotation_, Eigen::Matrix3d::Zero());
+  for (std::size_t t = 0; t < left_.size(); ++t) {
+    if (left_[t] == 0) continue;
+    const Eigen::Matrix3d R = law_.rotation(geometry::TetId(t));
+    for (const geometry::NodeId n : mesh_.tetrahedra[t]) rotation_[n] += R;
+  }
+  for (std::size_t n = 0; n < rotation_.size(); ++n) {
+    const double size = rotation_[n].norm();
+    const bool turns = inertia_.fixed[n] == 0 && size > 0;
+    rotation_[n] = turns ? rotation_near(std::sqrt(3.0) / size * rotation_[n]) : Eigen::Matrix3d::Identity();
+  }
+}
+
+// The right-hand side is added to what the last step lacked: all of it is lacking while dv = 0.
+void WarpedStep::add_impulse(const BodyState& state, std::span<const double> external,
+                             std::span<double> lacking) noexcept {
+  law_.forces(ahead_, forces_);
+  law_.product(state.v, product_);
+  for (std::size_t c = 0; c < lacking.size(); ++c) {
+    const double drag = inertia_.mass_damping_per_s * inertia_.mass[c / 3] * state.v[c] +
+                        inertia_.stiffness_damping_s * product_[c];
+    const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
+    lacking[c] += options_.step_s * (external[c] + forces_[c] - drag);
+    if (held) lacking[c] = 0;
+  }
+}
+
+void WarpedStep::multiply(std::span<const double> x, std::span<double> y) noexcept {
+  law_.product(x, y);
+  const SystemWeights& weights = factor_.weights();
+  for (std::size_t c = 0; c < y.size(); ++c) {
+    const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
+    y[c] = held ? 0.0 : weights.mass * inertia_.mass[c / 3] * x[c] + weights.stiffness * y[c];
+  }
+}
+
+// x = Q A_0^-1 Q^T r
+void WarpedStep::precondition(std::span<const double> residual, std::span<double> x) noexcept {
+  for (std::size_t n = 0; n < rotation_.size(); ++n)
+    Vec3::Map(&turned_[3 * n]) = rotation_[n].transpose() * Vec3::Map(&residual[3 * n]);
+  factor_.solve_roughly(turned_, x);
+  for (std::size_t n = 0; n < rotation_.size(); ++n)
+    Vec3::Map(&x[3 * n]) = (rotation_[n] * Vec3::Map(&x[3 * n])).eval();
+}
+
+// Conjugate gradients from zero; what x still lacks stays in `lacking`. False: that is no number.
+bool WarpedStep::solve(std::span<double> lacking, std::span<double> x) noexcept {
+  std::ranges::fill(x, 0.0);
+  double left2 = dot(lacking, lacking);
+  const double enough2 = options_.tolerance * options_.tolerance * left2;
+  double along_before = 0;
+  for (iterations_ = 0; iterations_ < options_.most_iterations && left2 > enough2; ++iterations_) {
+    precondition(lacking, ahead_);
+    const double along = dot(lacking, ahead_);
+    for (std::size_t c = 0; c < direction_.size(); ++c)
+      direction_[c] = ahead_[c] + (iterations_ == 0 ? 0 : along / along_before * direction_[c]);
+    along_before = along;
+    multiply(direction_, product_);
+    const double length = along / dot(direction_, product_);
+    add(length, direction_, x);
+    add(-length, product_, lacking);
+    left2 = dot(lacking, lacking);
+  }
+  return std::isfinite(left2);
+}
+
+bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
+  for (const geometry::TetId t : tetrahedra) {
+    law_.remove(t);
+    left_[static_cast<std::size_t>(t)] = 0;
+  }
+  return factor_.remove(tetrahedra);
+}
+
+void WarpedStep::restore() noexcept {
+  for (std::size_t t = 0; t < left_.size(); ++t) {
+    if (left_[t] == 0) law_.add(geometry::TetId(t));
+  }
+  std::ranges::fill(left_, 1);
+  std::ranges::fill(residual_, 0.0);
+  factor_.restore();
+}
+
+void WarpedStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {
+  const double dt = options_.step_s;
+  for (std::size_t c = 0; c < lacking_.size(); ++c)
+    lacking_[c] = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3)) ? 0.0 : dt * dt * forces[c];
+  solve(lacking_, yield);
+}
+
+void WarpedStep::compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
+  factor_.inverse_block(nodes, block);
+  const auto size = static_cast<Eigen::Index>(3 * nodes.size());
+  using Block = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<Block> C(block.data(), size, size);
+  const auto scale = static_cast<float>(options_.step_s * options_.step_s);
+  for (Eigen::Index i = 0; i < size; i += 3) {
+    const Eigen::Matrix3f Q_i = scale * rotation_[nodes[static_cast<std::size_t>(i / 3)]].cast<float>();
+    for (Eigen::Index j = 0; j < size; j += 3) {
+      const Eigen::Matrix3f Q_j = rotation_[nodes[static_cast<std::size_t>(j / 3)]].cast<float>();
+      const Eigen::Matrix3f at_rest = C.block<3, 3>(i, j);
+      C.block<3, 3>(i, j) = Q_i * at_rest * Q_j.transpose();
+    }
+  }
+}
+
+}  // namespace omentum::physics

@@ -1,0 +1,76 @@
+// Backward Euler for co-rotational tissue: large rotations at large steps, without a factorization.
+#pragma once
+
+#include "physics/dynamics/corotational.h"
+#include "physics/dynamics/kept_factor.h"
+#include "physics/dynamics/large_step.h"
+
+namespace omentum::physics {
+
+struct WarpedOptions {
+  double step_s = 0;               // dt, above zero
+  double tolerance = 1e-3;         // what the equation of a step may lack, over its right-hand side
+  int most_iterations = 40;        // of one step; what is lacking then goes to the next one
+  int most_compliance_nodes = 24;  // of one call of compliance()
+};
+
+/// M (v' - v) = dt (f_ext + f(u') - D v'), u' = u + dt v', D = a M + b K, linearized where the body goes by
+/// itself, u + dt v, with the warped stiffness K there: with dv = v' - v
+///
+///     ((1 + dt a) M + (dt^2 + dt b) K) dv = dt (f_ext + f(u + dt v) - b K v - a M v).
+///
+/// By conjugate gradients, preconditioned by the factor of the same matrix at rest, turned at each node:
+/// Q A_0^-1 Q^T, Q_n the mean rotation of the tetrahedra around node n. For a body that only turned this is
+/// the inverse itself; where it bends, the better the slower rotations change from node to node. What a
+/// step's equation lacks in the end is given to the next one as an impulse, so that momentum is kept.
+///
+/// All memory is taken at construction; one thread at a time.
+class WarpedStep final : public LargeStep {
+ public:
+  /// Throws as KeptFactor does. `mesh` outlives it; `law` is of the same mesh and material, and has lost
+  /// nothing yet.
+  WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& material, const Inertia& inertia,
+             Corotational law, const WarpedOptions& options);
+
+  double step_s() const override { return options_.step_s; }
+  [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
+  double elastic_energy(std::span<const double> u) noexcept override { return law_.energy(u); }
+
+  /// From the law and from the factor.
+  [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
+  void restore() noexcept override;
+
+  /// Those of the body at rest, turned at each node as of the last step.
+  void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
+  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override;
+  void foresee(const BodyState& state, std::span<const double> external,
+               std::span<double> u) noexcept override;
+
+  /// Of the last step.
+  int iterations() const { return iterations_; }
+  Corotational& law() { return law_; }
+
+ private:
+  void linearize(const BodyState& state) noexcept;
+  void mean_rotations() noexcept;
+  void add_impulse(const BodyState& state, std::span<const double> external,
+                   std::span<double> lacking) noexcept;
+  void multiply(std::span<const double> x, std::span<double> y) noexcept;
+  void precondition(std::span<const double> residual, std::span<double> x) noexcept;
+  bool solve(std::span<double> lacking, std::span<double> x) noexcept;
+
+  const geometry::TetraMesh& mesh_;
+  Inertia inertia_;
+  Corotational law_;
+  WarpedOptions options_;
+  KeptFactor factor_;
+  std::vector<std::uint8_t> left_;                             // [T] 1: there, 0: removed
+  std::vector<Eigen::Matrix3d> rotation_;                      // [N] Q
+  std::vector<double> ahead_, forces_;                         // [3N]
+  std::vector<double> change_, direction_, product_, turned_;  // [3N]
+  std::vector<double> lacking_;                                // [3N] of an equation that is no step's
+  std::vector<double> residual_;  // [3N] what the last step's equation lacks, N s
+  int iterations_ = 0;
+};
+
+}  // namespace omentum::physics

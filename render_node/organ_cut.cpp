@@ -1,0 +1,45 @@
+#include "render_node/organ_cut.h"
+
+#include <algorithm>
+
+namespace omentum::render {
+
+using geometry::SurfaceId;
+using geometry::TetId;
+
+OrganCut::OrganCut(const geometry::TetraMesh& mesh, const geometry::Surface& whole)
+    : mesh_(mesh), whole_(whole), editor_(mesh, {.uncut_surface = whole.node}) {}
+
+void OrganCut::set(const RemovedSet& removed) {
+  editor_.set_removed(removed.bits);
+  burnt_ = removed.burnt;
+}
+
+CutShape OrganCut::shape() const {
+  CutShape shape;
+  shape.node.assign(editor_.surface_nodes().begin(), editor_.surface_nodes().end());
+  for (const geometry::NodeId n : shape.node) shape.rest.push_back(mesh_.positions[n]);
+  for (const TetId t : whole_.tetrahedron) shape.gone.push_back(editor_.is_removed(t));
+  for (const geometry::SurfaceFace& face : editor_.faces()) {
+    if (!face.bared) continue;
+    const auto& [a, b, c] = face.nodes;
+    shape.bared.push_back({editor_.surface_of(a), editor_.surface_of(b), editor_.surface_of(c)});
+  }
+  std::sort(shape.bared.begin(), shape.bared.end());  // whatever the order of the cuts
+  shape.burnt = burnt_nodes();
+  return shape;
+}
+
+std::vector<float> OrganCut::burnt_nodes() const {
+  std::vector<float> burnt(node_count(), 0.0f);
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+    if (!geometry::is_set(burnt_, TetId(t))) continue;
+    for (const geometry::NodeId n : mesh_.tetrahedra[t]) {
+      const SurfaceId s = editor_.surface_of(n);
+      if (s.valid()) burnt[static_cast<std::size_t>(s)] = 1;
+    }
+  }
+  return burnt;
+}
+
+}  // namespace omentum::render

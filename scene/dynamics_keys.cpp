@@ -1,0 +1,50 @@
+#include "scene/dynamics_keys.h"
+
+namespace omentum::scene {
+namespace {
+
+using enum TomlSection::Need;
+
+// No picture shows steps that are longer, and a hand would feel them.
+constexpr Range kStep_s{.minimum = 1e-6, .maximum = 0.02};
+// Numbers of a mesh are good to 1e-12; a limit that a breath of load passes would let all tissue go at rest.
+constexpr Range kLimit{.minimum = 1e-3};
+constexpr Range kStress_pa{.minimum = 1};
+// Longer looks like a tool that does not cut.
+constexpr Range kDelay_s{.minimum = 0, .maximum = 10};
+
+// Springs have no stiffness that stays near that at rest, as an implicit step on a kept factor needs it.
+void read_integrator(TomlSection& s, const std::string& model, std::string& integrator) {
+  std::vector<std::string> words{"symplectic", "euler", "rk4"};
+  if (model != "spring-mass") words.insert(words.begin(), "implicit");
+  integrator = words.front();
+  s.read_word("integrator", integrator, kOptional, words);
+}
+
+}  // namespace
+
+TearSpec read_tears(TomlSection& s) {
+  TearSpec tears;
+  s.read("tear_volume_change", tears.volume_change, kLimit);
+  s.read("tear_mean_elongation", tears.mean_elongation, kLimit);
+  s.read("tear_edge_elongation", tears.edge_elongation, kLimit);
+  s.read("tear_stress_pa", tears.stress_pa, kStress_pa);
+  return tears;
+}
+
+DynamicsSpec read_dynamics(TomlSection& s, const std::string& model) {
+  DynamicsSpec dynamics;
+  read_integrator(s, model, dynamics.integrator);
+  s.read("step_s", dynamics.step_s, kStep_s);
+  s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
+  s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);
+  s.read("gravity_m_s2", dynamics.gravity_m_s2, kOptional);
+  dynamics.tears = read_tears(s);
+  s.read("cut_delay_s", dynamics.cut_delay_s, kOptional, kDelay_s);
+  s.read("cut_rate_per_s", dynamics.cut_rate_per_s, kOptional, kPositive);
+  s.read("smallest_piece_m3", dynamics.smallest_piece_m3, kOptional, kNotNegative);
+  dynamics.where = s.place("step_s");
+  return dynamics;
+}
+
+}  // namespace omentum::scene

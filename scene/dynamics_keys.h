@@ -1,0 +1,14 @@
+// Reads what a scene says of an organ that moves by itself.
+#pragma once
+
+#include "scene/dynamics_spec.h"
+#include "scene/toml_section.h"
+
+namespace omentum::scene {
+
+/// The keys beside `model` of one of [[organs]].
+DynamicsSpec read_dynamics(TomlSection& organ, const std::string& model);
+/// Where tissue tears: keys of an organ, and of a region with a material of its own.
+TearSpec read_tears(TomlSection& section);
+
+}  // namespace omentum::scene

@@ -1,0 +1,175 @@
+// organ_solve of organs that were cut, and by the models that move.
+#include "geometry/mesh_editor.h"
+#include "physics/element_tensors.h"
+#include "tests/organ/organ_programs.h"
+
+namespace omentum::organ {
+namespace {
+
+// Printed with 13 digits; a moving model rests where forces balance to 1e-10 of the largest.
+constexpr double kEqual = 1e-6;
+
+class OrganSolveCutTest : public OrganProgramsTest {
+ protected:
+  struct Solved {
+    Rows u, f;
+  };
+
+  Solved solve(const std::string& model, const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{organ.string(),          "--numbering", "position", "-o",
+                                       (folder / "s").string(), "--model",     model};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Process program("organ_solve", arguments);
+    EXPECT_EQ(program.wait(), 0) << program.messages();
+    const bool holds = std::ranges::find(more, "--imposed") != more.end();
+    return {numbers("s.u.csv"), holds ? numbers("s.f.csv") : Rows{}};
+  }
+
+  // Of the largest value.
+  static double difference(const Rows& a, const Rows& b) {
+    return largest_difference(a, b) / largest_entry(b);
+  }
+
+  void build_from(const std::string& data, const std::string& scale, const std::string& plane) const {
+    Process program("organ_build", {test::data_file(data).string(), "-o", organ.string(), "--young", "5000",
+                                    "--poisson", "0.45", "--density", "1050", "--scale", scale, "--fixed",
+                                    plane, "--numbering", "position"});
+    ASSERT_EQ(program.wait(), 0) << program.messages();
+  }
+
+  // Every fiftieth tetrahedron.
+  std::string some_tetrahedra() const {
+    std::string list = "tetrahedron\n";
+    const Organ loaded = load_organ(organ, Load::kMeshOnly);
+    for (std::size_t t = 0; t < loaded.mesh.tetrahedra.size(); t += 50) list += std::to_string(t) + "\n";
+    return write("tets.csv", list);
+  }
+};
+
+TEST_F(OrganSolveCutTest, TensorMassRestsWhereTheDirectSolveIs) {
+  build();
+  const std::string imposed = write("i.csv", "79,0,0.002,0.001\n");
+  const std::vector<std::string> whole{"--gravity", "0,-9.81,1", "--imposed", imposed};
+  std::vector<std::string> cut = whole;
+  cut.insert(cut.end(), {"--remove", write("t.csv", "tet\n3\n70\n71\n140\n")});
+  const Solved direct = solve("direct", whole), direct_cut = solve("direct", cut);
+  const Solved moved = solve("tensor-mass", whole), moved_cut = solve("tensor-mass", cut);
+  EXPECT_LE(difference(moved.u, direct.u), kEqual);
+  EXPECT_LE(difference(moved.f, direct.f), kEqual);
+  EXPECT_LE(difference(moved_cut.u, direct_cut.u), kEqual);
+  EXPECT_LE(difference(moved_cut.f, direct_cut.f), kEqual);
+  EXPECT_GT(difference(direct_cut.u, direct.u), 1e-3);
+}
+
+TEST_F(OrganSolveCutTest, TensorMassRestsWhereTheDirectSolveIsOnRealMeshes) {
+  struct Mesh {
+    const char *file, *scale, *plane;
+  };
+  for (const Mesh& mesh : {Mesh{"tet/openhelp_liver_7k.msh", "0.001", "plane:x<-0.12"},
+                           Mesh{"tet/sofa_liver2.msh", "0.02", "plane:x<-0.015"},
+                           Mesh{"tet/sofa_liver.msh", "0.02", "plane:x<-0.06"}}) {
+    if (!std::filesystem::exists(test::data_file(mesh.file))) GTEST_SKIP() << mesh.file << " is absent";
+    SCOPED_TRACE(mesh.file);
+    build_from(mesh.file, mesh.scale, mesh.plane);
+    const std::vector<std::string> whole{"--gravity", "0,-9.81,0"};
+    const std::vector<std::string> cut{"--gravity", "0,-9.81,0", "--remove", some_tetrahedra()};
+    EXPECT_LE(difference(solve("tensor-mass", whole).u, solve("direct", whole).u), kEqual);
+    EXPECT_LE(difference(solve("tensor-mass", cut).u, solve("direct", cut).u), kEqual);
+  }
+}
+
+// Where every node is held, each is held against the weight it carries.
+TEST_F(OrganSolveCutTest, WhatIsTakenOutWeighsNothing) {
+  build();
+  const Organ loaded = load_organ(organ, Load::kMeshOnly);
+  const std::vector<geometry::TetId> asked{geometry::TetId(3), geometry::TetId(70), geometry::TetId(71),
+                                           geometry::TetId(140)};
+  geometry::MeshEditor left(loaded.mesh);
+  left.remove(asked);
+  std::vector<double> carried_n(loaded.mesh.positions.size());
+  for (std::size_t t = 0; t < loaded.mesh.tetrahedra.size(); ++t) {
+    if (left.is_removed(geometry::TetId(t))) continue;
+    const auto x = physics::corners_of(loaded.mesh, geometry::TetId(t));
+    const double weight_n = 10 * 1050 * geometry::signed_volume(x[0], x[1], x[2], x[3]);
+    for (const geometry::NodeId n : loaded.mesh.tetrahedra[t]) carried_n[n] += weight_n / 4;
+  }
+  std::string all;
+  for (std::size_t n = 0; n < carried_n.size(); ++n)
+    if (loaded.fixed[n] == 0 && left.uses(geometry::NodeId(n)) > 0) all += std::to_string(n) + ",0,0,0\n";
+  for (const char* model : {"direct", "tensor-mass", "corotational", "spring-mass"}) {
+    SCOPED_TRACE(model);
+    const Solved solved = solve(model, {"--gravity", "0,-10,0", "--imposed", write("i.csv", all), "--remove",
+                                        write("t.csv", "3\n70\n71\n140\n")});
+    ASSERT_FALSE(solved.f.empty());
+    for (const auto& row : solved.f) {
+      const double carried = carried_n[static_cast<std::size_t>(row[0])];
+      EXPECT_NEAR(row[2], carried, kEqual * carried) << row[0];
+    }
+  }
+}
+
+TEST_F(OrganSolveCutTest, CorotationalTissueIsTheLinearOneWhereLittleMoves) {
+  build();
+  // a thousandth of the organ's size: the laws differ by terms that are smaller by as much
+  const std::vector<std::string> little{"--gravity", "0,-1e-2,0", "--remove", write("t.csv", "3\n70\n")};
+  EXPECT_LE(difference(solve("corotational", little).u, solve("direct", little).u), 1e-3);
+}
+
+TEST_F(OrganSolveCutTest, SpringsHoldWhatTheyAreGiven) {
+  build();
+  const std::string imposed = write("i.csv", "79,0,0,0\n74,0,0,0\n");
+  const Solved springs = solve("spring-mass", {"--gravity", "0,-2,0", "--imposed", imposed});
+  EXPECT_EQ(largest_entry({springs.u[79], springs.u[74]}), 0);
+  EXPECT_GT(springs.f[0][2], 0);
+}
+
+TEST_F(OrganSolveCutTest, ANodeWithoutTetrahedraStaysWhereItIs) {
+  build();
+  const Organ loaded = load_organ(organ, Load::kMeshOnly);
+  const geometry::NodeId corner(79);
+  std::string around;
+  for (std::size_t t = 0; t < loaded.mesh.tetrahedra.size(); ++t) {
+    if (std::ranges::find(loaded.mesh.tetrahedra[t], corner) != loaded.mesh.tetrahedra[t].end())
+      around += std::to_string(t) + "\n";
+  }
+  for (const char* model : {"direct", "tensor-mass"}) {
+    const Solved solved = solve(model, {"--gravity", "0,-9.81,0", "--remove", write("t.csv", around)});
+    EXPECT_EQ(largest_entry({solved.u[79]}), 0) << model;
+    EXPECT_GT(largest_entry(solved.u), 0) << model;
+  }
+}
+
+TEST_F(OrganSolveCutTest, BadCutsAreRefused) {
+  build();
+  const auto refused = [&](const std::string& tets, const std::string& named) {
+    expect_refused("organ_solve",
+                   {organ.string(), "--numbering", "position", "--gravity", "0,-9.81,0", "--model", "direct",
+                    "--remove", write("t.csv", tets), "-o", (folder / "s").string()},
+                   named);
+  };
+  refused("0\n100000\n", "t.csv:2: found '100000'");
+  refused("node,x\n1,2\n", "tetrahedron");
+  refused("1.5\n", "t.csv:1: found '1.5'");
+  refused("# numbering: file\n1\n", "another numbering");
+
+  // the middle layer: what is beyond it is cut loose
+  const Organ loaded = load_organ(organ, Load::kMeshOnly);
+  std::string layer;
+  for (std::size_t t = 0; t < loaded.mesh.tetrahedra.size(); ++t) {
+    double x = 0;
+    for (const geometry::NodeId n : loaded.mesh.tetrahedra[t]) x += loaded.mesh.positions[n].x() / 4;
+    if (x > 0.04 && x < 0.06) layer += std::to_string(t) + "\n";
+  }
+  refused(layer, "loose");
+}
+
+TEST_F(OrganSolveCutTest, StoredTensorsAreOfTheUncutOrgan) {
+  build();
+  expect_refused("organ_solve",
+                 {organ.string(), "--numbering", "position", "--gravity", "0,-1,0", "--remove",
+                  write("t.csv", "1\n"), "-o", (folder / "s").string()},
+                 "--remove");
+}
+
+}  // namespace
+}  // namespace omentum::organ

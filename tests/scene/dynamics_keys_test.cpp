@@ -1,0 +1,122 @@
+#include "scene/scene.h"
+#include "scene/scene_values.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace omentum::scene {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A scene whose organ has these lines beside its name; the first of them is the file's fourth.
+std::filesystem::path with(const std::string& lines) {
+  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto file = std::filesystem::path(::testing::TempDir()) / (std::string(info->name()) + ".toml");
+  std::ofstream(file) << "name = \"test\"\n[[organs]]\nname = \"plate\"\n"
+                      << lines << R"(
+mesh = "phantom:plate"
+young_pa = 12000
+poisson = 0.4
+density_kg_m3 = 1000
+fixed = "plane:x<0.01"
+[[tools]]
+id = 0
+name = "probe"
+shape = "probe"
+points = [[0, 0, 0]]
+)";
+  return file;
+}
+
+std::string message_of(const std::filesystem::path& file) {
+  try {
+    load_scene(file);
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(DynamicsKeys, ADynamicModelHasThemAndAPrecomputedOneDoesNot) {
+  const auto file = with(
+      "model = \"tensor-mass\"\nintegrator = \"rk4\"\nstep_s = 0.001\ngravity_m_s2 = [0, 0, -9.81]\n"
+      "tear_stress_pa = 500\ncut_delay_s = 0");
+  const OrganSpec organ = load_scene(file).organs[0];
+  ASSERT_TRUE(organ.dynamics.has_value());
+  EXPECT_EQ(organ.dynamics->integrator, "rk4");
+  EXPECT_EQ(organ.dynamics->step_s, 0.001);
+  EXPECT_EQ(organ.dynamics->gravity_m_s2, Vec3(0, 0, -9.81));
+  EXPECT_EQ(organ.dynamics->tears.stress_pa, 500);
+  EXPECT_FALSE(organ.dynamics->tears.volume_change.has_value());
+  EXPECT_EQ(organ.dynamics->cut_delay_s, 0);
+  EXPECT_EQ(organ.dynamics->where, file.string() + ":6") << "where its step is";
+  EXPECT_FALSE(load_scene(with("")).organs[0].dynamics.has_value());
+  EXPECT_THAT(message_of(with("gravity_m_s2 = [0, 0, -9.81]")),
+              AllOf(HasSubstr(":4: organs[0].gravity_m_s2: "), HasSubstr("unknown key")));
+}
+
+TEST(DynamicsKeys, WhatCannotBeIsRefusedWithItsLine) {
+  const struct {
+    const char *line, *expected;
+  } wrong[] = {{"integrator = \"verlet\"", "\"implicit\""},
+               {"step_s = 0.5", "0.02"},
+               {"step_s = 0", "1e-06"},
+               {"mass_damping_per_s = -1", "0"},
+               {"stiffness_damping_s = -0.1", "0"},
+               {"gravity_m_s2 = -9.81", "three numbers"},
+               {"tear_volume_change = 0", "0.001"},
+               {"tear_mean_elongation = -0.2", "0.001"},
+               {"tear_edge_elongation = 0.0", "0.001"},
+               {"tear_stress_pa = 0", "1"},
+               {"cut_delay_s = -1", "0"},
+               {"cut_rate_per_s = 0", "above 0"},
+               {"smallest_piece_m3 = -1e-9", "0"}};
+  for (const auto& [line, expected] : wrong) {
+    const std::string key = std::string(line).substr(0, std::string(line).find(' '));
+    EXPECT_THAT(message_of(with("model = \"tensor-mass\"\n" + std::string(line))),
+                AllOf(HasSubstr(":5: organs[0]." + key + ": found "), HasSubstr(expected)));
+  }
+}
+
+TEST(DynamicsKeys, SpringsAreMovedOnExplicitlyAlone) {
+  EXPECT_EQ(load_scene(with("model = \"spring-mass\"")).organs[0].dynamics->integrator, "symplectic");
+  EXPECT_THAT(message_of(with("model = \"spring-mass\"\nintegrator = \"implicit\"")),
+              HasSubstr(":5: organs[0].integrator: found "));
+}
+
+TEST(DynamicsKeys, ARegionOfADynamicOrganTearsByItself) {
+  const auto scene_of = [](const std::string& model) {
+    const auto file = with("model = \"" + model + "\"");
+    std::ofstream(file, std::ios::app) << "[[organs]]\nname = \"other\"\nmodel = \"" << model << R"("
+mesh = "phantom:plate"
+young_pa = 12000
+poisson = 0.4
+density_kg_m3 = 1000
+fixed = "plane:x<0.01"
+[[organs.regions]]
+ball = [0, 0, 0, 0.01]
+young_pa = 500
+tear_stress_pa = 50
+)";
+    return file;
+  };
+  EXPECT_EQ(load_scene(scene_of("tensor-mass")).organs[1].regions[0].tears.stress_pa, 50);
+  EXPECT_THAT(message_of(scene_of("quasi-static")), HasSubstr("organs[1].regions[0].tear_stress_pa"));
+}
+
+TEST(DynamicsKeys, MachinesCompareThem) {
+  const auto values = scene_values(load_scene(with("model = \"tensor-mass\"\ncut_delay_s = 0.25")));
+  EXPECT_THAT(values, Contains("organs[0].cut_delay_s = 0.25"));
+  EXPECT_THAT(values, Contains("organs[0].tear_stress_pa = none"));
+  EXPECT_THAT(scene_values(load_scene(with(""))), Not(Contains(HasSubstr("cut_delay_s"))));
+}
+
+}  // namespace
+}  // namespace omentum::scene

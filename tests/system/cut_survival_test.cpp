@@ -1,0 +1,121 @@
+// What is cut stays cut, whoever dies.
+#include "tests/system/session_on_trial.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace omentum::test {
+namespace {
+
+const std::string& plate_scene() {
+  static const ScratchFolder folder;
+  static const std::string scene =
+      prepare_scene(OMENTUM_SOURCE_DIR "/scenes/plate_cut.toml", {}, folder.path());
+  return scene;
+}
+
+/// The topologies of an organ, newest last.
+class CutObserver {
+ public:
+  explicit CutObserver(int domain)
+      : bus_(transport::Bus::open(
+            {.vendor = transport::Vendor::kCyclone, .domain = domain, .name = "cut observer"})),
+        reader_(bus_->reader<msg::Topology>([this](const msg::Topology& heard) {
+          const std::lock_guard lock(mutex_);
+          heard_.push_back(heard);
+        })) {}
+
+  /// Since the last time.
+  std::vector<msg::Topology> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(heard_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<msg::Topology> heard_;
+  std::unique_ptr<transport::Bus> bus_;
+  std::unique_ptr<transport::Reader<msg::Topology>> reader_;
+};
+
+int removed(const msg::Topology& topology) {
+  int count = 0;
+  for (const std::uint8_t bits : topology.removed_bits) count += std::popcount(bits);
+  return count;
+}
+
+bool holds_all(const msg::Topology& topology, const msg::Topology& earlier) {
+  return std::ranges::equal(topology.removed_bits, earlier.removed_bits,
+                            [](unsigned now, unsigned before) { return (before & ~now) == 0; });
+}
+
+class CutSurvivalTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  /// Of a deform_node that knows what the last one cut.
+  void start_organ() { session_.start("deform_node", {"--journal", journal_}); }
+  /// Waits for the hook to have cut a good part of its way.
+  std::optional<msg::Topology> half_cut() {
+    constexpr int kSome = 40;
+    std::optional<msg::Topology> newest;
+    comes_true([&] {
+      for (msg::Topology& heard : seen_.take()) newest = std::move(heard);
+      return newest && removed(*newest) >= kSome;
+    });
+    return newest;
+  }
+
+  ScratchFolder folder_;
+  std::string journal_ = folder_ / "cuts.json";
+  SessionOnTrial session_{plate_scene(), all_on(GetParam())};
+  Observer observer_{session_.domain(), transport::Vendor::kCyclone};
+  CutObserver seen_{session_.domain()};
+};
+
+TEST_P(CutSurvivalTest, ADeformNodeThatIsKilledWhileItCutsGoesOnWithItsCuts) {
+  session_.start("haptic_node");
+  start_organ();
+  session_.start("virtual_device");
+  auto before = half_cut();
+  ASSERT_TRUE(before) << session_["deform_node"].messages() << session_["virtual_device"].messages();
+  session_.kill("deform_node");
+  for (msg::Topology& heard : seen_.take()) before = std::move(heard);
+  start_organ();
+  std::vector<msg::Topology> after;
+  ASSERT_TRUE(comes_true([&] { return !(after = seen_.take()).empty(); }))
+      << session_["deform_node"].messages();
+  EXPECT_GE(after.front().version, before->version);
+  EXPECT_TRUE(holds_all(after.front(), *before));
+  EXPECT_TRUE(comes_true([&] {
+    const auto state = observer_.state();
+    return state && state->topology_version >= after.front().version;
+  }));
+  EXPECT_TRUE(session_["haptic_node"].running());
+  observer_.forget();
+  EXPECT_TRUE(comes_true([&] { return observer_.forces().size() > 500; })) << "haptic_node fell silent";
+  EXPECT_EQ(session_["deform_node"].messages(), "");
+}
+
+TEST_P(CutSurvivalTest, AHandsNodeThatIsKilledWhileItCutsLeavesTheCutAsItIs) {
+  session_.start("haptic_node");
+  start_organ();
+  session_.start("virtual_device");
+  const auto before = half_cut();
+  ASSERT_TRUE(before) << session_["virtual_device"].messages();
+  session_.kill("haptic_node");
+  session_.start("haptic_node");
+  observer_.forget();
+  EXPECT_TRUE(comes_true([&] { return observer_.forces().size() > 500; })) << "the new node does not answer";
+  for (const msg::Topology& heard : seen_.take()) {
+    EXPECT_GE(heard.version, before->version);
+    EXPECT_TRUE(holds_all(heard, *before));
+  }
+  EXPECT_TRUE(session_["deform_node"].running());
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, CutSurvivalTest, ::testing::Values("fast", "cyclone"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace omentum::test
