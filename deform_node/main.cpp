@@ -1,14 +1,22 @@
 // deform_node: moves the organs. Contact in, OrganState out.
 #include "deform_node/deform_loop.h"
 #include "node_common/node_identity.h"
+#include "physics/blas_memory.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
 
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
+#include <iostream>
+
 int main(int argc, char** argv) {
   using namespace omentum;
+  if (!physics::keep_blas_buffers(1)) {  // organs that move factorize a matrix
+    std::cerr << "deform_node: " << physics::kNoBlasMemory << std::endl;
+    std::_Exit(2);
+  }
   runtime::CommandLine line(
       "deform_node", "Deforms the scene's organs under the tools' contacts and publishes their surfaces.");
   deform::DeformOptions options;

@@ -28,9 +28,7 @@ void start_with_fast_blas(char** argv) {
 
 void require_blas_memory(const char* program, int callers) {
   if (physics::keep_blas_buffers(callers)) return;
-  std::cerr << program
-            << ": not enough memory: OpenBLAS needs 128 MiB of addresses for each thread (see ulimit -v)"
-            << std::endl;
+  std::cerr << program << ": " << physics::kNoBlasMemory << std::endl;
   std::_Exit(kExitRefused);
 }
 

@@ -12,4 +12,8 @@ namespace omentum::physics {
 /// end by std::_Exit.
 [[nodiscard]] bool keep_blas_buffers(int callers) noexcept;
 
+/// What is to be said then, behind the program's name.
+inline constexpr const char* kNoBlasMemory =
+    "not enough memory: OpenBLAS needs 128 MiB of addresses for each thread (see ulimit -v)";
+
 }  // namespace omentum::physics
