@@ -19,7 +19,7 @@ std::optional<SurfacePoint> same_point(const ToolContact& contact, const Body& o
   if (at.count == 3 && !numbers.empty()) {
     for (std::size_t v = 0; v < file_nodes.size(); ++v)
       file_nodes[v] = numbers[static_cast<std::size_t>(at.node[v])];
-    if (const auto same = body.point_among(file_nodes, at.weight)) return same;
+    if (auto same = body.point_among(file_nodes, at.weight)) return same;
   }
   return body.nearest_at_rest(contact.place.rest, Body::kReach_m);
 }

@@ -12,12 +12,12 @@ namespace {
 static_assert(kTetLanes == kPack);
 
 // Newton's steps until the trace of the stretch is exact: 2 to 5, where tissue is.
-constexpr int kMostSteps = 60;
+inline constexpr int kMostSteps = 60;
 // The last step, relative; what is left then is its square.
-constexpr double kLastStep = 1e-9;
+inline constexpr double kLastStep = 1e-9;
 // (s2 + s3)(s1 + s3)(s1 + s2) over their size, below which the rotation is found otherwise: it is (nearly)
 // not unique, and the formula would lose more than four of its sixteen digits.
-constexpr double kNearlyAmbiguous = 1e-4;
+inline constexpr double kNearlyAmbiguous = 1e-4;
 
 struct Matrix {
   Lanes m[3][3];
@@ -110,7 +110,7 @@ OMENTUM_LANES_INLINE void find_trace(const Lanes& norm2, const Lanes& det, const
   p.gap = 0.5 * l * (l * l - norm2) - det;
 }
 
-void resolve_ambiguous(Polar& p) noexcept {
+inline void resolve_ambiguous(Polar& p) noexcept {
   for (int l = 0; l < kPack; ++l) {
     if (p.ambiguous[l] == 0) continue;
     double F[9], R[9];
@@ -200,15 +200,15 @@ OMENTUM_LANES_INLINE void linearize(const TetPack& pack, const PaddedNode* u, bo
   if (exact) exact_skew(pack, p, tangent.skew);
 }
 
-// P = R (2 mu V sym(W) + lambda V tr(W) I + [A V a]x), W = R^T dF, [a]x = W - W^T
+// P = R (2 mu V sym(W) + lambda V tr(W) I + [A V a]x), W = R^T G, [a]x = W - W^T
 OMENTUM_LANES_INLINE void tangent_stress(const TetPack& pack, const TetTangent& tangent, const PaddedNode* v,
                                          Matrix& P) {
-  Matrix R, dF, W, Q;
+  Matrix R, G, W, Q;
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b) R.m[a][b] = lanes_at(tangent.rotation[a][b]);
   }
-  gradient_of(pack, v, dF);
-  transposed_times(R, dF, W);
+  gradient_of(pack, v, G);
+  transposed_times(R, G, W);
   const Lanes two_mu = lanes_at(pack.two_mu_volume);
   const Lanes pressure = lanes_at(pack.lambda_volume) * (W.m[0][0] + W.m[1][1] + W.m[2][2]);
   const Lanes x = W.m[2][1] - W.m[1][2], y = W.m[0][2] - W.m[2][0], z = W.m[1][0] - W.m[0][1];
@@ -226,7 +226,8 @@ OMENTUM_LANES_INLINE void tangent_stress(const TetPack& pack, const TetTangent& 
   times(R, Q, P);
 }
 
-void add_corotational_forces(const TetPack* packs, int count, const PaddedNode* u, PaddedNode* f) noexcept {
+inline void add_corotational_forces(const TetPack* packs, int count, const PaddedNode* u,
+                                    PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
     const TetPack& pack = packs[i];
     if (pack.stiff_count == 0) continue;
@@ -242,7 +243,7 @@ void add_corotational_forces(const TetPack* packs, int count, const PaddedNode* 
   }
 }
 
-double corotational_energy(const TetPack* packs, int count, const PaddedNode* u) noexcept {
+inline double corotational_energy(const TetPack* packs, int count, const PaddedNode* u) noexcept {
   Lanes sum{};
   for (int i = 0; i < count; ++i) {
     const TetPack& pack = packs[i];
@@ -262,13 +263,13 @@ double corotational_energy(const TetPack* packs, int count, const PaddedNode* u)
   return total;
 }
 
-void linearize_corotational(const TetPack* packs, int count, const PaddedNode* u, bool exact,
-                            TetTangent* tangents) noexcept {
+inline void linearize_corotational(const TetPack* packs, int count, const PaddedNode* u, bool exact,
+                                   TetTangent* tangents) noexcept {
   for (int i = 0; i < count; ++i) linearize(packs[i], u, exact, tangents[i]);
 }
 
-void add_corotational_product(const TetPack* packs, const TetTangent* tangents, int count,
-                              const PaddedNode* v, PaddedNode* f) noexcept {
+inline void add_corotational_product(const TetPack* packs, const TetTangent* tangents, int count,
+                                     const PaddedNode* v, PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
     if (packs[i].stiff_count == 0) continue;
     Matrix P;

@@ -24,7 +24,8 @@ OMENTUM_LANES_INLINE void stretch(const SpringPack& pack, const PaddedNode* u, S
   s.length = square_root(s.along[0] * s.along[0] + s.along[1] * s.along[1] + s.along[2] * s.along[2]);
 }
 
-void add_spring_forces(const SpringPack* packs, int count, const PaddedNode* u, PaddedNode* f) noexcept {
+inline void add_spring_forces(const SpringPack* packs, int count, const PaddedNode* u,
+                              PaddedNode* f) noexcept {
   for (int i = 0; i < count; ++i) {
     const SpringPack& pack = packs[i];
     Stretched s;
@@ -45,7 +46,7 @@ void add_spring_forces(const SpringPack* packs, int count, const PaddedNode* u, 
   }
 }
 
-double spring_energy(const SpringPack* packs, int count, const PaddedNode* u) noexcept {
+inline double spring_energy(const SpringPack* packs, int count, const PaddedNode* u) noexcept {
   Lanes sum{};
   for (int i = 0; i < count; ++i) {
     const Lanes stiffness = lanes_at(packs[i].stiffness);

@@ -51,7 +51,7 @@ struct Pair {
 // Seen from the tetrahedron's first corner, so that rounding is that of the pair, not of its place in W.
 Pair pair_up(const std::array<Vec3, 3>& triangle, const std::array<Vec3, 4>& tetrahedron) {
   Pair pair{triangle, tetrahedron, 0};
-  const Vec3 origin = tetrahedron[0];
+  const Vec3& origin = tetrahedron[0];
   for (Vec3& p : pair.triangle) pair.size = std::max(pair.size, (p -= origin).lpNorm<Eigen::Infinity>());
   for (Vec3& p : pair.tetrahedron) pair.size = std::max(pair.size, (p -= origin).lpNorm<Eigen::Infinity>());
   return pair;
