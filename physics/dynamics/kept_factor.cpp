@@ -76,6 +76,7 @@ KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& mater
       residual_(position_.size()),
       correction_(position_.size()),
       columns_(static_cast<std::size_t>(3 * most_compliance_nodes) * panels_.size()),
+      known_blocks_(most_compliance_nodes),
       on_way_(panels_.supernodes().size()) {
   const std::vector<std::int32_t> components = free_components(assembled.free);
   const Supernodes order = assembled.supernodes();
@@ -109,6 +110,7 @@ void KeptFactor::subtract_element(geometry::TetId t) noexcept {
 
 bool KeptFactor::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
   bool definite = true;
+  known_blocks_.forget();
   while (!tetrahedra.empty()) {
     const auto now = tetrahedra.first(std::min<std::size_t>(tetrahedra.size(), FactorDowndate::kMost));
     std::array<RankSix, FactorDowndate::kMost> roots;
@@ -124,6 +126,7 @@ bool KeptFactor::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
 }
 
 void KeptFactor::restore() noexcept {
+  known_blocks_.forget();
   std::ranges::copy(uncut_block_, block_.begin());
   for (std::size_t s = 0; s < changed_.size(); ++s) {
     if (changed_[s] == 0) continue;
@@ -176,6 +179,7 @@ void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
 
 // With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
 void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
+  if (known_blocks_.find(nodes, block)) return;
   const FlushTiny flush;
   mark_ways(nodes);
   const std::size_t width = 3 * nodes.size(), n = x_.size();
@@ -205,6 +209,7 @@ void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::spa
   for (std::size_t r = 0; r < width; ++r) {
     for (std::size_t q = 0; q < r; ++q) block[q * width + r] = block[r * width + q];
   }
+  known_blocks_.keep(nodes, block);
 }
 
 }  // namespace omentum::physics

@@ -3,6 +3,7 @@
 
 #include "physics/dynamics/body_state.h"
 #include "physics/dynamics/factor_downdate.h"
+#include "physics/dynamics/known_blocks.h"
 
 #include <cstdint>
 #include <memory>
@@ -90,6 +91,7 @@ class KeptFactor {
   std::vector<float> x_;                       // [n]
   std::vector<double> residual_, correction_;  // [3N]
   std::vector<float> columns_;                 // [3 most_compliance_nodes][n]
+  KnownBlocks known_blocks_;                   // of what is left
   std::vector<std::int32_t> ways_;             // supernodes
   std::vector<std::uint8_t> on_way_;           // [S]
 };

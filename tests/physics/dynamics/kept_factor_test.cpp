@@ -140,6 +140,29 @@ TEST(KeptFactorTest, ABlockOfTheInverseIsWhatSolvesSay) {
   EXPECT_EQ(block, block.transpose());
 }
 
+TEST(KeptFactorTest, AKnownBlockFollowsItsNodesAndIsForgottenAfterACut) {
+  const HeldBody body = test::held_box();
+  KeptFactor factor = kept(body), fresh = kept(body);
+  const std::vector<TetId> order = body.any_order();
+  const std::vector<NodeId> nodes{NodeId(40), NodeId(200), NodeId(41)},
+      turned{NodeId(41), NodeId(40), NodeId(200)};
+  std::vector<float> first(81), again(81), expected(81);
+  factor.inverse_block(nodes, first);
+  factor.inverse_block(turned, again);
+  fresh.inverse_block(turned, expected);
+  for (std::size_t i = 0; i < 81; ++i) EXPECT_NEAR(again[i], expected[i], 1e-6 * expected[0]) << i;
+
+  for (KeptFactor* each : {&factor, &fresh}) ASSERT_TRUE(each->remove({order.data(), 200}));
+  factor.inverse_block(turned, again);
+  KeptFactor cut = kept(body);
+  ASSERT_TRUE(cut.remove({order.data(), 200}));
+  cut.inverse_block(turned, expected);
+  EXPECT_EQ(again, expected);
+  factor.restore();
+  factor.inverse_block(nodes, again);
+  EXPECT_EQ(again, first);
+}
+
 TEST(KeptFactorTest, WhatIsLeftStaysPositiveDefinite) {
   const HeldBody body = test::held_box();
   KeptFactor factor = kept(body);
