@@ -8,6 +8,7 @@
 //   real_time: simulated over elapsed time
 // Meshes: the 7,185-tetrahedra liver beside the repository (OMENTUM_BENCH_MESH takes another, in
 // millimetres), or a box of about its size; a box of 9,936 nodes.
+#include "benchmarks/bench_mesh.h"
 #include "benchmarks/json_reporter.h"
 #include "physics/dynamics/explicit_step.h"
 #include "physics/dynamics/stable_step.h"
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <random>
@@ -30,22 +30,12 @@ using namespace omentum::physics;
 using Arithmetic = TensorMass::Arithmetic;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMillimetre = 1e-3;
 constexpr double kSupportDepth_m = 5e-3;  // held at x below its smallest x + 5 mm
 constexpr Material kLiver{5000, 0.45, 1050};
 constexpr double kPerEdgeLimit_ns = 1.6;
 constexpr double kRemovalLimit_us = 10;  // repair and surface included
 // Heavy enough for forward Euler to have a stable step: the share of critical damping of the highest mode.
 constexpr double kHighestDamping = 0.14;
-
-geometry::TetraMesh liver() {
-  const char* chosen = std::getenv("OMENTUM_BENCH_MESH");
-  const std::filesystem::path file =
-      chosen != nullptr ? chosen : test::data_file("tet/openhelp_liver_7k.msh");
-  if (chosen == nullptr && !std::filesystem::exists(file))
-    return test::make_box_mesh(13, 11, 11, {0.18, 0.15, 0.15});
-  return geometry::check_mesh(geometry::read_mesh(file), kMillimetre).mesh;
-}
 
 struct Organ {
   std::string name;
@@ -184,7 +174,7 @@ void set_limits(bench::Results& results, const Organ& organ) {
 int main(int argc, char** argv) {
   bench::Results results(argc, argv);
   benchmark::Initialize(&argc, argv);
-  std::array<Organ, 2> organs{Organ{"liver_7k", liver()},
+  std::array<Organ, 2> organs{Organ{"liver_7k", bench::bench_mesh()},
                               Organ{"box_10k", test::make_box_mesh(22, 23, 17, {0.2, 0.2, 0.15})}};
   for (Organ& organ : organs) add_all(organ);
   bench::JsonReporter reporter(results);

@@ -7,6 +7,7 @@
 //   compliance/MESH        the block of 24 neighbouring nodes
 // Meshes: the 7,185-tetrahedra liver beside the repository (OMENTUM_BENCH_MESH takes another, in
 // millimetres), or a box of about its size; a box of 9,936 nodes; a box of 4,807 nodes and 23,760 tetrahedra.
+#include "benchmarks/bench_mesh.h"
 #include "benchmarks/json_reporter.h"
 #include "organ_tools/fast_blas.h"
 #include "physics/blas_threads.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <random>
@@ -28,22 +28,12 @@ using namespace omentum;
 using namespace omentum::physics;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMillimetre = 1e-3;
 constexpr double kSupportDepth_m = 5e-3;  // held at x below its smallest x + 5 mm
 constexpr Material kLiver{5000, 0.45, 1050};
 constexpr double kStep_s = 5e-3;
 constexpr double kDrag_per_s = 1;
 constexpr std::size_t kRemovals = 300;
 constexpr std::size_t kComplianceNodes = 24;
-
-geometry::TetraMesh liver() {
-  const char* chosen = std::getenv("OMENTUM_BENCH_MESH");
-  const std::filesystem::path file =
-      chosen != nullptr ? chosen : test::data_file("tet/openhelp_liver_7k.msh");
-  if (chosen == nullptr && !std::filesystem::exists(file))
-    return test::make_box_mesh(13, 11, 11, {0.18, 0.15, 0.15});
-  return geometry::check_mesh(geometry::read_mesh(file), kMillimetre).mesh;
-}
 
 struct Organ {
   std::string name;
@@ -169,7 +159,7 @@ int main(int argc, char** argv) {
   bench::Results results(argc, argv);
   benchmark::Initialize(&argc, argv);
   const BlasThreads one(1);
-  Organ organs[] = {{"liver", liver()},
+  Organ organs[] = {{"liver", bench::bench_mesh()},
                     {"box5k", test::make_box_mesh(18, 10, 22, {0.2, 0.11, 0.24})},
                     {"box10k", test::make_box_mesh(22, 17, 23, {0.2, 0.15, 0.2})}};
   for (Organ& organ : organs) {

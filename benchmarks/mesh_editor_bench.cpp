@@ -5,9 +5,9 @@
 //   remove_along_cut  single tetrahedra from one end of a plane to the other, through the whole organ
 //   set_removed       the whole half at once, as a process that joins late takes it up
 //   follow_along_cut  the sets after each call of remove_along_cut, as another process hears them
-// Counters: us_each, of one call; us_taken, of one tetrahedron that went, repaired ones included; worst_us,
-// of one call of a whole sequence (the median of the sequences' worst); repaired_of_asked. The mesh:
-// OMENTUM_BENCH_MESH (millimetres; by default the 7,185-tetrahedra liver beside the repository, or a box).
+// Counters: median_us and p99_us, of one call; repaired_of_asked, how many more went for each that was asked
+// for. The mesh is that of bench_mesh.h.
+#include "benchmarks/bench_mesh.h"
 #include "benchmarks/json_reporter.h"
 #include "geometry/mesh_editor.h"
 #include "tests/support/meshes.h"
@@ -15,7 +15,6 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <numeric>
 #include <random>
@@ -27,18 +26,7 @@ using geometry::TetId;
 using geometry::Vec3;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMillimetre = 1e-3;
 constexpr double kLimit_us = 10;  // one tetrahedron of a 7k mesh, the tensors' share included
-
-geometry::TetraMesh bench_mesh() {
-  const char* chosen = std::getenv("OMENTUM_BENCH_MESH");
-  const std::filesystem::path liver = test::data_file("tet/openhelp_liver_7k.msh");
-  const std::filesystem::path file = chosen != nullptr ? chosen : liver;
-  // where there is no liver, a box of about its size: 9,438 tetrahedra
-  if (chosen == nullptr && !std::filesystem::exists(file))
-    return test::make_box_mesh(13, 11, 11, {0.18, 0.15, 0.15});
-  return geometry::check_mesh(geometry::read_mesh(file), kMillimetre).mesh;
-}
 
 std::vector<TetId> half_at_random(const geometry::TetraMesh& mesh) {
   std::vector<TetId> order;
@@ -150,7 +138,7 @@ void set_removed(benchmark::State& state, const geometry::TetraMesh& mesh, const
 int main(int argc, char** argv) {
   omentum::bench::Results results(argc, argv);
   benchmark::Initialize(&argc, argv);
-  const geometry::TetraMesh mesh = bench_mesh();
+  const geometry::TetraMesh mesh = bench::bench_mesh();
   const std::vector<TetId> half = half_at_random(mesh), cut = along_cut(mesh);
   std::cerr << mesh.positions.size() << " nodes, " << mesh.tetrahedra.size() << " tetrahedra, " << cut.size()
             << " of them along the cut\n";

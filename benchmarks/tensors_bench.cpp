@@ -8,6 +8,7 @@
 //                        plain stream's bandwidth in this run
 // The organ: OMENTUM_BENCH_MESH (millimetres; by default the 7,185-tetrahedra liver beside the repository, or
 // a box).
+#include "benchmarks/bench_mesh.h"
 #include "benchmarks/child_run.h"
 #include "benchmarks/json_reporter.h"
 #include "organ_tools/fast_blas.h"
@@ -22,7 +23,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
@@ -32,7 +32,6 @@ using namespace omentum;
 using namespace omentum::physics;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMillimetre = 1e-3;
 constexpr double kSupportDepth_m = 5e-3;  // issue 2: held at x below its smallest x + 5 mm
 constexpr Material kLiver{3000, 0.45, 1050};
 constexpr int kReferenceBlock =
@@ -40,16 +39,6 @@ constexpr int kReferenceBlock =
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-geometry::TetraMesh bench_mesh() {
-  const char* chosen = std::getenv("OMENTUM_BENCH_MESH");
-  const std::filesystem::path liver = test::data_file("tet/openhelp_liver_7k.msh");
-  const std::filesystem::path file = chosen != nullptr ? chosen : liver;
-  // where there is no liver, a box of about its size: 9,438 tetrahedra
-  if (chosen == nullptr && !std::filesystem::exists(file))
-    return test::make_box_mesh(13, 11, 11, {0.18, 0.15, 0.15});
-  return geometry::check_mesh(geometry::read_mesh(file), kMillimetre).mesh;
 }
 
 /// Below this x the organ is held.
@@ -81,7 +70,7 @@ OrganBuild run_organ_build(const geometry::TetraMesh& mesh) {
 }
 
 struct Bench {
-  geometry::TetraMesh mesh = bench_mesh();
+  geometry::TetraMesh mesh = bench::bench_mesh();
   OrganBuild built = run_organ_build(mesh);
   FixedComponents fixed;
   geometry::Surface surface;

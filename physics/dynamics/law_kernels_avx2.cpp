@@ -1,14 +1,7 @@
-#include "physics/dynamics/corotational_loops.h"
-#include "physics/dynamics/spring_loops.h"
+#include "physics/dynamics/law_kernel_table.h"
 
 namespace omentum::physics::kernels {
 
-constinit const LawKernels kAvx2LawKernels{"AVX2",
-                                           add_corotational_forces,
-                                           corotational_energy,
-                                           linearize_corotational,
-                                           add_corotational_product,
-                                           add_spring_forces,
-                                           spring_energy};
+constinit const LawKernels kAvx2LawKernels = law_kernels_named("AVX2");
 
 }  // namespace omentum::physics::kernels

@@ -89,6 +89,18 @@ class Session {
     return move_to(kPressed, 1);
   }
 
+  /// After press(): aside by a centimetre, off, and back above the place.
+  void slide_and_leave() {
+    move_to(kPressed + Vec3(0.01, 0, 0), 0.5);
+    move_to(kAbove + Vec3(0.01, 0, 0), 0.5);
+    move_to(kAbove, 0.5);
+  }
+  /// After press(): over the surface and back, still pressed.
+  void slide_to_and_fro() {
+    move_to(kPressed + Vec3(0.02, 0.01, 0), 1);
+    move_to(kPressed, 1);
+  }
+
   void stop_organ() { organ_lives_ = false; }
   double given_j() const { return given_j_; }
   double largest_step_n() const { return largest_step_n_; }

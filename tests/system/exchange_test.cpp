@@ -6,7 +6,6 @@ namespace omentum {
 namespace {
 
 using geometry::Vec3;
-using test::kAbove;
 using test::kPressed;
 using test::Session;
 
@@ -28,9 +27,7 @@ TEST(Exchange, APressThatGoesGivesTheHandNoEnergy) {
     session.begin();
     session.press();
     const double put_in_j = -session.given_j();
-    session.move_to(kPressed + Vec3(0.01, 0, 0), 0.5);
-    session.move_to(kAbove + Vec3(0.01, 0, 0), 0.5);
-    session.move_to(kAbove, 0.5);
+    session.slide_and_leave();
     EXPECT_LT(session.given_j(), 0.02 * put_in_j) << organ_hz << " Hz, of " << put_in_j << " J";
     EXPECT_GT(put_in_j, 1e-4);
   }
@@ -40,8 +37,7 @@ TEST(Exchange, ForcesMakeNoStepWhileModelsComeAndGo) {
   Session session(1000, 100);
   session.begin();
   const double held = session.press().norm();
-  session.move_to(kPressed + Vec3(0.02, 0.01, 0), 1);
-  session.move_to(kPressed, 1);
+  session.slide_to_and_fro();
   EXPECT_LT(session.largest_step_n(), 0.05 * held);
 }
 
