@@ -72,10 +72,13 @@ void DeformLoop::open_writers() {
   topology_writer_ = bus_->writer<msg::Topology>();
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
+  stress_writer_ = bus_->writer<msg::OrganStress>();
   publisher_ = std::make_unique<StatePublisher>(
       StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_, journal_.get()},
       organs_.organs(), nodes_per_block(profile), node::to_message(loaded_, scene_.name), own_, faults_,
       on_wake);
+  stress_publisher_ = std::make_unique<StressPublisher>(*stress_writer_, organs_.organs(),
+                                                        nodes_per_block(profile), options_.rate_hz, on_wake);
   if (offers_local_models(organs_.organs())) {
     local_writer_ = bus_->writer<msg::LocalModel>();
     local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(),
@@ -185,12 +188,14 @@ void DeformLoop::publish(std::int64_t now_ns) noexcept {
   for (std::size_t i = 0; i < tick.organs.size(); ++i) tick.organs[i].take(organs_.organs()[i].model->view());
   tick.figures = figures_;
   publisher_->publish();
+  stress_publisher_->offer({.seq = states_, .stamp_ns = now_ns});
 }
 
 nlohmann::json DeformLoop::report() const {
   return {{"dds", options_.node.dds},
           {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
           {"states", states_},
+          {"stress_states", stress_publisher_->measured()},
           {"steps", organs_.steps()},
           {"removed_tetrahedra", organs_.removed_tetrahedra()},
           {"repaired_tetrahedra", organs_.repaired_tetrahedra()},

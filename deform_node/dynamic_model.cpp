@@ -1,5 +1,6 @@
 #include "deform_node/dynamic_model.h"
 
+#include "deform_node/strain_gauges.h"
 #include "node_common/organ_reach.h"
 
 #include <algorithm>
@@ -44,6 +45,8 @@ void stiffen_supports(std::span<float> compliance, std::size_t rows) {
 
 DynamicModel::DynamicModel(DynamicParts parts)
     : mesh_(parts.body.mesh),
+      material_(parts.body.material),
+      stress_(parts.stress),
       inertia_(std::move(parts.body.inertia)),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
       loads_(mesh_, parts.body.material, parts.gravity_m_s2),
@@ -69,7 +72,8 @@ ModelSizes DynamicModel::sizes() const {
   return {.values = values_.size(),
           .removed_bytes = burnt_.size(),
           .local_nodes = stepper_->is_felt() ? kPatchNodes : 0,
-          .spheres = 0};
+          .spheres = 0,
+          .body = values_.size()};
 }
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -210,7 +214,13 @@ OrganView DynamicModel::view() const noexcept {
           .topology_version = version_,
           .values = std::span(values_).first(3 * editor_.surface_nodes().size()),
           .removed_bits = editor_.removed_bits(),
-          .burnt_bits = burnt_};
+          .burnt_bits = burnt_,
+          .body_u = state_.u,
+          .surface = editor_.surface_nodes()};
+}
+
+std::unique_ptr<StrainGauge> DynamicModel::strain_gauge() const {
+  return std::make_unique<BodyGauge>(mesh_, material_, stress_);
 }
 
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {

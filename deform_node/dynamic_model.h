@@ -9,12 +9,13 @@
 #include "physics/dynamics/energy_watch.h"
 #include "physics/dynamics/swept_cut.h"
 #include "physics/dynamics/tearing.h"
+#include "physics/nodal_stress.h"
 
 namespace omentum::deform {
 
 /// What a dynamic organ consists of.
 struct DynamicParts {
-  SteppedBody body;                        // its mesh outlives the model
+  SteppedBody body;                        // its mesh and material outlive the model
   std::span<const NodeId> uncut_surface;   // in the organ file's order; read at construction alone
   std::unique_ptr<BodyStepper> stepper{};  // of the same body
   double energy_margin = 2;                // of a sound integration by it (physics/dynamics/energy_watch.h)
@@ -22,6 +23,7 @@ struct DynamicParts {
   std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
+  physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
 };
 
 /// Steps of its own fixed length as the clock goes on; strokes burn through, what is loaded too much tears, a
@@ -40,6 +42,7 @@ class DynamicModel final : public OrganModel {
   OrganView view() const noexcept override;
   ModelStatus status() const noexcept override { return status_; }
   bool local_model(const PatchPlace& place, LocalPatch& patch) const noexcept override;
+  std::unique_ptr<StrainGauge> strain_gauge() const override;
 
  private:
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
@@ -57,6 +60,8 @@ class DynamicModel final : public OrganModel {
   void show() noexcept;
 
   const geometry::TetraMesh& mesh_;
+  const physics::MaterialMap& material_;
+  physics::StressLaw stress_;
   physics::Inertia inertia_;
   geometry::MeshEditor editor_;
   BodyLoads loads_;

@@ -11,7 +11,7 @@ namespace omentum::deform {
 namespace {
 
 std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, const scene::OrganSpec&) {
-  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface);
+  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface, source.rest);
 }
 
 constexpr std::array kTable{

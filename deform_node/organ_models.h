@@ -7,10 +7,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 
 namespace omentum::deform {
+
+class StrainGauge;
 
 using geometry::NodeId;
 using geometry::SurfaceId;
@@ -52,6 +55,9 @@ struct OrganView {
   std::span<const float> values;       // x y z, one after the other: [3 n]
   std::span<const std::uint8_t> removed_bits{};  // bit t % 8 of byte t / 8: tetrahedron t; empty: none is
   std::span<const std::uint8_t> burnt_bits{};    // those of them that an edge burnt away, likewise
+  // Of a body that has more than its surface, whose values above are of it; else empty.
+  std::span<const double> body_u{};   // displacements of all nodes of the mesh, [3N], m
+  std::span<const NodeId> surface{};  // whose the state's values are, in its order
 };
 
 /// What cutting edges did to an organ.
@@ -77,6 +83,7 @@ struct ModelSizes {
   std::size_t removed_bytes = 0;  // of OrganView
   std::size_t local_nodes = 0;    // of a LocalPatch; 0: it offers none
   std::size_t spheres = 0;        // that other organs can meet
+  std::size_t body = 0;           // of OrganView::body_u; its surface is as large as a third of `values`
 };
 
 /// One organ's deformation. The quasi-static, tensor-mass, hybrid and intestine models each are one of
@@ -107,6 +114,10 @@ class OrganModel {
   virtual bool local_model(const PatchPlace& /*place*/, LocalPatch& /*patch*/) const noexcept {
     return false;
   }
+
+  /// What measures its strain and stress from its views, on a thread of its own (strain_gauge.h), while this
+  /// lives; null: nobody does.
+  virtual std::unique_ptr<StrainGauge> strain_gauge() const;
 
   /// What other organs may meet, at this moment; valid as a view is.
   virtual std::span<const CollisionSphere> collidable() const noexcept { return {}; }

@@ -1,6 +1,7 @@
 #include "deform_node/quasi_static_model.h"
 
 #include "deform_node/contact_book.h"
+#include "deform_node/strain_gauges.h"
 
 #include <algorithm>
 
@@ -21,9 +22,10 @@ void interleave(const std::vector<float>& tiled, std::int32_t mobile_count, std:
 }  // namespace
 
 QuasiStaticModel::QuasiStaticModel(const physics::SurfaceCompliance& compliance,
-                                   const geometry::Surface& surface)
+                                   const geometry::Surface& surface, const std::vector<Vec3>& rest)
     : compliance_(compliance),
       surface_(surface),
+      rest_(rest),
       tiled_(static_cast<std::size_t>(compliance.cluster_count()) * 3 * kLanes),
       displacements_(3 * surface.node.size()) {
   nodes_.reserve(kMaxLoadedNodes);
@@ -44,6 +46,11 @@ void QuasiStaticModel::step(const TickLoads& loads, double /*dt_s*/) noexcept {
 
 void QuasiStaticModel::reset() noexcept {
   std::fill(displacements_.begin(), displacements_.end(), 0.0F);
+}
+
+// What happens inside is in no tensor: those that are kept are of the surface.
+std::unique_ptr<StrainGauge> QuasiStaticModel::strain_gauge() const {
+  return std::make_unique<MembraneGauge>(surface_, rest_);
 }
 
 }  // namespace omentum::deform

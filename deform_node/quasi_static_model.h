@@ -14,8 +14,9 @@ namespace omentum::deform {
 /// cannot be cut, offers no local model, since haptic_node has the whole one, and no other organ moves it.
 class QuasiStaticModel final : public OrganModel {
  public:
-  /// Both must outlive the model; the tensors are the surface's.
-  QuasiStaticModel(const physics::SurfaceCompliance& compliance, const geometry::Surface& surface);
+  /// All must outlive the model; the tensors are the surface's, and so is `rest`, [S], m.
+  QuasiStaticModel(const physics::SurfaceCompliance& compliance, const geometry::Surface& surface,
+                   const std::vector<Vec3>& rest);
 
   ModelSizes sizes() const override { return {.values = displacements_.size()}; }
   void step(const TickLoads& loads, double dt_s) noexcept override;
@@ -24,10 +25,12 @@ class QuasiStaticModel final : public OrganModel {
     return {.kind = StateKind::kSurface, .topology_version = 0, .values = displacements_};
   }
   ModelStatus status() const noexcept override { return {.steps = steps_}; }
+  std::unique_ptr<StrainGauge> strain_gauge() const override;
 
  private:
   const physics::SurfaceCompliance& compliance_;
   const geometry::Surface& surface_;
+  const std::vector<Vec3>& rest_;
   std::vector<SurfaceId> nodes_;      // workspace: A, of all tools
   std::vector<Vec3> forces_;          // workspace: f_A
   std::vector<float> tiled_;          // [cluster][3][16], as superpose_surface writes it

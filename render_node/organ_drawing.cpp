@@ -26,7 +26,10 @@ class SurfaceDrawing final : public OrganDrawing {
   RestOutline rest_outline() const override { return outline_; }
   void deform(std::span<const float> values) override { surface_.skin.deform(values); }
   CutOutcome cut(const RemovedSet& removed, std::size_t node_count) override;
-  void map_strain(bool on) override { surface_.skin.map_strain(on); }
+  bool map(std::span<const float> shares) override {
+    surface_.skin.map(shares);
+    return true;
+  }
   const MeshData& mesh() const override { return surface_.skin.mesh(); }
   std::span<const TriangleRun> changed() const override { return surface_.skin.changed(); }
   const MeshData* bared() const override { return cut_ ? &surface_.skin.bared() : nullptr; }

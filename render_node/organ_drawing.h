@@ -58,8 +58,9 @@ class OrganDrawing {
   [[nodiscard]] virtual CutOutcome cut(const RemovedSet& removed, std::size_t /*node_count*/) {
     return removed.whole() ? CutOutcome::kSame : CutOutcome::kMisfit;
   }
-  /// Whether vertices have their strain (surface_strain.h) from here on, those of the last state too.
-  virtual void map_strain(bool /*on*/) {}
+  /// `shares`: of the map's scale at each node of the state that is drawn next (tissue_map.h). False: this
+  /// organ is not drawn as a map.
+  [[nodiscard]] virtual bool map(std::span<const float> /*shares*/) { return false; }
   /// As many vertices and triangles as ever.
   virtual const MeshData& mesh() const = 0;
   /// Which triangles of mesh() the last cut() changed.

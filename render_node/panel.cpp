@@ -1,7 +1,6 @@
 #include "render_node/panel.h"
 
 #include "render_node/scene_view.h"
-#include "render_node/surface_strain.h"
 
 #include <imgui.h>
 
@@ -38,8 +37,15 @@ std::string format(const char* pattern, Args... args) {
   return text.data();
 }
 
+// Three digits, so that a line's length is known.
 std::string duration(double us) {
-  return us < 1000 ? format("%.0f us", us) : format("%.1f ms", us / 1000);
+  if (us < 1000) return format("%.0f us", us);
+  if (us < 100e3) return format("%.1f ms", us / 1000);
+  return us < 1e6 ? format("%.0f ms", us / 1000) : format("%.1f s", us / 1e6);
+}
+
+std::string pressure(double pa) {
+  return pa < 1000 ? format("%.0f Pa", pa) : format("%.1f kPa", pa / 1000);
 }
 
 // The text, or as much of it as fits beside what stands at the right.
@@ -185,8 +191,10 @@ void forces(const PanelView& view) {
   draw_curves(view);
 }
 
-void organ_line(const OrganRow& row) {
+void organ_line(const OrganRow& row, TissueMap map) {
   const std::string of = row.name.empty() ? "" : row.name + ": ";
+  if (map != TissueMap::kOff && !row.mapped)
+    ImGui::TextDisabled("%sno %s is told", of.c_str(), word(map).data());
   if (row.stale()) {
     const std::string age = format("%.0f s", 1e-9 * static_cast<double>(row.age_ns));
     ImGui::TextColored(kAmber, "%s%s for %s", of.c_str(),
@@ -197,6 +205,10 @@ void organ_line(const OrganRow& row) {
     ImGui::SameLine();
     right_aligned(format("%d", row.removed_tetrahedra).c_str());
   }
+  if (row.beyond_small_strains()) {
+    ImGui::TextColored(kAmber, "%sstrained %.0f %%: beyond small strains (%.0f %%)", of.c_str(),
+                       100 * *row.strained, 100 * kSmallStrain);
+  }
   if (row.beyond_linear()) {
     ImGui::TextColored(kAmber, "%smoved %.0f mm: beyond linear range (%.0f mm)", of.c_str(), row.moved_mm,
                        row.limit_mm);
@@ -204,19 +216,21 @@ void organ_line(const OrganRow& row) {
 }
 
 // The map's colours from left to right, with what they mean at both ends.
-void strain_scale() {
-  ImGui::TextUnformatted("strain  0");
+void map_scale(const PanelView& view) {
+  ImGui::TextUnformatted((std::string(word(view.map)) + "  0").c_str());
   ImGui::SameLine();
-  const std::string most = format("%.0f %%", 100.0 * static_cast<double>(kFullStrain));
+  const std::string most = view.map == TissueMap::kStress
+                               ? pressure(view.full_stress_pa)
+                               : format("%.0f %%", 100.0 * static_cast<double>(kFullStrain));
   const float height = ImGui::GetFontSize();
   const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(most.c_str()).x -
                       ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float step = width / static_cast<float>(kStrainColourCount - 1);
-  for (std::size_t i = 0; i + 1 < kStrainColourCount; ++i) {
+  const float step = width / static_cast<float>(kMapColourCount - 1);
+  for (std::size_t i = 0; i + 1 < kMapColourCount; ++i) {
     const float left = at.x + step * static_cast<float>(i);
-    const ImU32 from = ImGui::GetColorU32(display(strain_colours()[i]));
-    const ImU32 to = ImGui::GetColorU32(display(strain_colours()[i + 1]));
+    const ImU32 from = ImGui::GetColorU32(display(map_colours()[i]));
+    const ImU32 to = ImGui::GetColorU32(display(map_colours()[i + 1]));
     ImGui::GetWindowDrawList()->AddRectFilledMultiColor({left, at.y}, {left + step, at.y + height}, from, to,
                                                         to, from);
   }
@@ -229,7 +243,7 @@ void organs(const PanelView& view) {
   ImGui::TextUnformatted("deepest dent");
   ImGui::SameLine();
   right_aligned(format("%.1f mm", view.dent_mm).c_str());
-  if (view.strain) strain_scale();
+  if (view.map != TissueMap::kOff) map_scale(view);
   if (view.real_time_factor > 0) {
     ImGui::TextUnformatted("real time");
     ImGui::SameLine();
@@ -237,7 +251,7 @@ void organs(const PanelView& view) {
     right_aligned(format("%.2f x", view.real_time_factor).c_str(), slow ? &kAmber : nullptr);
   }
   ImGui::PushTextWrapPos(0);  // an organ may have a long name
-  for (const OrganRow& row : view.organs) organ_line(row);
+  for (const OrganRow& row : view.organs) organ_line(row, view.map);
   ImGui::PopTextWrapPos();
   if (view.incomplete_states > 0) {
     ImGui::TextColored(kAmber, "%llu states came incomplete",
@@ -269,13 +283,14 @@ PanelActions buttons(const PanelView& view) {
   actions.reset = ImGui::Button("Reset", {third, 0});
   ImGui::SameLine();
   actions.clear_fault = ImGui::Button("Clear fault", {third, 0});
-  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers, strain = view.strain;
+  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers;
   actions.switch_camera = ImGui::Checkbox("endoscope", &endoscope);
   ImGui::SameLine();
   actions.switch_arrows = ImGui::Checkbox("arrows", &arrows);
   ImGui::SameLine();
   actions.switch_markers = ImGui::Checkbox("nodes", &markers);
-  actions.switch_strain = ImGui::Checkbox("strain (key S)", &strain);
+  actions.switch_map =
+      ImGui::Button(("map: " + std::string(word(view.map)) + " (key S)" + kMapButton).c_str(), {-1, 0});
   ImGui::TextDisabled("drag: turn   right drag: move   wheel: zoom");
   return actions;
 }

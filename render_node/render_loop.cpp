@@ -83,6 +83,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
   inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, pace_, faults_);
+  show_map(options.map);
 }
 
 void RenderLoop::run() {
@@ -110,7 +111,7 @@ void RenderLoop::frame(bool last) {
   const Input input = renderer_.begin_frame();
   closed_ = closed_ || input.close;
   steer(input);
-  if (input.switch_strain) switch_strain();
+  if (input.switch_map) show_map(next(choices_.map));
   if (!options_.no_panel) obey(lay_out_panel(panel_view(begin_ns)));
   if (due.indent) take_close_up(*dent);
   draw(due.numbered);
@@ -170,12 +171,14 @@ void RenderLoop::obey(const PanelActions& actions) {
   choices_.endoscope ^= actions.switch_camera;
   choices_.arrows ^= actions.switch_arrows;
   choices_.markers ^= actions.switch_markers;
-  if (actions.switch_strain) switch_strain();
+  if (actions.switch_map) show_map(next(choices_.map));
 }
 
-void RenderLoop::switch_strain() {
-  choices_.strain = !choices_.strain;
-  view_.map_strain(choices_.strain);
+void RenderLoop::show_map(TissueMap map) {
+  choices_.map = map;
+  watch_.show_as(map);
+  view_.forget_map();
+  inbox_->read_stress(map != TissueMap::kOff);
 }
 
 void RenderLoop::command(std::uint32_t command) {
@@ -189,7 +192,8 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   panel.endoscope = choices_.endoscope;
   panel.arrows = choices_.arrows;
   panel.markers = choices_.markers;
-  panel.strain = choices_.strain;
+  panel.map = choices_.map;
+  panel.full_stress_pa = watch_.full_stress_pa();
   watch_.describe(view_, now_ns, panel);
   return panel;
 }

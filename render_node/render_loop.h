@@ -26,6 +26,7 @@ struct RenderOptions {
   double picture_period_s =
       -1;  // numbered pictures; 0: none; negative: every 2 s off-screen, none in a window
   bool no_panel = false;
+  TissueMap map = TissueMap::kOff;  // at the start
 };
 
 /// Owns the scene's drawing and the node's life on the bus. The renderer's thread.
@@ -61,7 +62,7 @@ class RenderLoop {
   void finish_frame(std::int64_t begin_ns, bool for_disk);
   void steer(const Input& input);
   void obey(const PanelActions& actions);
-  void switch_strain();
+  void show_map(TissueMap map);
   void command(std::uint32_t command);
   PanelView panel_view(std::int64_t now_ns) const;
   void tell_status(std::int64_t now_ns);

@@ -101,24 +101,23 @@ void SceneView::deform(std::size_t organ, std::span<const float> values) {
   renderer_.update_vertices(organs_[organ].mesh, drawing.mesh().vertices);
 }
 
-bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<const float> values) {
-  const CutOutcome outcome = organs_[organ].drawing->cut(removed, values.size() / 3);
+bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<const float> values,
+                     std::span<const float> shares) {
+  OrganDrawing& drawing = *organs_[organ].drawing;
+  const CutOutcome outcome = drawing.cut(removed, values.size() / 3);
   if (outcome == CutOutcome::kMisfit) return false;
+  organs_[organ].mapped = 3 * shares.size() == values.size() && drawing.map(shares);
   deform(organ, values);
   if (outcome == CutOutcome::kCut) {
     show_cut(organs_[organ]);
   } else if (const auto& bared = organs_[organ].bared) {
-    renderer_.update_vertices(*bared, organs_[organ].drawing->bared()->vertices);
+    renderer_.update_vertices(*bared, drawing.bared()->vertices);
   }
   return true;
 }
 
-void SceneView::map_strain(bool on) {
-  for (const auto& [drawing, mesh, bared] : organs_) {
-    drawing->map_strain(on);
-    renderer_.update_vertices(mesh, drawing->mesh().vertices);
-    if (bared) renderer_.update_vertices(*bared, drawing->bared()->vertices);
-  }
+void SceneView::forget_map() {
+  for (DrawnOrgan& organ : organs_) organ.mapped = false;
 }
 
 void SceneView::show_cut(DrawnOrgan& organ) {
@@ -201,14 +200,14 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
-  for (const auto& [drawing, mesh, bared] : organs_) {
-    const bool is_cut = bared && drawing->removed_count() > 0;
+  for (const auto& [drawing, mesh, bared, mapped] : organs_) {
+    const bool is_cut = bared && drawing->removed_count() > 0,
+               is_map = mapped && choices.map != TissueMap::kOff;
     const Look skin = is_cut ? Look::kCut : Look::kTissue;
-    frame.items.push_back(
-        {mesh, choices.strain ? Look::kStrain : skin, Mat4f::Identity(), drawing->material()});
+    frame.items.push_back({mesh, is_map ? Look::kMap : skin, Mat4f::Identity(), drawing->material()});
     if (is_cut)
-      frame.items.push_back({*bared, choices.strain ? Look::kStrain : Look::kBared, Mat4f::Identity(),
-                             drawing->bared_material()});
+      frame.items.push_back(
+          {*bared, is_map ? Look::kMap : Look::kBared, Mat4f::Identity(), drawing->bared_material()});
   }
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;

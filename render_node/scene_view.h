@@ -4,6 +4,7 @@
 #include "render_node/close_up.h"
 #include "render_node/instrument_shape.h"
 #include "render_node/organ_drawing.h"
+#include "render_node/tissue_map.h"
 
 #include <memory>
 #include <optional>
@@ -27,7 +28,7 @@ struct ViewChoices {
   Camera orbit;
   bool endoscope = false;
   bool arrows = true;
-  bool strain = false;   // organs as a map of their strain, after SceneView::map_strain
+  TissueMap map = TissueMap::kOff;  // as which organs are drawn whose values are known
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
 };
 
@@ -44,12 +45,15 @@ class SceneView {
 
   /// `values`: of a whole state of that organ (OrganDrawing::deform).
   void deform(std::size_t organ, std::span<const float> values);
-  /// The organ as a state has it, of which `removed` is gone. False: it has no such states; nothing was
+  /// The organ as a state has it, of which `removed` is gone. `shares`: of the map's scale at each of the
+  /// state's nodes (tissue_map.h); empty where they are not known. False: it has no such states; nothing was
   /// changed.
-  [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values);
-
-  /// Whether organs tell their strain from here on: ViewChoices::strain shows it.
-  void map_strain(bool on);
+  [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values,
+                          std::span<const float> shares = {});
+  /// What organs are a map of is of no use any more: until they are shown anew they are drawn as tissue.
+  void forget_map();
+  /// Whether an organ's shares are known.
+  bool mapped(std::size_t organ) const { return organs_[organ].mapped; }
 
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
@@ -74,6 +78,7 @@ class SceneView {
     std::unique_ptr<OrganDrawing> drawing;
     MeshId mesh{};
     std::optional<MeshId> bared{};  // made when it is first cut
+    bool mapped = false;            // its vertices have their shares of the map
   };
   struct DrawnPart {
     InstrumentPart part;

@@ -24,17 +24,24 @@ enum class Feel : std::uint8_t {
   kLocalModels,  // deform_node tells of the surface around each tool, again and again
 };
 
+/// Where a model's law is tissue's: what has to be small for it.
+enum class Trusted : std::uint8_t {
+  kSmallDisplacements,  // beside the organ's size: the law is linear in them
+  kSmallStrains,        // however far tissue is moved and turned
+};
+
 /// A model that a scene may choose for an organ, the kind of organ that it moves, and how that is felt.
 struct OrganModelWord {
   std::string_view word;
   OrganKind kind;
   Feel feel = Feel::kTensors;
+  Trusted trusted = Trusted::kSmallDisplacements;
 };
 inline constexpr std::array kOrganModels{
     OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh},
     OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
-    OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
-    OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+    OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
+    OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
 };
 
 /// A part of an organ that is of another material: at one of label, box and ball; what is absent of the

@@ -23,7 +23,8 @@ class QuasiStaticModelTest : public ::testing::Test {
  protected:
   physics::SurfaceCompliance compliance_ = random_compliance(kMobile, 11);
   const geometry::Surface surface_ = deform_test::odd_surface(kSurfaceNodes);
-  QuasiStaticModel model_{compliance_, surface_};
+  const std::vector<Vec3> rest_{std::size_t{kSurfaceNodes}, Vec3::Zero()};
+  QuasiStaticModel model_{compliance_, surface_, rest_};
   runtime::FaultList faults_;
   ContactBook book_{
       {odd_numbers(kSurfaceNodes, kSurfaceNodes - kMobile)}, {.tools = 3, .max_force_n = 10}, faults_};

@@ -173,6 +173,17 @@ TEST(OrganRow, LinearRangeIsThatOfTheLargestDisplacement) {
   EXPECT_TRUE((OrganRow{.moved_mm = 19, .limit_mm = 18}.beyond_linear()));
 }
 
+TEST(OrganRow, ALawThatTurnsWithTheTissueIsBeyondItsRangeByStrainAlone) {
+  OrganRow row{.moved_mm = 500, .limit_mm = 18, .trusted = scene::Trusted::kSmallStrains};
+  EXPECT_FALSE(row.beyond_linear());
+  EXPECT_FALSE(row.beyond_small_strains()) << "nobody knows";
+  row.strained = 0.3;
+  EXPECT_TRUE(row.beyond_small_strains());
+  row.trusted = scene::Trusted::kSmallDisplacements;
+  EXPECT_TRUE(row.beyond_linear());
+  EXPECT_FALSE(row.beyond_small_strains());
+}
+
 TEST(PanelShare, LeavesTheOrganInANarrowPicture) {
   EXPECT_NEAR(panel_share({960, 600}), (kPanelWidth + kPanelMargin) / 960, 1e-6);
   for (const int width : {64, 200, 480}) EXPECT_LE(panel_share({width, 300}), 0.4);
@@ -269,6 +280,30 @@ TEST_F(PanelLayout, CutsAndTheirTimeAreTold) {
   EXPECT_GT(cut, whole);
   view.real_time_factor = 1;
   EXPECT_GT(height_of(view), cut);
+}
+
+TEST_F(PanelLayout, NoLatencyIsTooLongForItsLine) {
+  PanelView view = busy();
+  for (double us = 1; us < 1e8; us *= 9.7) {
+    view.hand_to_force_us = view.hand_to_picture_us = us;
+    view.hand_to_force_p99_us = view.hand_to_picture_p99_us = 1.1 * us;
+    height_of(view);  // looks at every corner
+  }
+}
+
+TEST_F(PanelLayout, TheMapsScaleAndWhatIsNotToldTakeALineEach) {
+  PanelView view = busy();
+  const float tissue = height_of(view);
+  view.map = TissueMap::kStress;
+  view.full_stress_pa = 1800;
+  const float without = height_of(view);
+  EXPECT_GT(without, tissue);
+  view.organs[0].mapped = true;
+  EXPECT_LT(height_of(view), without);
+  view.organs[0].trusted = scene::Trusted::kSmallStrains;
+  const float linear = height_of(view);
+  view.organs[0].strained = 0.4;
+  EXPECT_GT(height_of(view), linear);
 }
 
 TEST_F(PanelLayout, ALongSceneNameLeavesRoomForWhatStandsBesideIt) {
