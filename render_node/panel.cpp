@@ -215,13 +215,32 @@ void organ_line(const OrganRow& row, TissueMap map) {
   }
 }
 
+double full_scale(const PanelView& view) {
+  return view.map == TissueMap::kStress ? view.full_stress_pa : static_cast<double>(kFullStrain);
+}
+
+std::string in_words(TissueMap map, double value) {
+  return map == TissueMap::kStress ? pressure(value) : format("%.1f %%", 100 * value);
+}
+
+// Of all organs that are drawn as the map.
+void largest_line(const PanelView& view) {
+  std::optional<double> largest;
+  for (const OrganRow& row : view.organs) {
+    const std::optional<double>& own = view.map == TissueMap::kStress ? row.stressed_pa : row.strained;
+    if (row.mapped && own) largest = std::max(*own, largest.value_or(*own));
+  }
+  if (!largest) return;
+  ImGui::TextUnformatted("largest");
+  ImGui::SameLine();
+  right_aligned(in_words(view.map, *largest).c_str());
+}
+
 // The map's colours from left to right, with what they mean at both ends.
 void map_scale(const PanelView& view) {
   ImGui::TextUnformatted((std::string(word(view.map)) + "  0").c_str());
   ImGui::SameLine();
-  const std::string most = view.map == TissueMap::kStress
-                               ? pressure(view.full_stress_pa)
-                               : format("%.0f %%", 100.0 * static_cast<double>(kFullStrain));
+  const std::string most = in_words(view.map, full_scale(view));
   const float height = ImGui::GetFontSize();
   const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(most.c_str()).x -
                       ImGui::GetStyle().ItemSpacing.x;
@@ -243,7 +262,10 @@ void organs(const PanelView& view) {
   ImGui::TextUnformatted("deepest dent");
   ImGui::SameLine();
   right_aligned(format("%.1f mm", view.dent_mm).c_str());
-  if (view.map != TissueMap::kOff) map_scale(view);
+  if (view.map != TissueMap::kOff) {
+    map_scale(view);
+    largest_line(view);
+  }
   if (view.real_time_factor > 0) {
     ImGui::TextUnformatted("real time");
     ImGui::SameLine();

@@ -48,8 +48,9 @@ struct OrganRow {
   std::int32_t removed_tetrahedra = 0;
 
   scene::Trusted trusted = scene::Trusted::kSmallDisplacements;
-  std::optional<double> strained = {};  // largest strain of any of its nodes, while it is read
-  bool mapped = false;                  // drawn as the map that is on
+  // The largest of any of its nodes, while they are read.
+  std::optional<double> strained = {}, stressed_pa = {};
+  bool mapped = false;  // drawn as the map that is on
 
   /// Moved too far for a law that is linear in displacements.
   bool beyond_linear() const { return trusted == scene::Trusted::kSmallDisplacements && moved_mm > limit_mm; }

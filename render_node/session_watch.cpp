@@ -29,9 +29,9 @@ std::vector<scene::Trusted> trusted_of(const scene::Scene& scene) {
   return trusted;
 }
 
-std::optional<double> largest_of(const std::vector<float>& strain) {
-  if (strain.empty()) return std::nullopt;
-  return *std::ranges::max_element(strain);
+std::optional<double> largest_of(const std::vector<float>& values) {
+  if (values.empty()) return std::nullopt;
+  return *std::ranges::max_element(values);
 }
 
 std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
@@ -56,7 +56,8 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
       state_arrived_ns_(organs.size(), 0),
       full_stress_pa_(render::full_stress_pa(largest_young_pa(scene))),
       trusted_(trusted_of(scene)),
-      strained_(organs.size()) {
+      strained_(organs.size()),
+      stressed_pa_(organs.size()) {
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     ids_.push_back(scene.tools[t].id);
     rows_[t].name = scene.tools[t].name;
@@ -96,6 +97,7 @@ void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, runtime::Faul
       continue;
     }
     strained_[i] = largest_of(state->strain);
+    stressed_pa_[i] = largest_of(state->stress_pa);
     echoes_[i] = state->echoes;
     state_arrived_ns_[i] = now_ns;
     fresh_echoes_ = true;
@@ -219,6 +221,7 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
     row.mapped = view.mapped(i);
     row.trusted = trusted_[i];
     row.strained = strained_[i];
+    row.stressed_pa = stressed_pa_[i];
     if (const PressedSurface* surface = view.surface(i)) {
       row.moved_mm = 1e3 * surface->skin.largest_displacement_m();
       row.limit_mm = 1e3 * kLinearShare * surface->skin.extent_m();

@@ -64,10 +64,11 @@ class SessionWatch {
   std::vector<std::int64_t> state_arrived_ns_;  // per organ; 0: none came
   TissueMap map_ = TissueMap::kOff;
   double full_stress_pa_;
-  std::vector<scene::Trusted> trusted_;          // per organ
-  std::vector<std::optional<double>> strained_;  // per organ: the largest strain, where it is known
-  std::vector<float> shares_;                    // of a map, workspace
-  bool fresh_echoes_ = false;                    // since the last frame
+  std::vector<scene::Trusted> trusted_;             // per organ
+  std::vector<std::optional<double>> strained_;     // per organ: the largest strain, where it is known
+  std::vector<std::optional<double>> stressed_pa_;  // likewise
+  std::vector<float> shares_;                       // of a map, workspace
+  bool fresh_echoes_ = false;                       // since the last frame
   std::optional<Dent> dent_;
   double largest_dent_m_ = 0;
   std::vector<HeardStatus> statuses_;

@@ -93,6 +93,24 @@ TEST_F(StressPublisherTest, ABodyIsToldInItsStatesOrderAndWithItsNumbers) {
   EXPECT_EQ(publisher.measured(), 1u);
 }
 
+TEST_F(StressPublisherTest, ABarThatHangsHasInItsMiddleTheWeightBelowOverItsArea) {
+  DynamicParts hanging = sagging(parts(), physics::StressLaw::kLinear);
+  hanging.gravity_m_s2 = Vec3(9.81, 0, 0);  // along it
+  serve(std::move(hanging));
+  pass(model(), 3);
+  const std::vector<float> stress = measured(physics::StressLaw::kLinear).second;
+  double sum = 0;
+  int count = 0;
+  for (std::size_t s = 0; s < stress.size(); ++s) {
+    if (std::abs(mesh_.positions[surface_.node[s]].x() - kLength_m / 2) > 1e-9) continue;
+    sum += static_cast<double>(stress[s]);
+    ++count;
+  }
+  ASSERT_GT(count, 0);
+  const double expected_pa = kTissue.density_kg_m3 * 9.81 * kLength_m / 2;
+  EXPECT_NEAR(sum / count, expected_pa, 0.03 * expected_pa) << "six elements along it";
+}
+
 TEST_F(StressPublisherTest, ACutBodyIsToldAsItsNewStatesNumberItsNodes) {
   serve(sagging(parts(), physics::StressLaw::kLinear));
   pass(model(), 0.2);

@@ -300,6 +300,9 @@ TEST_F(PanelLayout, TheMapsScaleAndWhatIsNotToldTakeALineEach) {
   EXPECT_GT(without, tissue);
   view.organs[0].mapped = true;
   EXPECT_LT(height_of(view), without);
+  const float unknown = height_of(view);
+  view.organs[0].stressed_pa = 420;
+  EXPECT_GT(height_of(view), unknown) << "the largest of it has a line of its own";
   view.organs[0].trusted = scene::Trusted::kSmallStrains;
   const float linear = height_of(view);
   view.organs[0].strained = 0.4;
