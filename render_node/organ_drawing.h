@@ -48,6 +48,13 @@ enum class CutOutcome {
   kCut,     // more lies bare, or less
 };
 
+/// A further mesh of an organ, with a material of its own: as many vertices and triangles as ever.
+struct OrganPart {
+  const MeshData* mesh;
+  Look look;
+  Material material;
+};
+
 /// From the values of an organ's states to lit vertices. One thread, the renderer's.
 class OrganDrawing {
  public:
@@ -72,6 +79,11 @@ class OrganDrawing {
   /// Tetrahedra, now.
   virtual std::int32_t removed_count() const { return 0; }
   virtual Material material() const = 0;
+  virtual Look look() const { return Look::kTissue; }
+  /// What is drawn beside mesh() and moves with it, always the same parts.
+  virtual std::vector<OrganPart> parts() const { return {}; }
+  /// How long it is now, m; 0 for an organ that is not one long tube.
+  virtual double length_m() const { return 0; }
   /// Where tools dent it; null for an organ without such a surface.
   virtual const PressedSurface* surface() const { return nullptr; }
 };
