@@ -82,6 +82,9 @@ class GutSystem {
   std::optional<GutExplicit> explicit_;  // one of the two
   std::optional<GutProjective> projective_;
   GutCollisions collisions_;
+  GutForces energies_;
+  GutPlanes x_;  // [masses] of the state, to measure energies
+  double wild_j_ = 0;
   GutState state_;
   std::vector<geometry::Vec3> before_;        // [masses]
   std::vector<geometry::Vec3> forces_;        // [masses], N: weight and loads
