@@ -16,7 +16,7 @@ struct NearPair {
 /// What a search gives. Vectors keep the capacity that the finder asked for.
 struct NearPairs {
   std::vector<NearPair> pairs;
-  std::vector<GutContact> contacts;  // one for each pair, in the same order
+  std::vector<GutContact> contacts;  // of those that report one (gut_parts.h)
   std::vector<double> gap;  // [masses], m: to the nearest part that it may hit; at most what was looked at
 };
 
