@@ -13,17 +13,6 @@ using geometry::Vec3;
 // them longer.
 constexpr double kMargin = 0.6;
 
-void lower(std::vector<double>& gap, const std::array<MassId, 3>& masses, double distance_m) {
-  for (const MassId m : masses) {
-    if (m.valid()) gap[static_cast<std::size_t>(m)] = std::min(gap[static_cast<std::size_t>(m)], distance_m);
-  }
-}
-
-double largest(std::span<const double> of_masses, const std::array<MassId, 3>& masses) {
-  const double two = std::max(of_masses[masses[0]], of_masses[masses[1]]);
-  return masses[2].valid() ? std::max(two, of_masses[masses[2]]) : two;
-}
-
 }  // namespace
 
 CompletePairs::CompletePairs(const GutParts& parts) : parts_(parts), tree_(parts.count()) {
@@ -47,8 +36,8 @@ void CompletePairs::travel(std::span<const Vec3> x, std::span<const double> way_
   for (std::int32_t part = 0; part < parts_.count(); ++part) {
     const std::array<MassId, 3> masses = parts_.masses[part];
     const auto p = static_cast<std::size_t>(part);
-    travelled_[p] += largest(moved_, masses);
-    ahead_[p] = travelled_[p] + largest(way_m, masses);
+    travelled_[p] += largest_of(masses, moved_);
+    ahead_[p] = travelled_[p] + largest_of(masses, way_m);
   }
 }
 
@@ -90,8 +79,8 @@ bool CompletePairs::examine(Listed& pair, std::span<const Vec3> x, double watche
   found.pairs.push_back({pair.segment, pair.part, places.distance_m});
   if (reports(parts_, pair.segment, pair.part, places))
     found.contacts.push_back(contact_of(parts_, x, pair.segment, pair.part, places));
-  lower(found.gap, parts_.masses[pair.segment], places.distance_m);
-  lower(found.gap, parts_.masses[pair.part], places.distance_m);
+  lower_gap(parts_.masses[s], places.distance_m, found.gap);
+  lower_gap(parts_.masses[p], places.distance_m, found.gap);
   return true;
 }
 
