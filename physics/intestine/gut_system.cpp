@@ -58,8 +58,11 @@ void GutSystem::step(const GutLoads& loads) noexcept {
   gather_forces(loads.forces_n);
   if (explicit_) explicit_->step(forces_, state_);
   if (projective_) projective_->step(forces_, state_);
+  // the bound of the collisions would hide what comes next
+  const bool wild = !(kinetic_energy(springs_, state_.v) < wild_j_);
   collisions_.resolve(before_, state_, loads.obstacles, loads.spheres);
   observe();
+  report_.diverged |= wild;
 }
 
 void GutSystem::gather_forces(std::span<const Vec3> forces_n) noexcept {

@@ -23,9 +23,9 @@ struct GutStepSettings {
 
 /// What acts on a gut during a step. Spans of the caller's, read within the step only.
 struct GutLoads {
-  std::span<const geometry::Vec3> forces_n;  // [masses] in W, or empty: none
-  std::span<const GutObstacle> obstacles;    // that stand
-  std::span<const MovingSphere> spheres;     // probes, and other organs'
+  std::span<const geometry::Vec3> forces_n{};  // [masses] in W, or empty: none
+  std::span<const GutObstacle> obstacles{};    // that stand
+  std::span<const MovingSphere> spheres{};     // probes, and other organs'
 };
 
 /// How the last step went.

@@ -96,8 +96,8 @@ TEST_F(FallenGut, AForceFarBeyondAllToolsIsSaid) {
   GutSystem gut = fresh();
   Points forces(gut.state().x.size(), Vec3::Zero());
   forces[30].y() = 1e9;
-  for (int i = 0; i < 20; ++i) gut.step({.forces_n = forces});
-  EXPECT_TRUE(gut.report().diverged || gut.report().kinetic_j < 1e3);
+  gut.step({.forces_n = forces});
+  EXPECT_TRUE(gut.report().diverged);
 }
 
 TEST(GutSystem, ComplianceIsWhatYieldsToAUnitForce) {
