@@ -28,11 +28,6 @@ void expect(bool holds, const char* key, double value, const std::string& expect
   if (!holds) throw InputError(text("%s = %g: expected ", key, value) + expected);
 }
 
-// A leg is at least as long as the half circle from the vessel.
-double least_leg(const GutAnatomy& a) {
-  return a.cylinder_radius_m * kPi / 2;
-}
-
 void check_sizes(const GutAnatomy& a) {
   expect(a.length_m > 0 && std::isfinite(a.length_m), "length_m", a.length_m, "a length above 0");
   expect(a.tube_radius_m > 0 && std::isfinite(a.tube_radius_m), "tube_radius_m", a.tube_radius_m,
@@ -64,21 +59,23 @@ void check_placement(const GutAnatomy& a) {
 }
 
 GutFolds folds_of(const GutAnatomy& a) {
-  return {a.cylinder_radius_m, a.fold_pitch_m, a.vessel_length_m, kLeadRadii * a.tube_radius_m, a.legs,
-          least_leg(a)};
+  return {a.cylinder_radius_m,          a.fold_pitch_m, a.vessel_length_m,
+          kLeadRadii * a.tube_radius_m, a.legs,         GutCurve::least_leg(a.cylinder_radius_m)};
 }
 
 GutFit fit(const GutAnatomy& a) {
   const auto found = fit_legs(folds_of(a), a.columns - 1, a.length_m / (a.columns - 1));
   if (!found)
-    throw InputError(text("legs = %d: a gut of %g m is too short for them; expected fewer, or a smaller "
-                          "cylinder_radius_m than %g",
-                          a.legs, a.length_m, a.cylinder_radius_m));
+    throw InputError(
+        text("legs = %d: a gut of %g m is too short for them; expected fewer, or a smaller "
+             "cylinder_radius_m than %g",
+             a.legs, a.length_m, a.cylinder_radius_m));
   const double most = kPi - std::asin(a.tube_radius_m / a.cylinder_radius_m);
   if (!(found->curve.reach_angle() < most))
-    throw InputError(text("legs = %d: to hold %g m they reach %.0f degrees to both sides and meet behind the "
-                          "vessel; expected more legs (at most %.0f degrees)",
-                          a.legs, a.length_m, found->curve.reach_angle() * 180 / kPi, most * 180 / kPi));
+    throw InputError(
+        text("legs = %d: to hold %g m they reach %.0f degrees to both sides and meet behind the "
+             "vessel; expected more legs (at most %.0f degrees)",
+             a.legs, a.length_m, found->curve.reach_angle() * 180 / kPi, most * 180 / kPi));
   return *found;
 }
 
@@ -110,10 +107,11 @@ void refuse_overlaps(const GutShape& shape) {
   const bool tube = !found.tube.empty();
   const GutOverlap& first = tube ? found.tube.front() : found.mesentery.front();
   const GutReach reach = reach_of(shape);
-  throw InputError(text("the gut's folds overlap: segment %d and %s %d are %.4g m apart, expected %.4g; a "
-                        "greater fold_pitch_m, fewer legs or more columns give them room",
-                        first.segment, tube ? "segment" : "the mesentery's triangle", first.other,
-                        first.distance_m, tube ? reach.tube_m : reach.mesentery_m));
+  throw InputError(
+      text("the gut's folds overlap: segment %d and %s %d are %.4g m apart, expected %.4g; a "
+           "greater fold_pitch_m, fewer legs or more columns give them room",
+           first.segment, tube ? "segment" : "the mesentery's triangle", first.other, first.distance_m,
+           tube ? reach.tube_m : reach.mesentery_m));
 }
 
 }  // namespace

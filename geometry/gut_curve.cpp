@@ -14,6 +14,10 @@ constexpr int kTerms = 9;  // of the series below: J_18(pi/2) is below 1e-17
 // near the vessel, and lines that ended side by side would come nearer to it than it is thick.
 constexpr double kLeadShare = 0.44;
 
+// The first leg leaves the vessel on a spiral that meets the cylinder after this angle. Tighter, it leaves
+// its own mesentery sooner; wider, it falls more gently from the vessel's end to its leg.
+constexpr double kLeadAngle = 0.8 * kPi;
+
 // J_n(pi/2)
 double bessel(int order) {
   static const auto values = [] {
@@ -53,6 +57,10 @@ double GutCurve::least_pitch(double bend_radius_m) {
   return kPi * kRightAngle * bessel(0) * bend_radius_m;
 }
 
+double GutCurve::least_leg(double cylinder_radius_m) {
+  return kLeadAngle * cylinder_radius_m;
+}
+
 double GutCurve::reach_angle() const {
   return (folds_.leg_m / 2 + turn_ / kPi * across_turn(kRightAngle)) / folds_.cylinder_radius_m;
 }
@@ -70,8 +78,8 @@ GutCurve::Place GutCurve::rolled_out(double u) const {
 GutCurve::Place GutCurve::first_half(double u) const {
   Place p = rolled_out(u);
   const double turned = u / folds_.cylinder_radius_m;
-  if (turned >= kPi * 0.65) return p;
-  const double start = -folds_.vessel_length_m / 2, share = std::sin(kRightAngle * turned / (kPi * 0.65));
+  if (turned >= kLeadAngle) return p;
+  const double start = -folds_.vessel_length_m / 2, share = std::sin(kRightAngle * turned / kLeadAngle);
   return {share * p.radius, p.angle, start + share * (p.z - start)};
 }
 

@@ -14,8 +14,8 @@ struct GutFit {
   std::vector<double> places;  // [sides + 1], from 0 to curve.length_m()
 };
 
-/// Legs so long that `sides` chords of side_m lead from the curve's start to its end, the last one to 1e-10 m.
-/// `folds.leg_m` is the least that a leg may be. Nothing where the least is too long already.
+/// Legs so long that `sides` chords of side_m lead from the curve's start to its end, the last one to 1e-10
+/// m. `folds.leg_m` is the least that a leg may be. Nothing where the least is too long already.
 std::optional<GutFit> fit_legs(GutFolds folds, std::int32_t sides, double side_m);
 
 }  // namespace omentum::geometry

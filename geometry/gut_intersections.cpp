@@ -13,17 +13,19 @@ const Vec3& at(std::span<const Vec3> positions, MassId m) {
   return positions[static_cast<std::size_t>(m)];
 }
 
-double distance_of_segments(const GutLayout& layout, std::span<const Vec3> x, std::int32_t i, std::int32_t j) {
+double distance_of_segments(const GutLayout& layout, std::span<const Vec3> x, std::int32_t i,
+                            std::int32_t j) {
   const auto [a, b] = layout.segment(i);
   const auto [c, d] = layout.segment(j);
   return std::sqrt(closest_points_of_segments(at(x, a), at(x, b), at(x, c), at(x, d)).squared_distance);
 }
 
-double distance_to_triangle(const GutLayout& layout, std::span<const Vec3> x, std::int32_t i, std::int32_t t) {
+double distance_to_triangle(const GutLayout& layout, std::span<const Vec3> x, std::int32_t i,
+                            std::int32_t t) {
   const auto [p, q] = layout.segment(i);
   const auto [a, b, c] = layout.triangle(t);
-  return std::sqrt(
-      closest_points_of_segment_and_triangle(at(x, p), at(x, q), at(x, a), at(x, b), at(x, c)).squared_distance);
+  return std::sqrt(closest_points_of_segment_and_triangle(at(x, p), at(x, q), at(x, a), at(x, b), at(x, c))
+                       .squared_distance);
 }
 
 // tube(segment, segment) and mesentery(segment, triangle), once for each pair that may touch.
@@ -62,7 +64,8 @@ GutOverlaps all_overlaps(const GutShape& shape) {
 std::int64_t exhaustive_tests(const GutLayout& layout, GutNeighbourhood near) {
   std::int64_t tests = 0;
   visit_pairs(
-      layout, near, [&](std::int32_t, std::int32_t) { ++tests; }, [&](std::int32_t, std::int32_t) { ++tests; });
+      layout, near, [&](std::int32_t, std::int32_t) { ++tests; },
+      [&](std::int32_t, std::int32_t) { ++tests; });
   return tests;
 }
 

@@ -37,8 +37,8 @@ inline GutNeighbourhood neighbourhood(const GutShape& shape) {
   double length_m = 0;
   for (std::int32_t i = 0; i < shape.layout.segment_count(); ++i) {
     const auto [a, b] = shape.layout.segment(i);
-    length_m += (shape.positions[static_cast<std::size_t>(b)] - shape.positions[static_cast<std::size_t>(a)])
-                    .norm();
+    length_m +=
+        (shape.positions[static_cast<std::size_t>(b)] - shape.positions[static_cast<std::size_t>(a)]).norm();
   }
   return neighbourhood(length_m / shape.layout.segment_count(), shape.tube_radius_m);
 }

@@ -40,7 +40,8 @@ SegmentPair closest_points_of_segments(const Vec3& p1, const Vec3& q1, const Vec
 
 SegmentTrianglePair closest_points_of_segment_and_triangle(const Vec3& p, const Vec3& q, const Vec3& a,
                                                            const Vec3& b, const Vec3& c) noexcept {
-  if (const auto hit = intersect_segment_triangle(p, q, a, b, c)) return {hit->parameter, hit->barycentric, 0};
+  if (const auto hit = intersect_segment_triangle(p, q, a, b, c))
+    return {hit->parameter, hit->barycentric, 0};
   const TrianglePoint at_p = closest_point_on_triangle(p, a, b, c);
   SegmentTrianglePair best{0, at_p.barycentric, at_p.squared_distance};
   const TrianglePoint at_q = closest_point_on_triangle(q, a, b, c);

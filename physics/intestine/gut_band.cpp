@@ -1,5 +1,7 @@
 #include "physics/intestine/gut_band.h"
 
+#include "physics/intestine/gut_kernels.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -94,20 +96,7 @@ void GutBand::factorize(const GutSprings& springs, double step_s) {
 }
 
 void GutBand::solve(Node* b) const noexcept {
-  const std::size_t n = size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i < width_ ? 0 : i - width_; j < i; ++j) {
-      const double l = lower_[i * width_ + width_ - (i - j)];
-      for (int k = 0; k < 4; ++k) b[i].v[k] -= l * b[j].v[k];
-    }
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (int k = 0; k < 4; ++k) b[i].v[k] *= diagonal_[i];
-    for (std::size_t j = i + 1; j < std::min(n, i + 1 + width_); ++j) {
-      const double l = upper_[i * width_ + (j - i - 1)];
-      for (int k = 0; k < 4; ++k) b[i].v[k] -= l * b[j].v[k];
-    }
-  }
+  kernels::solve_band(size(), width_, lower_.data(), upper_.data(), diagonal_.data(), b);
 }
 
 }  // namespace omentum::physics

@@ -1,5 +1,6 @@
 #include "physics/intestine/gut_collisions.h"
 
+#include "physics/intestine/active_pairs.h"
 #include "physics/intestine/complete_pairs.h"
 #include "physics/intestine/displacement_bound.h"
 
@@ -14,7 +15,7 @@ using geometry::MassId;
 using geometry::Vec3;
 
 // Contacts that the passes may close are watched from this part of the least reach on.
-constexpr double kWatched = 0.05;
+constexpr double kWatched = 0.02;
 
 // Room for contacts with walls and balls, for each mass.
 constexpr std::size_t kOtherContactsPerMass = 4;
@@ -23,7 +24,9 @@ void require(bool good, const char* expectation) {
   if (!good) throw std::invalid_argument(std::string("collisions of an intestine: ") + expectation);
 }
 
-std::unique_ptr<PairFinder> finder_of(const GutParts& parts, const GutCollisionSettings&) {
+std::unique_ptr<PairFinder> finder_of(const GutParts& parts, const GutCollisionSettings& settings) {
+  if (settings.method == GutPairMethod::kStochastic)
+    return std::make_unique<ActivePairs>(parts, settings.random_pairs, settings.seed);
   return std::make_unique<CompletePairs>(parts);
 }
 

@@ -62,7 +62,12 @@ double stable_step_s(const GutSprings& springs) {
 }
 
 GutExplicit::GutExplicit(const GutSprings& springs, double step_s)
-    : springs_(springs), step_s_(step_s), f_(springs.mass().size()) {
+    : springs_(springs),
+      step_s_(step_s),
+      forces_(springs),
+      x_(springs.mass().size()),
+      v_(springs.mass().size()),
+      f_(springs.mass().size()) {
   const double stable_s = stable_step_s(springs);
   if (step_s <= stable_s) return;
   throw std::invalid_argument("step_s: found " + std::to_string(step_s) + ", expected at most " +
@@ -70,12 +75,15 @@ GutExplicit::GutExplicit(const GutSprings& springs, double step_s)
 }
 
 void GutExplicit::step(std::span<const Vec3> forces_n, GutState& state) noexcept {
-  springs_.forces(state.x, state.v, f_);
+  x_.take(state.x);
+  v_.take(state.v);
+  f_.take(forces_n);
+  forces_.add_explicit(x_, v_, f_);
   const double kept = 1 / (1 + step_s_ * springs_.drag_per_s());
-  for (std::size_t i = 0; i < f_.size(); ++i) {
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
     const double inverse_mass = springs_.inverse_mass()[i];
     if (inverse_mass == 0) continue;
-    state.v[i] = kept * (state.v[i] + step_s_ * inverse_mass * (f_[i] + forces_n[i]));
+    state.v[i] = kept * (state.v[i] + step_s_ * inverse_mass * f_.at(i));
     state.x[i] += step_s_ * state.v[i];
   }
 }

@@ -1,7 +1,7 @@
 // Symplectic Euler for the springs of an intestine.
 #pragma once
 
-#include "physics/intestine/gut_springs.h"
+#include "physics/intestine/gut_forces.h"
 #include "physics/intestine/gut_state.h"
 
 namespace omentum::physics {
@@ -18,7 +18,8 @@ class GutExplicit {
  private:
   const GutSprings& springs_;
   double step_s_;
-  std::vector<geometry::Vec3> f_;  // [masses], N
+  GutForces forces_;
+  GutPlanes x_, v_, f_;  // [masses]
 };
 
 /// The largest step, s, at which no mode of the springs grows: from a bound of the fastest frequency w that

@@ -2,14 +2,15 @@
 #pragma once
 
 #include "physics/intestine/gut_band.h"
+#include "physics/intestine/gut_forces.h"
 #include "physics/intestine/gut_state.h"
 
 namespace omentum::physics {
 
 /// Backward Euler: x' with M ((1 + dt drag)(x' - x) / dt^2 - v / dt) = f(x') + f_ext and v' = (x' - x) / dt,
-/// approached by a fixed number of steps downhill with the constant matrix of GutBand from x + dt v on.
-/// Where the forces balance it stays whatever the number of iterations: rest does not depend on it, nor on
-/// dt.
+/// approached by a fixed number of steps downhill with the constant matrix of GutBand from x + dt v on
+/// (projective dynamics, Bouaziz et al. 2014, as the quasi-Newton method that it is). Where the forces
+/// balance it stays, whatever the number of iterations: rest depends neither on it nor on dt.
 class GutProjective {
  public:
   /// `springs` and `band`, which was made with the same step, outlive it.
@@ -19,15 +20,21 @@ class GutProjective {
   void step(std::span<const geometry::Vec3> forces_n, GutState& state) noexcept;
 
  private:
-  void downhill(std::span<const geometry::Vec3> forces_n, const std::vector<geometry::Vec3>& v,
-                std::vector<geometry::Vec3>& x) noexcept;
+  void begin(std::span<const geometry::Vec3> forces_n, GutState& state) noexcept;
+  void go_downhill() noexcept;
+  void keep_energy(std::span<const geometry::Vec3> forces_n, GutState& state) noexcept;
 
   const GutSprings& springs_;
   const GutBand& band_;
   double step_s_;
   int iterations_;
-  std::vector<geometry::Vec3> start_, v_, f_;  // [masses]: x of the step's start, (x' - x) / dt, springs' N
-  std::vector<GutBand::Node> solved_;          // [free masses]
+  GutForces forces_;
+  double energy_j_ = 0;                // at the start of the step
+  std::vector<double> inertia_;        // [masses] M (1 + dt drag) / dt^2, N/m
+  std::vector<std::int32_t> mass_;     // [free masses] of the band, in its order
+  std::vector<geometry::Vec3> start_;  // [masses] x at the start of the step
+  GutPlanes x_, constant_, f_;         // [masses] x'; what does not change in a step, and all that is left, N
+  std::vector<GutBand::Node> way_;     // [free masses] N, then m
 };
 
 }  // namespace omentum::physics

@@ -18,7 +18,7 @@ constexpr double kTouching_m = 1e-12;
 
 // The part's point that is nearest to p.
 GutPoint nearest_on(const GutParts& parts, std::int32_t part, std::span<const Vec3> x, const Vec3& p) {
-  const std::array<MassId, 3> m = parts.masses(part);
+  const std::array<MassId, 3> m = parts.masses[part];
   if (parts.is_segment(part)) {
     const double t = geometry::closest_points_of_segments(p, p, x[m[0]], x[m[1]]).t;
     return {m, {1 - t, t, 0}};

@@ -146,10 +146,12 @@ void GutSprings::weigh(const GutShape& shape, const GutMaterial& material) {
   }
   inverse_mass_.assign(mass_.size(), 0);
   for (std::int32_t m = 0; m < layout_.mass_count(); ++m) {
-    if (layout_.is_held(MassId(m))) continue;
     const auto i = static_cast<std::size_t>(m);
-    expect(mass_[i] > 0, "positions", "some area of the mesentery at each mass that is not held");
-    inverse_mass_[i] = 1 / mass_[i];
+    const bool held = layout_.is_held(MassId(m));
+    expect(held || mass_[i] > 0, "positions", "some area of the mesentery at each mass that is not held");
+    if (!held) inverse_mass_[i] = 1 / mass_[i];
+    // at an end without width there is no sheet; what is held there moves by no equation, but is a mass
+    if (mass_[i] == 0) mass_[i] = mass_[0];
   }
 }
 

@@ -13,6 +13,8 @@ using geometry::Vec3;
 
 namespace {
 
+constexpr double kWildSpeed_m_s = 100;  // of the whole gut: no load of a hand or a fall brings it near that
+
 GutStepSettings checked(const GutStepSettings& settings) {
   if (!(std::isfinite(settings.step_s) && settings.step_s > 0)) {
     throw std::invalid_argument("step_s: expected a number above 0");
@@ -31,11 +33,14 @@ GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& materia
       springs_(shape, material),
       band_(springs_, step.step_s),
       collisions_(shape, springs_.mass(), step.step_s, collisions),
+      energies_(springs_),
+      x_(springs_.mass().size()),
       forces_(springs_.mass().size()),
       yield_(band_.size()) {
   if (step.method == GutMethod::kExplicit) explicit_.emplace(springs_, step.step_s);
   if (step.method == GutMethod::kProjective)
     projective_.emplace(springs_, band_, step.step_s, step.iterations);
+  for (const double m : springs_.mass()) wild_j_ += 0.5 * m * kWildSpeed_m_s * kWildSpeed_m_s;
   reset();
   before_ = state_.x;
 }
@@ -67,8 +72,11 @@ void GutSystem::step(const GutLoads& loads) noexcept {
   gather_forces(loads.forces_n);
   if (explicit_) explicit_->step(forces_, state_);
   if (projective_) projective_->step(forces_, state_);
+  // the bound of the collisions would hide what comes next
+  const bool wild = !(kinetic_energy(springs_, state_.v) < wild_j_);
   collisions_.resolve(before_, state_, loads.obstacles, loads.spheres);
   observe();
+  report_.diverged |= wild;
 }
 
 void GutSystem::gather_forces(std::span<const Vec3> forces_n) noexcept {
@@ -82,8 +90,9 @@ void GutSystem::gather_forces(std::span<const Vec3> forces_n) noexcept {
 void GutSystem::observe() noexcept {
   report_.collisions = collisions_.report();
   report_.kinetic_j = kinetic_energy(springs_, state_.v);
-  report_.elastic_j = springs_.energy(state_.x);
-  report_.diverged = !std::isfinite(report_.kinetic_j + report_.elastic_j);
+  x_.take(state_.x);
+  report_.elastic_j = energies_.measure(x_);
+  report_.diverged = !(report_.kinetic_j + report_.elastic_j < wild_j_);
 }
 
 void GutSystem::compliance(std::span<const MassId> masses, std::span<double> block) const noexcept {

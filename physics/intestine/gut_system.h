@@ -23,9 +23,9 @@ struct GutStepSettings {
 
 /// What acts on a gut during a step. Spans of the caller's, read within the step only.
 struct GutLoads {
-  std::span<const geometry::Vec3> forces_n;  // [masses] in W, or empty: none
-  std::span<const GutObstacle> obstacles;    // that stand
-  std::span<const MovingSphere> spheres;     // probes, and other organs'
+  std::span<const geometry::Vec3> forces_n{};  // [masses] in W, or empty: none
+  std::span<const GutObstacle> obstacles{};    // that stand
+  std::span<const MovingSphere> spheres{};     // probes, and other organs'
 };
 
 /// How the last step went.
@@ -87,6 +87,9 @@ class GutSystem {
   std::optional<GutExplicit> explicit_;  // one of the two
   std::optional<GutProjective> projective_;
   GutCollisions collisions_;
+  GutForces energies_;
+  GutPlanes x_;  // [masses] of the state, to measure energies
+  double wild_j_ = 0;
   GutState state_;
   std::vector<geometry::Vec3> before_;        // [masses]
   std::vector<geometry::Vec3> forces_;        // [masses], N: weight and loads

@@ -16,9 +16,23 @@ struct NearPair {
 /// What a search gives. Vectors keep the capacity that the finder asked for.
 struct NearPairs {
   std::vector<NearPair> pairs;
-  std::vector<GutContact> contacts;  // one for each pair, in the same order
+  std::vector<GutContact> contacts;  // of those that report one (gut_parts.h)
   std::vector<double> gap;  // [masses], m: to the nearest part that it may hit; at most what was looked at
 };
+
+/// Lowers the gaps of a part's masses.
+inline void lower_gap(const std::array<geometry::MassId, 3>& masses, double distance_m,
+                      std::span<double> gap) {
+  for (const geometry::MassId m : masses) {
+    if (m.valid()) gap[m] = std::min(gap[m], distance_m);
+  }
+}
+
+/// The largest of what a part's masses have.
+inline double largest_of(const std::array<geometry::MassId, 3>& masses, std::span<const double> of_masses) {
+  const double two = std::max(of_masses[masses[0]], of_masses[masses[1]]);
+  return masses[2].valid() ? std::max(two, of_masses[masses[2]]) : two;
+}
 
 /// Searches once in a step. No search allocates.
 class PairFinder {

@@ -38,7 +38,7 @@ Eigen::MatrixXd whole_matrix(const GutSprings& springs, double step_s) {
 TEST(GutBand, SolvesWhatADenseFactorSolves) {
   for (const geometry::GutLayout layout :
        {geometry::GutLayout{4, 20}, geometry::GutLayout{2, 9}, geometry::GutLayout{5, 4}}) {
-    const GutSprings springs(test::hanging_gut(layout), {});
+    const GutSprings springs(test::curtain(layout), {});
     const GutBand band(springs, 5e-3);
     const Eigen::MatrixXd A = whole_matrix(springs, 5e-3);
     const auto n = static_cast<Eigen::Index>(band.size());
@@ -64,7 +64,7 @@ TEST(GutBand, SolvesWhatADenseFactorSolves) {
 }
 
 TEST(GutBand, PlacesAndMassesAnswerEachOther) {
-  const GutSprings springs(test::hanging_gut({4, 20}), {});
+  const GutSprings springs(test::curtain({4, 20}), {});
   const GutBand band(springs, 5e-3);
   EXPECT_EQ(band.size(), 3u * 18u);
   for (std::size_t place = 0; place < band.size(); ++place) {

@@ -1,47 +1,45 @@
-// Guts for tests: shapes that need no generator.
+// Guts for tests: shapes without folds, and states that are not at rest.
 #pragma once
 
 #include "geometry/gut_shape.h"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
 #include <random>
 
 namespace omentum::test {
 
-/// A gut of `length_m` that hangs in an arc of waves under a short vessel along x, its mesentery `width_m`
-/// wide in the middle and without width at both ends.
-inline geometry::GutShape hanging_gut(geometry::GutLayout layout, double length_m = 4, double width_m = 0.15,
-                                      double vessel_m = 0.1) {
+/// A curtain: the vessel along x, the gut `width_m` below it, nearer and nearer to it towards both ends.
+inline geometry::GutShape curtain(geometry::GutLayout layout, double length_m = 1, double width_m = 0.15) {
   geometry::GutShape shape{layout, {}, 0.02, 0.01};
   shape.positions.resize(static_cast<std::size_t>(layout.mass_count()));
-  const auto axis = [&](double s) {  // waves of the gut sideways, so that 4 m fit over the vessel's 0.1 m
-    const double swell = std::min(1.0, 8 * std::min(s, 1 - s));
-    const double wave = 2 * std::numbers::pi * 8 * s;
-    const double side = 0.05 * length_m / 4 * swell * std::sin(wave);
-    return geometry::Vec3(vessel_m * (s - 0.5) + 0.05 * length_m / 4 * swell * (s - 0.5) * 6, side,
-                          -width_m * swell);
-  };
-  for (std::int32_t c = 0; c < layout.columns; ++c) {
-    const double s = static_cast<double>(c) / (layout.columns - 1);
-    const geometry::Vec3 at_vessel(vessel_m * (s - 0.5), 0, 0);
-    for (std::int32_t r = 0; r < layout.rows; ++r) {
-      const double down = 1 - static_cast<double>(r) / (layout.rows - 1);
-      shape.positions[static_cast<std::size_t>(layout.mass(r, c))] = at_vessel + down * (axis(s) - at_vessel);
-    }
+  for (std::int32_t m = 0; m < layout.mass_count(); ++m) {
+    const double s = static_cast<double>(layout.column(geometry::MassId(m))) / (layout.columns - 1);
+    const double share = static_cast<double>(layout.row(geometry::MassId(m))) / (layout.rows - 1);
+    const double width = width_m * std::min(1.0, 4 * std::min(s, 1 - s));
+    shape.positions[static_cast<std::size_t>(m)] =
+        geometry::Vec3(length_m * (s - 0.5), 0, width * (share - 1));
   }
   return shape;
 }
 
-/// The shape with every free mass moved by normal deviates of `size_m`.
-inline std::vector<geometry::Vec3> shaken(const geometry::GutShape& shape, double size_m, unsigned seed = 1) {
+/// Normal deviates of `size` for the masses that are free, zero for those that are held.
+inline std::vector<geometry::Vec3> deviates(const geometry::GutLayout& layout, double size,
+                                            unsigned seed = 1) {
   std::mt19937 generator(seed);
-  std::normal_distribution<double> normal(0, size_m);
-  std::vector<geometry::Vec3> x = shape.positions;
-  for (std::int32_t m = 0; m < shape.layout.mass_count(); ++m) {
-    const geometry::Vec3 way(normal(generator), normal(generator), normal(generator));
-    if (!shape.layout.is_held(geometry::MassId(m))) x[static_cast<std::size_t>(m)] += way;
+  std::normal_distribution<double> normal(0, size);
+  std::vector<geometry::Vec3> way;
+  for (std::int32_t m = 0; m < layout.mass_count(); ++m) {
+    const double x = normal(generator), y = normal(generator), z = normal(generator);
+    way.emplace_back(layout.is_held(geometry::MassId(m)) ? geometry::Vec3::Zero() : geometry::Vec3(x, y, z));
   }
+  return way;
+}
+
+/// The positions of a shape with every free mass moved by deviates of `size_m`.
+inline std::vector<geometry::Vec3> shaken(const geometry::GutShape& shape, double size_m, unsigned seed = 1) {
+  std::vector<geometry::Vec3> x = shape.positions;
+  const std::vector<geometry::Vec3> way = deviates(shape.layout, size_m, seed);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += way[i];
   return x;
 }
 
