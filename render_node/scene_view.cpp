@@ -40,6 +40,14 @@ std::vector<std::unique_ptr<OrganDrawing>> drawings_of(const std::vector<OrganSh
   return drawings;
 }
 
+// All that is drawn of an organ.
+std::vector<const MeshData*> meshes_of(const OrganDrawing& drawing) {
+  std::vector<const MeshData*> meshes{&drawing.mesh()};
+  if (drawing.bared()) meshes.push_back(drawing.bared());
+  for (const OrganPart& part : drawing.parts()) meshes.push_back(part.mesh);
+  return meshes;
+}
+
 // z of the mesh along `direction`, scaled.
 Mat4f placed(const Vec3& origin, const Vec3& direction, double width, double length) {
   const Eigen::Matrix3d turn = geometry::rotation_onto(Vec3::UnitZ(), direction).toRotationMatrix();
@@ -173,15 +181,33 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
   near.markers = near.arrows = false;  // they would cover the dent
   std::vector<const MeshData*> meshes;
   for (const DrawnOrgan& organ : organs_) {
-    meshes.push_back(&organ.drawing->mesh());
-    if (organ.drawing->bared()) meshes.push_back(organ.drawing->bared());
-    for (const OrganPart& part : organ.drawing->parts()) meshes.push_back(part.mesh);
+    const std::vector<const MeshData*> of_organ = meshes_of(*organ.drawing);
+    meshes.insert(meshes.end(), of_organ.begin(), of_organ.end());
   }
   const Camera camera = close_up_of(dent, meshes, shafts, choices.orbit, ground_m_);
   Frame frame = frame_from(camera, near, tools, 0);
   frame.lighting = rake_light(camera, shadow_ball());
   frame.with_panel = false;
   return frame;
+}
+
+std::optional<double> SceneView::exposed_share(std::size_t organ, std::span<const ToolNow> tools,
+                                               ExposureRaster& raster) const {
+  ViewChoices own;
+  own.orbit = first_camera();
+  own.endoscope = scene_.camera.mode == "endoscope";
+  raster.look(view_of(camera(own, tools), ball_, raster.size().aspect(), 0));
+  for (const MeshData* mesh : meshes_of(*organs_[organ].drawing)) raster.add_thing(*mesh);
+  for (std::size_t o = 0; o < organs_.size(); ++o) {
+    if (o == organ) continue;
+    for (const MeshData* mesh : meshes_of(*organs_[o].drawing)) raster.add_cover(*mesh);
+  }
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    if (!tools[t].seen || scope_of(scene_) == t) continue;
+    for (const auto& [part, mesh] : instruments_[t])
+      raster.add_cover(part.mesh, part_pose(part, tools[t].p_WT, tools[t].q_WT, tools[t].grip_rad));
+  }
+  return raster.share();
 }
 
 const PressedSurface* SceneView::touched_surface(const ToolNow& tool) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render_node/close_up.h"
+#include "render_node/exposure_raster.h"
 #include "render_node/instrument_shape.h"
 #include "render_node/organ_drawing.h"
 
@@ -59,6 +60,11 @@ class SceneView {
 
   /// The dent that a tool presses; none where it touches nothing.
   std::optional<Dent> dent_of(const ToolNow& tool) const;
+
+  /// The share of an organ that nothing hides, tools included, as the scene's own camera or its endoscope
+  /// sees it, wherever a person turned the picture; none where it is out of sight. Draws into `raster`.
+  std::optional<double> exposed_share(std::size_t organ, std::span<const ToolNow> tools,
+                                      ExposureRaster& raster) const;
 
   /// Where the orbit camera starts.
   Camera first_camera() const;

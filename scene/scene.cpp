@@ -200,6 +200,16 @@ CameraSpec read_camera(TomlSection s, bool given) {
   return camera;
 }
 
+ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs) {
+  ScoreSpec score;
+  s.read("exposed_organ", score.exposed_organ, kOptional);
+  const auto is_exposed = [&](const OrganSpec& organ) { return organ.name == score.exposed_organ; };
+  if (s.has("exposed_organ") && std::ranges::none_of(organs, is_exposed))
+    s.refuse("exposed_organ", "\"" + score.exposed_organ + "\"", "the name of one of the [[organs]]");
+  s.refuse_unknown_keys();
+  return score;
+}
+
 void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {
   for (std::size_t i = 0; i < scene.organs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -265,6 +275,7 @@ Scene load_scene(const std::filesystem::path& file) {
   const bool has_camera = root.has("camera");
   scene.haptics = read_haptics(root.section("haptics"));
   scene.camera = read_camera(root.section("camera"), has_camera);
+  TomlSection score = root.section("score");
   root.refuse_unknown_keys();
 
   for (TomlSection& s : organs) scene.organs.push_back(read_organ(s, file));
@@ -279,6 +290,7 @@ Scene load_scene(const std::filesystem::path& file) {
   refuse_repeated_tools(scene, tools);
   refuse_wrong_hands(scene, hands);
   find_pressed_organs(scene, hands);
+  scene.score = read_score(std::move(score), scene.organs);
   return scene;
 }
 

@@ -125,6 +125,11 @@ struct CameraSpec {
   double field_of_view_deg = 40;
 };
 
+/// What a trainee is measured by.
+struct ScoreSpec {
+  std::string exposed_organ;  // its name: the share of it that nothing hides is told; empty: none
+};
+
 struct Scene {
   std::string name;
   std::filesystem::path file;
@@ -134,6 +139,7 @@ struct Scene {
   std::vector<HandSpec> hands;
   HapticsSpec haptics;
   CameraSpec camera;
+  ScoreSpec score;
 };
 
 /// Reads and checks a scene. Throws std::runtime_error "FILE:LINE: key: found ..., expected ..." for a
