@@ -1,6 +1,7 @@
 // What is drawn of an organ: chosen by its kind, in one place.
 #pragma once
 
+#include "geometry/gut_shape.h"
 #include "render_node/organ_look.h"
 #include "render_node/organ_skin.h"
 #include "scene/scene.h"
@@ -19,6 +20,7 @@ struct OrganShape {
   Material bared = bared_material("liver");
   // What the surface bounds; null: it is never cut. Shared, because shapes are copied and meshes are large.
   std::shared_ptr<const geometry::TetraMesh> mesh{};
+  std::shared_ptr<const geometry::GutShape> gut{};  // of a tube, which has no surface of its own; else null
 };
 
 /// A surface that tools press: its skin, and which of its nodes a file's node is.

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -30,14 +31,23 @@ OrganShape shape_of(node::OrganSource source, const std::string& look) {
           std::move(surface_of_file_node),
           tissue_material(look),
           bared_material(look),
-          std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh))};
+          std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh)),
+          std::move(source.gut)};
+}
+
+// The largest value of a state: displacements, or places in the scene.
+double most_m(const node::OrganSource& source) {
+  double farthest = 0;
+  if (source.gut)
+    for (const geometry::Vec3& x : source.rest) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
+  return farthest + reach_of(source.rest);
 }
 
 LoadedOrgan loaded_organ(const node::OrganSource& source) {
   return {.name = source.organ.name,
           .hash = source.organ.hash,
           .node_count = source.rest.size(),
-          .reach_m = reach_of(source.rest),
+          .reach_m = most_m(source),
           .state_kind = node::state_kind(source.kind),
           .tetrahedron_count = source.organ.mesh.tetrahedra.size(),
           .most_nodes = source.organ.mesh.positions.size()};
