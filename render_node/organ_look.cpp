@@ -15,10 +15,11 @@ const Material kGut{{0.395f, 0.158f, 0.128f}, 0.0f, 0.22f};
 const Material kMesentery{{0.50f, 0.335f, 0.155f}, 0.0f, 0.26f};
 // Large bowel: paler and greyer, its fat shines through.
 const Material kColon{{0.33f, 0.150f, 0.105f}, 0.0f, 0.26f};
-// Without the capsule's veil: the deeper, duller red of parenchyma full of blood, wet with it. And the mucosa
-// of a sac, yellow with bile.
+// Without the capsule's veil: the deeper, duller red of parenchyma full of blood, wet with it; the mucosa of
+// a sac, yellow with bile; and that of a bowel, a moist salmon.
 const Material kLiverBared{{0.088f, 0.0105f, 0.0085f}, 0.0f, 0.30f};
 const Material kGallbladderBared{{0.105f, 0.078f, 0.020f}, 0.0f, 0.26f};
+const Material kColonBared{{0.260f, 0.085f, 0.060f}, 0.0f, 0.28f};
 
 const std::map<std::string, Material> kTissues{
     {"gallbladder", kGallbladder}, {"gut", kGut}, {"mesentery", kMesentery}, {"colon", kColon}};
@@ -31,6 +32,7 @@ Material tissue_material(const std::string& look) {
 }
 
 Material bared_material(const std::string& look) {
+  if (look == "colon") return kColonBared;
   return look == "gallbladder" ? kGallbladderBared : kLiverBared;
 }
 

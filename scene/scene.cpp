@@ -15,9 +15,10 @@ namespace {
 
 using enum TomlSection::Need;
 
-// What organ_phantom makes: the liver in two sizes, its gallbladder, and two pieces of tissue.
-constexpr std::array<std::string_view, 5> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder",
-                                                    "phantom:plate", "phantom:cylinder"};
+// What organ_phantom makes: the liver in two sizes, its gallbladder, the colon, and two pieces of
+// tissue.
+constexpr std::array<std::string_view, 6> kPhantoms{"phantom:paper", "phantom:fine",  "phantom:gallbladder",
+                                                    "phantom:colon", "phantom:plate", "phantom:cylinder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
@@ -88,13 +89,13 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions"))
     organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
-  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder"});
+  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder", "colon"});
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();
   } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
     s.refuse("mesh", "\"" + organ.mesh + "\"",
-             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:plate\", "
-             "\"phantom:cylinder\" or a file");
+             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:colon\", "
+             "\"phantom:plate\", \"phantom:cylinder\" or a file");
   }
   if (!file.empty()) organ.file = beside(scene, file);
 }

@@ -64,7 +64,7 @@ struct OrganSpec {
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
   std::vector<RegionSpec> regions;         // of several that overlap the last one holds
   std::string fixed;                       // as organ_build --fixed takes it
-  std::string look = "liver";              // "liver" or "gallbladder": how it is drawn; of a tube "gut"
+  std::string look = "liver";              // "liver", "gallbladder" or "colon"; of a tube "gut"
   std::optional<DynamicsSpec> dynamics;    // of a mesh whose model moves it by itself
   std::optional<IntestineSpec> intestine;  // of a tube
   std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it

@@ -13,7 +13,7 @@ LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to
 # Of a foreign mesh's length, where --fixed is not given: an organ is held at an edge (ligaments), but lies on its whole
 # underside; held at its lowest tip only, it would rock under the hand.
 SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
-PHANTOM_PARTS = ("gallbladder", "plate", "cylinder")  # beside the liver, in one size each
+PHANTOM_PARTS = ("gallbladder", "colon", "plate", "cylinder")  # beside the liver, in one size each
 
 told_warnings = set()  # without the program's name: organ_build and scene_prepare say the same of one organ
 

@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"HandOnNoOrgan", "tool = 2", "tool = 2\norgan = \"spleen\"", 16,
                  "hands[0].organ: found \"spleen\", expected the name of one of the [[organs]]"},
         BadScene{"UnknownLook", "young_pa = 12000", "young_pa = 12000\nlook = \"spleen\"", 6,
-                 "expected one of \"liver\", \"gallbladder\""},
+                 "expected one of \"liver\", \"gallbladder\", \"colon\""},
         BadScene{"SameIdTwice", "[[hands]]",
                  "[[tools]]\nid = 2\nname = \"x\"\nshape = \"probe\"\npoints = [[0, 0, 0]]\n[[hands]]", 15,
                  "tools[1].id: found 2 again"},
