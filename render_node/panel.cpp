@@ -205,6 +205,11 @@ void organ_line(const OrganRow& row, TissueMap map) {
     ImGui::SameLine();
     right_aligned(format("%d", row.removed_tetrahedra).c_str());
   }
+  if (row.length_mm > 0) {
+    ImGui::TextUnformatted((of + "length").c_str());
+    ImGui::SameLine();
+    right_aligned(format("%.2f m", 1e-3 * row.length_mm).c_str());
+  }
   if (row.beyond_small_strains()) {
     ImGui::TextColored(kAmber, "%sstrained %.0f %%: beyond small strains (%.0f %%)", of.c_str(),
                        100 * *row.strained, 100 * kSmallStrain);
@@ -259,9 +264,17 @@ void map_scale(const PanelView& view) {
 }
 
 void organs(const PanelView& view) {
-  ImGui::TextUnformatted("deepest dent");
-  ImGui::SameLine();
-  right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  if (view.dents) {
+    ImGui::TextUnformatted("deepest dent");
+    ImGui::SameLine();
+    right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  }
+  if (view.exposed_share) {
+    const std::string share = format("%.0f %%", 100 * *view.exposed_share);
+    ImGui::TextUnformatted(beside(share, view.exposed_organ + " exposed").c_str());
+    ImGui::SameLine();
+    right_aligned(share.c_str());
+  }
   if (view.map != TissueMap::kOff) {
     map_scale(view);
     largest_line(view);

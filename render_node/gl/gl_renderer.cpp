@@ -59,11 +59,13 @@ struct Programs {
         bared("bared tissue", shaders::surface_vert, prefix + "#define CUT\n#define BARED\n",
               shaders::tissue_frag),
         map("map", shaders::surface_vert, prefix, shaders::map_frag),
+        gut("gut", shaders::surface_vert, prefix + "#define GUT\n", shaders::tissue_frag),
+        mesentery("mesentery", shaders::surface_vert, prefix + "#define SHEET\n", shaders::tissue_frag),
         solid("solid", shaders::surface_vert, prefix, shaders::solid_frag),
         ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
         signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
 
-  Program backdrop, lens, tissue, cut, bared, map, solid, ground, signal;
+  Program backdrop, lens, tissue, cut, bared, gut, mesentery, map, solid, ground, signal;
 
   const Program& of(Look look) const {
     switch (look) {
@@ -75,6 +77,10 @@ struct Programs {
         return bared;
       case Look::kMap:
         return map;
+      case Look::kGut:
+        return gut;
+      case Look::kMesentery:
+        return mesentery;
       case Look::kGround:
         return ground;
       case Look::kSignal:
@@ -195,8 +201,8 @@ class GlRenderer final : public Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look :
-         {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kMap, Look::kGround, Look::kSignal})
+    for (const Look look : {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kGut,
+                            Look::kMesentery, Look::kMap, Look::kGround, Look::kSignal})
       draw_items(frame, look);
     glDisable(GL_CULL_FACE);
     glDepthRange(kSignalDepth, 1);
