@@ -26,7 +26,8 @@ class LargeStep {
 
   /// Displacement of `nodes` at the end of a step per force held over it, [3n x 3n], m/N, symmetric.
   virtual void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept = 0;
-  /// That of all nodes for given forces, m.
+  /// That of all nodes for given forces, m. What `yield` holds is a guess: the answer to forces that were
+  /// nearly the same, or zeros; zero in held components.
   virtual void yield_to(std::span<const double> forces, std::span<double> yield) noexcept = 0;
   /// Where the next step would end under `external` forces. Nothing is changed.
   virtual void foresee(const BodyState& state, std::span<const double> external,
