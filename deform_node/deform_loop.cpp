@@ -154,6 +154,7 @@ void DeformLoop::tick() noexcept {
   const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRate_hz));
   if (ticks_++ % ticks_per_status == 0) take_figures();
   publish(now_ns);
+  in_time_ = static_cast<double>(loop_.now_ns() - now_ns) < 1e9 / options_.rate_hz;
 }
 
 void DeformLoop::live_on() noexcept {
@@ -161,7 +162,7 @@ void DeformLoop::live_on() noexcept {
   if (orders_.paused()) {
     owed_.forgive(missed);
   } else {
-    organs_.step(book_, owed_.take(missed) / options_.rate_hz);
+    organs_.step(book_, owed_.take(missed, in_time_) / options_.rate_hz);
   }
 }
 

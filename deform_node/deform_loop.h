@@ -79,6 +79,7 @@ class DeformLoop {
   LoopFigures figures_;
   TimeAccount time_;
   OwedTime owed_;
+  bool in_time_ = true;  // the last tick ended within its period
   Standby standby_;
 
   // declared last: callbacks end before what they touch

@@ -4,12 +4,12 @@
 
 namespace omentum::deform {
 
-int OwedTime::take(std::uint64_t missed) noexcept {
+int OwedTime::take(std::uint64_t missed, bool in_time) noexcept {
   owed_ = std::min(owed_ + missed - seen_, kMost);
   seen_ = missed;
-  if (owed_ == 0) return 1;
-  --owed_;
-  return 2;
+  const std::uint64_t now = in_time ? std::min(owed_, kMostAtOnce) : 0;
+  owed_ -= now;
+  return static_cast<int>(1 + now);
 }
 
 void OwedTime::forgive(std::uint64_t missed) noexcept {

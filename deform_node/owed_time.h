@@ -5,16 +5,19 @@
 
 namespace omentum::deform {
 
-/// Simulated time follows the clock although a busy machine takes ticks away: each tick lives through its own
-/// period and one of those that are owed, until none is. One thread; nothing allocates.
+/// Simulated time follows the clock although a busy machine takes ticks away: a tick lives through its own
+/// period and through some that are owed, as long as ticks end within their period. One thread; nothing
+/// allocates.
 class OwedTime {
  public:
-  /// More than so many are given up: a node that stood still for long does not hurry for seconds, and one
-  /// that is too slow for its rate says so by its real-time factor.
+  /// Of one tick: more at once would be a leap under the hand.
+  static constexpr std::uint64_t kMostAtOnce = 2;
+  /// More than so many are given up: a node that stood still for long does not hurry for seconds.
   static constexpr std::uint64_t kMost = 10;
 
-  /// Periods that this tick lives through, 1 or 2. `missed`: of the loop since its start.
-  int take(std::uint64_t missed) noexcept;
+  /// Periods that this tick lives through, at least 1. `missed`: of the loop since its start. `in_time`: the
+  /// last tick ended within its period; a node whose ticks do not has no time to make up for anything.
+  int take(std::uint64_t missed, bool in_time) noexcept;
   /// What was missed so far is owed to nobody: the organs stood still then.
   void forgive(std::uint64_t missed) noexcept;
 
