@@ -51,7 +51,8 @@ struct Body {
 class Tool {
  public:
   Tool(const Body& body, double share_of_x) : body_(body) {
-    const auto [low, high] = std::ranges::minmax(body.mesh.positions, {}, [](const Vec3& p) { return p.x(); });
+    const auto [low, high] =
+        std::ranges::minmax(body.mesh.positions, {}, [](const Vec3& p) { return p.x(); });
     const double x = low.x() + share_of_x * (high.x() - low.x());
     const auto height = [&](const Vec3& p) { return std::abs(p.x() - x) < kReach_m ? p.z() : -1; };
     from_ = std::ranges::max(body.mesh.positions, {}, height);
@@ -151,8 +152,8 @@ void swing(benchmark::State& state, const Body& body, WarpedStep& stepper) {
 }
 
 void run(const Body& body) {
-  const auto linear = std::make_shared<ImplicitStep>(body.mesh, kLiver, body.inertia,
-                                                     ImplicitOptions{.step_s = kStep_s});
+  const auto linear =
+      std::make_shared<ImplicitStep>(body.mesh, kLiver, body.inertia, ImplicitOptions{.step_s = kStep_s});
   const auto warped = std::make_shared<WarpedStep>(
       body.mesh, kLiver, body.inertia, Corotational(body.mesh, kLiver), WarpedOptions{.step_s = kStep_s});
   const auto add = [](const char* name, std::function<void(benchmark::State&)> what) {
