@@ -126,6 +126,7 @@ void DeformLoop::take_up() {
     if (journal_) organs_.take_up(journal_->read(), book_);  // the other one may have cut on
   }
   time_.note(loop_.now_ns(), organs_.simulated_s(), true);
+  owed_.forgive(loop_.record().missed);
   book_.forget_cuts(loop_.now_ns());
   role_ = Role::kServing;
 }
@@ -151,11 +152,21 @@ void DeformLoop::tick() noexcept {
   obey();
   const std::int64_t now_ns = loop_.now_ns();
   book_.advance(now_ns);
-  if (!orders_.paused()) organs_.step(book_, 1 / options_.rate_hz);
+  live_on();
   if (local_publisher_) local_publisher_->offer(tool_places_->find(now_ns), book_.echoes(), now_ns);
   const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRate_hz));
   if (ticks_++ % ticks_per_status == 0) take_figures();
   publish(now_ns);
+  in_time_ = static_cast<double>(loop_.now_ns() - now_ns) < 1e9 / options_.rate_hz;
+}
+
+void DeformLoop::live_on() noexcept {
+  const std::uint64_t missed = loop_.record().missed;
+  if (orders_.paused()) {
+    owed_.forgive(missed);
+  } else {
+    organs_.step(book_, owed_.take(missed, in_time_) / options_.rate_hz);
+  }
 }
 
 void DeformLoop::obey() noexcept {

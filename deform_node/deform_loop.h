@@ -3,6 +3,7 @@
 
 #include "deform_node/local_publisher.h"
 #include "deform_node/organ_group.h"
+#include "deform_node/owed_time.h"
 #include "deform_node/standby.h"
 #include "deform_node/state_publisher.h"
 #include "deform_node/stress_publisher.h"
@@ -54,6 +55,7 @@ class DeformLoop {
   void stand_by();
   void hear(const msg::SceneInfo& other);
   void tick() noexcept;
+  void live_on() noexcept;
   void obey() noexcept;
   void take_figures() noexcept;
   void publish(std::int64_t now_ns) noexcept;
@@ -78,6 +80,8 @@ class DeformLoop {
   msg::NodeStatus own_;  // who this is; what of it changes is the publisher's, but for the ticks
   LoopFigures figures_;
   TimeAccount time_;
+  OwedTime owed_;
+  bool in_time_ = true;  // the last tick ended within its period
   Standby standby_;
 
   // declared last: callbacks end before what they touch

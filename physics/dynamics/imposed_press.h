@@ -48,9 +48,10 @@ class ImposedPress {
  private:
   void solve() noexcept;
 
-  std::vector<std::vector<double>> yields_;  // [presses][3N], of the body to each pattern, m
-  std::vector<double> pattern_;              // [3N]
-  std::vector<double> coupling_;            // [presses][presses], work of one's pattern on another's yield, J
+  std::vector<std::vector<double>>
+      yields_;                    // [presses][3N], of the body to each pattern, m; guesses of the next
+  std::vector<double> pattern_;   // [3N]
+  std::vector<double> coupling_;  // [presses][presses], work of one's pattern on another's yield, J
   std::vector<double> lacking_, strength_;  // [presses]
   std::size_t count_ = 0;
 };

@@ -12,7 +12,8 @@ class Yielding {
   virtual ~Yielding() = default;
 
   virtual double step_s() const = 0;
-  /// Displacement of all nodes at the end of a step per force held over it, for given forces, m.
+  /// Displacement of all nodes at the end of a step per force held over it, for given forces, m. What `yield`
+  /// holds is a guess: the answer to forces that were nearly the same, or zeros; zero in held components.
   virtual void yield_to(std::span<const double> forces, std::span<double> yield) noexcept = 0;
 };
 

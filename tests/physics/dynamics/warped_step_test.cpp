@@ -197,6 +197,69 @@ TEST_F(WarpedStepTest, AForceThatIsNoNumberIsSaidAndNotKept) {
   EXPECT_EQ(a.u, b.u);
 }
 
+TEST_F(WarpedStepTest, ALookAheadEndsWhereTheStepDoesAndChangesNoStep) {
+  Inertia body = inertia(Held::kAtOneEnd);
+  body.stiffness_damping_s = 0.003;
+  WarpedStep looking = stepper(body), blind = stepper(body);
+  const Vector force = weight(body, 5);
+  BodyState a = moving(Vector::Zero(size), Vector::Zero(size)), b = a;
+  std::vector<double> u(a.u.size());
+  for (int i = 0; i < 30; ++i) {
+    looking.foresee(a, view(force), u);
+    ASSERT_TRUE(looking.step(a, view(force)));
+    ASSERT_TRUE(blind.step(b, view(force)));
+    ASSERT_LE(norm(sum(u, -1, a.u)), 1e-5 * norm(a.u)) << i;
+  }
+  EXPECT_EQ(a.u, b.u);
+}
+
+TEST_F(WarpedStepTest, AStepAfterARemovalIsOfWhatIsLeftWhateverWasForeseen) {
+  const Inertia body = inertia(Held::kAtOneEnd);
+  WarpedStep looking = stepper(body), blind = stepper(body);
+  const Vector force = weight(body, 5);
+  BodyState a = moving(random_vector(size, 0.01 * kEdge, 6), Vector::Zero(size));
+  for (std::size_t c = 0; c < a.u.size(); ++c)
+    if (body.fixed[c / 3] != 0) a.u[c] = 0;
+  BodyState b = a;
+  std::vector<double> u(a.u.size());
+  looking.foresee(a, view(force), u);
+  const std::vector<geometry::TetId> gone{geometry::TetId(100), geometry::TetId(150)};
+  ASSERT_TRUE(looking.remove(gone));
+  ASSERT_TRUE(blind.remove(gone));
+  ASSERT_TRUE(looking.step(a, view(force)));
+  ASSERT_TRUE(blind.step(b, view(force)));
+  EXPECT_EQ(a.u, b.u);
+}
+
+TEST_F(WarpedStepTest, AGuessMakesAYieldCheaperNotOther) {
+  const Inertia body = inertia(Held::kAtOneEnd);
+  WarpedStep warped = stepper(body);
+  BodyState state = moving(random_vector(size, 0.01 * kEdge, 7), Vector::Zero(size));
+  const Vector nothing = Vector::Zero(size), forces = random_vector(size, 0.1, 8);
+  ASSERT_TRUE(warped.step(state, view(nothing)));
+  std::vector<double> yield(state.u.size());
+  warped.yield_to(view(forces), yield);
+  const int from_nothing = warped.iterations();
+  std::vector<double> again = yield, other = values_of(random_vector(size, 1, 9));
+  for (std::size_t c = 0; c < other.size(); ++c)
+    if (body.fixed[c / 3] != 0) other[c] = 0;
+  warped.yield_to(view(forces), again);
+  EXPECT_GT(from_nothing, 1);
+  EXPECT_LE(warped.iterations(), 1);
+  warped.yield_to(view(forces), other);
+  EXPECT_LE(norm(sum(again, -1, yield)), kFloat * norm(yield));
+  EXPECT_LE(norm(sum(other, -1, yield)), kFloat * norm(yield));
+}
+
+TEST_F(WarpedStepTest, AYieldThatIsNoNumberIsNoGuess) {
+  WarpedStep warped = stepper(inertia(Held::kAtOneEnd));
+  std::vector<double> yield(static_cast<std::size_t>(size));
+  Vector forces = random_vector(size, 0.1, 8);
+  forces[size - 2] = std::numeric_limits<double>::quiet_NaN();
+  warped.yield_to(view(forces), yield);
+  EXPECT_EQ(norm(yield), 0);
+}
+
 TEST_F(WarpedStepTest, StepAllocatesNothing) {
   WarpedStep warped = stepper(inertia(Held::kAtOneEnd));
   BodyState state = moving(random_vector(size, 0.1 * kEdge, 4), Vector::Zero(size));
