@@ -11,7 +11,9 @@ namespace omentum::deform {
 namespace {
 
 std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, const scene::OrganSpec&) {
-  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface);
+  const organ::Organ& organ = source.organ;
+  return std::make_unique<QuasiStaticModel>(*organ.compliance, organ.surface,
+                                            geometry::cover_with_spheres(organ.mesh, organ.surface));
 }
 
 constexpr std::array kTable{
