@@ -74,6 +74,18 @@ void BodyLoads::act(std::span<const double> strengths) noexcept {
   }
 }
 
+void BodyLoads::carry(std::span<const double> forces, const MeshEditor& editor) noexcept {
+  for (std::size_t c = 0; c < forces.size(); ++c) {
+    if (editor.uses(NodeId(c / 3)) == 0) continue;
+    weights_[c] += forces[c];
+    external_[c] += forces[c];
+  }
+}
+
+void BodyLoads::put_down() noexcept {
+  for (std::size_t n = 0; n < carried_kg_.size(); ++n) weigh(NodeId(n));
+}
+
 void BodyLoads::forget_presses() noexcept {
   for (const HeldPress& held : held_) {
     for (std::size_t i = 0; i < held.count; ++i) {

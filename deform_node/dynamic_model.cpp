@@ -61,7 +61,8 @@ DynamicModel::DynamicModel(DynamicParts parts)
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
-      felt_(std::make_unique<Felt>()) {
+      felt_(std::make_unique<Felt>()),
+      meeting_(std::make_unique<BodyMeeting>(mesh_, inertia_)) {
   felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
   felt_->u.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
@@ -72,7 +73,7 @@ ModelSizes DynamicModel::sizes() const {
   return {.values = values_.size(),
           .removed_bytes = burnt_.size(),
           .local_nodes = stepper_->is_felt() ? kPatchNodes : 0,
-          .spheres = 0,
+          .spheres = meeting_->most_spheres(),
           .body = values_.size()};
 }
 
@@ -143,6 +144,7 @@ void DynamicModel::forgo_gone() noexcept {
 }
 
 void DynamicModel::advance(int steps) noexcept {
+  meeting_->act(steps * stepper_->step_s(), editor_, loads_);
   std::ranges::copy(state_.u, before_.u.begin());
   std::ranges::copy(state_.v, before_.v.begin());
   const physics::EnergyWatch watch = watch_;
@@ -154,6 +156,7 @@ void DynamicModel::advance(int steps) noexcept {
     status_.diverged = !run(steps, &BodyStepper::step_shorter);
     if (!status_.diverged) status_.fault = "would diverge, goes on in shorter steps";
   }
+  loads_.put_down();
   status_.simulated_s += steps * stepper_->step_s();
   status_.steps += static_cast<std::uint64_t>(steps);
 }
@@ -183,6 +186,7 @@ void DynamicModel::reset() noexcept {
   burning_.clear();
   std::ranges::fill(burnt_, std::uint8_t{0});
   watch_.restart(0);
+  meeting_->reset();
   std::ranges::fill(state_.u, 0.0);
   std::ranges::fill(state_.v, 0.0);
   ahead_s_ = until_check_s_ = 0;
@@ -207,6 +211,14 @@ void DynamicModel::show() noexcept {
   float* value = values_.data();
   for (const NodeId n : editor_.surface_nodes())
     for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(state_.u[3 * n + axis]);
+}
+
+std::span<const CollisionSphere> DynamicModel::collidable() const noexcept {
+  return meeting_->collidable({editor_, version_}, state_, *stepper_, loads_.external());
+}
+
+void DynamicModel::respond(std::span<const OrganContact> contacts) noexcept {
+  meeting_->respond(contacts, state_, *stepper_, loads_.external());
 }
 
 OrganView DynamicModel::view() const noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/body_loads.h"
+#include "deform_node/body_meeting.h"
 #include "deform_node/body_stepper.h"
 #include "deform_node/cut_queue.h"
 #include "deform_node/organ_models.h"
@@ -43,6 +44,8 @@ class DynamicModel final : public OrganModel {
   ModelStatus status() const noexcept override { return status_; }
   bool local_model(const PatchPlace& place, LocalPatch& patch) const noexcept override;
   std::unique_ptr<StrainGauge> strain_gauge() const override;
+  std::span<const CollisionSphere> collidable() const noexcept override;
+  void respond(std::span<const OrganContact> contacts) noexcept override;
 
  private:
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
@@ -87,6 +90,7 @@ class DynamicModel final : public OrganModel {
   };
   std::unique_ptr<PatchGatherer> gatherer_;
   std::unique_ptr<Felt> felt_;
+  std::unique_ptr<BodyMeeting> meeting_;  // as other organs ask for it: alone in a scene, none does
 };
 
 }  // namespace omentum::deform

@@ -12,7 +12,9 @@ namespace omentum::deform {
 namespace {
 
 std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, const scene::OrganSpec&) {
-  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface, source.rest);
+  const organ::Organ& organ = source.organ;
+  return std::make_unique<QuasiStaticModel>(*organ.compliance, organ.surface, source.rest,
+                                            geometry::cover_with_spheres(organ.mesh, organ.surface));
 }
 
 constexpr std::array kTable{

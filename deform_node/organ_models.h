@@ -121,7 +121,8 @@ class OrganModel {
 
   /// What other organs may meet, at this moment; valid as a view is.
   virtual std::span<const CollisionSphere> collidable() const noexcept { return {}; }
-  /// What they met, after all organs' steps; empty in most ticks, and then not called.
+  /// What they met, after all organs' steps; empty in most ticks, and then not called. Otherwise some times
+  /// in a tick, with what the calls before left to do: each asks collidable() how fast the spheres are now.
   virtual void respond(std::span<const OrganContact> /*contacts*/) noexcept {}
 };
 

@@ -78,6 +78,16 @@ RegionSpec read_region(TomlSection& s, bool tears) {
   return region;
 }
 
+// Nodes tell each other a rule in one line, "organs[N].fixed = " before it.
+void read_supports(TomlSection& s, OrganSpec& organ) {
+  constexpr std::size_t kMost = msg::MAX_LINE - 18;
+  s.read("fixed", organ.fixed, kRequired);
+  const bool is_rule = organ.fixed.starts_with("plane:") || organ.fixed.starts_with("box:");
+  if (is_rule && organ.fixed.size() > kMost)
+    s.refuse("fixed", std::to_string(organ.fixed.size()) + " characters",
+             "at most " + std::to_string(kMost) + ", or a file");
+}
+
 void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& organ) {
   std::string file;
   s.read("mesh", organ.mesh, kRequired);
@@ -85,7 +95,7 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   s.read("young_pa", organ.young_pa, kRequired, kPositive);
   s.read("poisson", organ.poisson, kRequired, kPoisson);
   s.read("density_kg_m3", organ.density_kg_m3, kRequired, kPositive);
-  s.read("fixed", organ.fixed, kRequired);
+  read_supports(s, organ);
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions"))
     organ.regions.push_back(read_region(region, organ.dynamics.has_value()));

@@ -182,9 +182,8 @@ TEST_F(OrganGroupTest, OrgansThatMeetPushEachOtherApart) {
   mass(0).push(Vec3(kMeeting_m_s, 0, 0));
   mass(1).push(Vec3(-kMeeting_m_s, 0, 0));
   group_.step(book_, kTick_s);
-  EXPECT_NEAR((mass(1).position() - mass(0).position()).norm(), 2 * HangingMass::kRadius_m, 1e-12);
   EXPECT_LE((mass(0).velocity() + mass(1).velocity()).norm(), 1e-9) << "momentum is kept";
-  EXPECT_GE((mass(1).velocity() - mass(0).velocity()).x(), -1e-9) << "and they go on no farther";
+  EXPECT_GT((mass(1).velocity() - mass(0).velocity()).x(), 0) << "and they part";
 }
 
 TEST_F(OrganGroupTest, ResetBringsAllToRestAndKeepsTheCounts) {

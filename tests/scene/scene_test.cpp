@@ -173,6 +173,15 @@ std::string with_second_organ(const std::string& name, const std::string& mesh) 
                                "fixed = \"plane:z>0\"\nlook = \"gallbladder\"\n[[tools]]");
 }
 
+// Nodes would refuse it when they start, without the line.
+TEST(Scene, SupportsThatAreTooLongToTellAreRefusedWithTheirLine) {
+  std::string boxes = "box:0,0,0,1,1,1";
+  while (boxes.size() <= 142) boxes += "+box:0,0,0,1,1,1";
+  const auto file = write_scene(with("fixed = ", "fixed = \"" + boxes + "\"\n#"));
+  EXPECT_THAT(message_of(file),
+              AllOf(HasSubstr(".toml:8: "), HasSubstr("fixed: found " + std::to_string(boxes.size()))));
+}
+
 TEST(Scene, AHandMayNameTheOrganThatItPresses) {
   const Scene scene =
       load_scene(write_scene(with_second_organ("sac", "phantom:gallbladder") + "organ = \"sac\"\n"));

@@ -1,0 +1,186 @@
+// Organs with masses that meet one another, by the real models.
+#include "tests/deform_node/dynamic_beam.h"
+
+#include "deform_node/organ_collision.h"
+#include "tests/support/heap_count.h"
+
+namespace omentum::deform {
+namespace {
+
+const Vec3 kDown(0, 0, -9.81);
+
+/// Whether a place of the box, from its corner, is held.
+using Held = bool (*)(const Vec3&);
+bool below(const Vec3& x) {
+  return x.z() < 1e-9;
+}
+bool at_the_left(const Vec3& x) {
+  return x.x() < 1e-9;
+}
+bool nowhere(const Vec3&) {
+  return false;
+}
+
+/// A box of tissue at a place, held below where it is asked for.
+struct Block {
+  geometry::TetraMesh mesh;
+  physics::MaterialMap material{kTissue};
+  physics::FixedComponents fixed;
+  geometry::Surface surface;
+  std::unique_ptr<DynamicModel> model;
+  std::unique_ptr<geometry::MeshEditor> editor;
+
+  Block(const std::array<int, 3>& cells, const Vec3& size, const Vec3& corner, Held is_held,
+        const Vec3& gravity_m_s2) {
+    mesh = test::make_box_mesh(cells[0], cells[1], cells[2], size);
+    for (Vec3& x : mesh.positions) {
+      fixed.push_back(is_held(x) ? physics::kPinned : 0);
+      x += corner;
+    }
+    surface = geometry::extract_surface(mesh, physics::pinned_nodes(fixed));
+    const SteppedBody body{mesh,
+                           material,
+                           {.mass = physics::lumped_masses(mesh, material),
+                            .fixed = fixed,
+                            .mass_damping_per_s = 0,
+                            .stiffness_damping_s = 0.01}};
+    DynamicParts parts{.body = body, .uncut_surface = surface.node};
+    parts.stepper = make_warped_stepper(body, kTick_s);
+    parts.gravity_m_s2 = gravity_m_s2;
+    parts.tears.resize(mesh.tetrahedra.size());
+    parts.cut_rate_per_s = 1e6;
+    model = std::make_unique<DynamicModel>(std::move(parts));
+    editor =
+        std::make_unique<geometry::MeshEditor>(mesh, geometry::EditorOptions{.uncut_surface = surface.node});
+  }
+
+  /// Where the node nearest to a place at rest is seen.
+  Vec3 seen(NodeId n) const {
+    editor->set_removed(model->view().removed_bits);
+    return mesh.positions[n] +
+           Eigen::Map<const Eigen::Vector3f>(model->view().values.data() + 3 * editor->surface_of(n))
+               .cast<double>();
+  }
+  NodeId nearest(const Vec3& x) const {
+    const auto less = [&](const Vec3& a, const Vec3& b) { return (a - x).norm() < (b - x).norm(); };
+    return NodeId(static_cast<std::size_t>(
+        std::min_element(mesh.positions.begin(), mesh.positions.end(), less) - mesh.positions.begin()));
+  }
+  double mass_kg() const {
+    const std::vector<double> masses = physics::lumped_masses(mesh, material);
+    return std::accumulate(masses.begin(), masses.end(), 0.0);
+  }
+  /// By what is seen.
+  Vec3 first_moment() const {
+    const std::vector<double> masses = physics::lumped_masses(mesh, material);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t n = 0; n < masses.size(); ++n) sum += masses[n] * seen(NodeId(n));
+    return sum;
+  }
+};
+
+struct Meeting {
+  explicit Meeting(std::vector<Block*> met) : blocks(std::move(met)), collision(models(blocks)) {}
+  static std::vector<OrganModel*> models(const std::vector<Block*>& blocks) {
+    std::vector<OrganModel*> models;
+    for (Block* block : blocks) models.push_back(block->model.get());
+    return models;
+  }
+  void pass(double seconds) {
+    for (int i = 0; i < std::lround(seconds / kTick_s); ++i) tick();
+  }
+  void tick(const TickLoads& on_first = {}) {
+    for (Block* block : blocks) block->model->step(block == blocks[0] ? on_first : TickLoads{}, kTick_s);
+    EXPECT_TRUE(collision.run());
+    for (Block* block : blocks) EXPECT_FALSE(block->model->status().diverged);
+  }
+  std::vector<Block*> blocks;
+  OrganCollision collision;
+};
+
+/// Right through all at `x`.
+CutStroke stroke_at(double x) {
+  return {
+      .tool = 0, .cut = 1, .from = {Vec3(x, -1, -1), Vec3(x, -1, 1)}, .to = {Vec3(x, 1, -1), Vec3(x, 1, 1)}};
+}
+
+const Vec3 kCube(0.04, 0.04, 0.04);
+
+TEST(OrgansThatMeet, ABlockThatFellOnAHeldOneRestsThereWithoutJitter) {
+  Block low({6, 6, 2}, {0.12, 0.12, 0.04}, Vec3::Zero(), below, kDown);
+  Block high({4, 4, 4}, kCube, {0.041, 0.039, 0.06}, nowhere, kDown);
+  Meeting meeting({&low, &high});
+  meeting.pass(3);
+  const NodeId corner = high.nearest({0.041, 0.039, 0.10});
+  const Vec3 at_first = high.seen(corner);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 before = high.seen(corner);
+    meeting.tick();
+    EXPECT_LT((high.seen(corner) - before).norm(), 0.02e-3) << "a tick";
+  }
+  EXPECT_LT((high.seen(corner) - at_first).norm(), 0.5e-3) << "in a second";
+  EXPECT_NEAR(at_first.z(), 0.08, 0.012) << "spheres stand out by some millimetres";
+}
+
+TEST(OrgansThatMeet, APieceThatIsCutOffFallsOnAnotherOrganAndStaysThere) {
+  Block held({8, 2, 2}, {0.16, 0.04, 0.04}, {0, 0.04, 0.06}, at_the_left, kDown);
+  Block plate({6, 6, 2}, {0.14, 0.12, 0.03}, {0.05, 0, 0}, below, kDown);
+  Meeting meeting({&held, &plate});
+  meeting.pass(0.2);
+  const CutStroke stroke = stroke_at(0.07);
+  meeting.tick({.presses = {}, .cuts = {&stroke, 1}});
+  const auto removed = held.model->status().removed_tetrahedra;
+  ASSERT_GT(removed, 0u);
+  meeting.pass(3);
+  EXPECT_EQ(held.model->status().removed_tetrahedra, removed) << "nothing of it fell out of reach";
+  const NodeId end = held.nearest({0.14, 0.06, 0.06});
+  const Vec3 at_first = held.seen(end);
+  EXPECT_NEAR(at_first.z(), 0.03, 0.015);
+  meeting.pass(1);
+  EXPECT_LT((held.seen(end) - at_first).norm(), 1e-3);
+}
+
+TEST(OrgansThatMeet, WhatIsCutAwayMeetsNobody) {
+  Block block({4, 4, 4}, kCube, Vec3::Zero(), nowhere, Vec3::Zero());
+  const std::size_t whole = block.model->collidable().size();
+  const CutStroke stroke = stroke_at(0.02);
+  block.model->step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+  EXPECT_LT(block.model->collidable().size(), whole);
+  EXPECT_GT(block.model->collidable().size(), whole / 2);
+  block.model->reset();
+  EXPECT_EQ(block.model->collidable().size(), whole);
+}
+
+TEST(OrgansThatMeet, NothingOfItTakesMemory) {
+  Block low({6, 6, 2}, {0.12, 0.12, 0.04}, Vec3::Zero(), below, kDown);
+  Block high({4, 4, 4}, kCube, {0.041, 0.039, 0.05}, nowhere, kDown);
+  OrganCollision collision({low.model.get(), high.model.get()});
+  const CutStroke stroke = stroke_at(0.06);
+  const std::size_t before = test::heap_allocations();
+  for (int i = 0; i < 40; ++i) {
+    low.model->step({}, kTick_s);
+    high.model->step({.presses = {}, .cuts = {&stroke, i == 20 ? 1u : 0u}}, kTick_s);
+    (void)collision.run();
+  }
+  EXPECT_EQ(test::heap_allocations(), before);
+  EXPECT_GT(high.model->status().removed_tetrahedra, 0u);
+}
+
+// One is pulled by what pulls nothing else. All nodes are of the surface: their momentum is seen, as floats.
+TEST(OrgansThatMeet, TwoThatCollideInFlightHaveTheMomentumThatTheyWereGiven) {
+  const Vec3 pull(0.5, 0, 0);
+  Block left({3, 3, 1}, {0.04, 0.04, 0.02}, Vec3::Zero(), nowhere, pull);
+  Block right({5, 4, 1}, {0.04, 0.04, 0.025}, {0.06, 0.01, 0.003}, nowhere, Vec3::Zero());
+  Meeting meeting({&left, &right});
+  const Vec3 right_before = right.first_moment();
+  meeting.pass(0.6);
+  const Vec3 before = left.first_moment() + right.first_moment();
+  meeting.tick();
+  const Vec3 momentum = (left.first_moment() + right.first_moment() - before) / kTick_s;
+  const Vec3 given = left.mass_kg() * 0.61 * pull;
+  EXPECT_LT((momentum - given).norm(), 1e-4 * given.norm()) << momentum.transpose();
+  EXPECT_GT((right.first_moment() - right_before).x(), 0.001 * right.mass_kg()) << "they met";
+}
+
+}  // namespace
+}  // namespace omentum::deform
