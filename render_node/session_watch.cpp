@@ -180,6 +180,7 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
     if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
     row.known = state_arrived_ns_[i] > 0;
     row.removed_tetrahedra = view.removed_count(i);
+    row.length_mm = 1e3 * view.length_m(i);
     row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);
     if (const PressedSurface* surface = view.surface(i)) {
       row.moved_mm = 1e3 * surface->skin.largest_displacement_m();
