@@ -37,8 +37,8 @@ struct GutCollisionReport {
 /// at a time; no allocation after construction; the same calls give the same results bit for bit.
 class GutCollisions {
  public:
-  /// `masses_kg`: [masses], > 0; held masses (GutLayout) never move. Throws std::invalid_argument where a
-  /// number is out of its range, in words.
+  /// `masses_kg`: [masses], > 0 but for held ones (GutLayout), which never move. Throws std::invalid_argument
+  /// where a number is out of its range, in words.
   GutCollisions(const geometry::GutShape& shape, std::span<const double> masses_kg, double step_s,
                 const GutCollisionSettings& settings = {});
 
