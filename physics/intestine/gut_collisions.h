@@ -6,6 +6,7 @@
 #include "physics/intestine/gut_spheres.h"
 #include "physics/intestine/gut_state.h"
 #include "physics/intestine/pair_finder.h"
+#include "physics/intestine/pair_memory.h"
 
 #include <memory>
 
@@ -33,6 +34,17 @@ struct GutCollisionReport {
   double deepest_m = 0;             // the largest overlap left in the newest step
 };
 
+/// How a gut's springs answer to forces within a step, as an implicit step has it.
+class GutYield {
+ public:
+  /// How far all masses move within a step under `forces_n`, in W; both [masses].
+  virtual void yield_to(std::span<const geometry::Vec3> forces_n,
+                        std::span<geometry::Vec3> yield_m) const noexcept = 0;
+
+ protected:
+  ~GutYield() = default;
+};
+
 /// The third part of a gut's step: from where the springs want the masses to go to where they get. One thread
 /// at a time; no allocation after construction; the same calls give the same results bit for bit.
 class GutCollisions {
@@ -46,8 +58,12 @@ class GutCollisions {
   /// return what it is. Positions that overlapped are apart by the end, but never by more than
   /// kShareOfGap of what was free: whatever the prediction, no axis crosses another nor the mesentery, and
   /// no sphere's centre crosses either (its `reached` may stay behind what it asked for).
+  /// With `yield`, contacts that go on begin with the impulse that they gave before, carried on by the
+  /// springs as in the springs' own step. Without, springs that are stiff for the step undo what a light mass
+  /// was pushed by, step after step: it trembles, and what leans on it sinks.
   void resolve(std::span<const geometry::Vec3> before, GutState& state,
-               std::span<const GutObstacle> obstacles, std::span<const MovingSphere> spheres) noexcept;
+               std::span<const GutObstacle> obstacles, std::span<const MovingSphere> spheres,
+               const GutYield* yield = nullptr) noexcept;
 
   /// Of the newest step: one for each sphere given, up to most_spheres.
   std::span<const SphereOutcome> outcomes() const noexcept { return outcomes_; }
@@ -66,20 +82,27 @@ class GutCollisions {
   GutSpheres spheres_;
   GutResponse response_;
   NearPairs near_;
-  std::vector<GutContact> contacts_;            // of all kinds, for the response
-  std::vector<double> inverse_mass_;            // [masses + spheres], 1/kg
-  std::vector<geometry::Vec3> before_, x_, v_;  // [masses + spheres]
-  std::vector<double> way_;                     // [masses], m: in this step, at most
-  std::vector<double> gap_;                     // [masses + spheres], m
+  std::vector<GutContact> contacts_;             // of all kinds, for the response
+  std::vector<ContactKey> keys_;                 // of contacts_
+  std::vector<double> warm_;                     // of contacts_: what each gave in the step before, N s
+  PairMemory<double> pushes_;                    // the same by keys
+  std::vector<geometry::Vec3> forces_, yields_;  // [masses], N and m
+  std::vector<double> inverse_mass_;             // [masses + spheres], 1/kg
+  std::vector<geometry::Vec3> before_, x_, v_;   // [masses + spheres]
+  std::vector<double> way_;                      // [masses], m: in this step, at most
+  std::vector<double> gap_;                      // [masses + spheres], m
   std::vector<SphereOutcome> outcomes_;
   GutCollisionReport report_;
 
   double watched_m() const noexcept;
+  void recall_pushes() noexcept;
+  void carry_pushes(const GutState& state, const GutYield& yield) noexcept;
+  void remember_pushes() noexcept;
   void take_in(std::span<const geometry::Vec3> before, const GutState& state,
                std::span<const MovingSphere> spheres) noexcept;
   void find_pairs(std::span<const geometry::Vec3> before) noexcept;
   void hold_back(std::size_t count) noexcept;
-  void gather_pairs() noexcept;
+  void gather_pairs(std::span<const geometry::Vec3> before) noexcept;
   void gather_spheres(std::span<const MovingSphere> spheres) noexcept;
   void gather_walls(std::span<const GutObstacle> obstacles) noexcept;
   void tell_spheres(std::size_t count) noexcept;

@@ -60,7 +60,7 @@ void GutSystem::step(const GutLoads& loads) noexcept {
   if (projective_) projective_->step(forces_, state_);
   // the bound of the collisions would hide what comes next
   const bool wild = !(kinetic_energy(springs_, state_.v) < wild_j_);
-  collisions_.resolve(before_, state_, loads.obstacles, loads.spheres);
+  collisions_.resolve(before_, state_, loads.obstacles, loads.spheres, projective_ ? this : nullptr);
   observe();
   report_.diverged |= wild;
 }
