@@ -41,7 +41,10 @@ GutCollisions::GutCollisions(const geometry::GutShape& shape, std::span<const do
       spheres_(parts_),
       response_(finder_->most_pairs() + kOtherContactsPerMass * masses_kg.size(), settings.passes,
                 settings.friction),
-      pushes_(finder_->most_pairs() + kOtherContactsPerMass * masses_kg.size()) {
+      pushes_(finder_->most_pairs() + kOtherContactsPerMass * masses_kg.size()),
+      carry_(shape.layout.mass_count(),
+             masses_kg.size() + static_cast<std::size_t>(std::max(settings.most_spheres, 0)),
+             finder_->most_pairs() + kOtherContactsPerMass * masses_kg.size()) {
   const auto masses = static_cast<std::size_t>(shape.layout.mass_count());
   require(masses_kg.size() == masses, "one mass in kg for each of the grid is expected");
   require(step_s > 0 && std::isfinite(step_s), "a step above 0 s is expected");
@@ -57,8 +60,6 @@ GutCollisions::GutCollisions(const geometry::GutShape& shape, std::span<const do
   gap_.resize(all);
   keys_.reserve(contacts_.capacity());
   warm_.reserve(contacts_.capacity());
-  forces_.resize(masses);
-  yields_.resize(masses);
   outcomes_.reserve(static_cast<std::size_t>(settings.most_spheres));
   inverse_mass_.resize(all);
   for (std::size_t m = 0; m < masses; ++m) {
@@ -151,26 +152,6 @@ void GutCollisions::recall_pushes() noexcept {
   }
 }
 
-// Where the springs would have taken the masses under these pushes, in place of where they did without.
-void GutCollisions::carry_pushes(const GutState& state, const GutYield& yield) noexcept {
-  std::ranges::fill(forces_, Vec3::Zero());
-  const auto push = [&](const GutPoint& point, const Vec3& force) {
-    for (std::size_t i = 0; i < 3 && point.mass[i].valid(); ++i) {
-      if (point.mass[i] < parts_.layout.mass_count()) forces_[point.mass[i]] += point.weight[i] * force;
-    }
-  };
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const Vec3 force = warm_[c] / step_s_ * contacts_[c].normal;
-    push(contacts_[c].one, force);
-    push(contacts_[c].other, -force);
-  }
-  yield.yield_to(forces_, yields_);
-  for (std::size_t m = 0; m < yields_.size(); ++m) {
-    x_[m] = state.x[m] + yields_[m];
-    v_[m] = state.v[m] + yields_[m] / step_s_;
-  }
-}
-
 void GutCollisions::remember_pushes() noexcept {
   pushes_.forget();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -207,11 +188,13 @@ void GutCollisions::resolve(std::span<const Vec3> before, GutState& state,
   gather_pairs(before);
   gather_spheres(spheres);
   gather_walls(obstacles);
-  const MovingMasses masses{before_, x_, v_, inverse_mass_};
+  const MovingMasses masses{before_, std::span(x_).first(count), std::span(v_).first(count), inverse_mass_};
   warm_.assign(yield != nullptr ? contacts_.size() : 0, 0);
   if (yield != nullptr) {
     recall_pushes();
-    carry_pushes(state, *yield);
+    std::ranges::copy(state.x, x_.begin());
+    std::ranges::copy(state.v, v_.begin());
+    carry_.solve(contacts_, *yield, step_s_, masses, warm_);
     hold_back(count);
   }
   response_.solve(contacts_, warm_, step_s_, masses);

@@ -1,6 +1,7 @@
 // All that an intestine meets in a step: itself, its mesentery, walls and balls.
 #pragma once
 
+#include "physics/intestine/gut_carry.h"
 #include "physics/intestine/gut_obstacle.h"
 #include "physics/intestine/gut_response.h"
 #include "physics/intestine/gut_spheres.h"
@@ -34,17 +35,6 @@ struct GutCollisionReport {
   double deepest_m = 0;             // the largest overlap left in the newest step
 };
 
-/// How a gut's springs answer to forces within a step, as an implicit step has it.
-class GutYield {
- public:
-  /// How far all masses move within a step under `forces_n`, in W; both [masses].
-  virtual void yield_to(std::span<const geometry::Vec3> forces_n,
-                        std::span<geometry::Vec3> yield_m) const noexcept = 0;
-
- protected:
-  ~GutYield() = default;
-};
-
 /// The third part of a gut's step: from where the springs want the masses to go to where they get. One thread
 /// at a time; no allocation after construction; the same calls give the same results bit for bit.
 class GutCollisions {
@@ -58,9 +48,8 @@ class GutCollisions {
   /// return what it is. Positions that overlapped are apart by the end, but never by more than
   /// kShareOfGap of what was free: whatever the prediction, no axis crosses another nor the mesentery, and
   /// no sphere's centre crosses either (its `reached` may stay behind what it asked for).
-  /// With `yield`, contacts that go on begin with the impulse that they gave before, carried on by the
-  /// springs as in the springs' own step. Without, springs that are stiff for the step undo what a light mass
-  /// was pushed by, step after step: it trembles, and what leans on it sinks.
+  /// With `yield`, contacts that go on begin with the impulse that they gave before, and springs that are
+  /// stiff for the step carry it on (gut_carry.h).
   void resolve(std::span<const geometry::Vec3> before, GutState& state,
                std::span<const GutObstacle> obstacles, std::span<const MovingSphere> spheres,
                const GutYield* yield = nullptr) noexcept;
@@ -82,21 +71,20 @@ class GutCollisions {
   GutSpheres spheres_;
   GutResponse response_;
   NearPairs near_;
-  std::vector<GutContact> contacts_;             // of all kinds, for the response
-  std::vector<ContactKey> keys_;                 // of contacts_
-  std::vector<double> warm_;                     // of contacts_: what each gave in the step before, N s
-  PairMemory<double> pushes_;                    // the same by keys
-  std::vector<geometry::Vec3> forces_, yields_;  // [masses], N and m
-  std::vector<double> inverse_mass_;             // [masses + spheres], 1/kg
-  std::vector<geometry::Vec3> before_, x_, v_;   // [masses + spheres]
-  std::vector<double> way_;                      // [masses], m: in this step, at most
-  std::vector<double> gap_;                      // [masses + spheres], m
+  std::vector<GutContact> contacts_;  // of all kinds, for the response
+  std::vector<ContactKey> keys_;      // of contacts_
+  std::vector<double> warm_;          // of contacts_: what each gave in the step before, N s
+  PairMemory<double> pushes_;         // the same by keys
+  GutCarry carry_;
+  std::vector<double> inverse_mass_;            // [masses + spheres], 1/kg
+  std::vector<geometry::Vec3> before_, x_, v_;  // [masses + spheres]
+  std::vector<double> way_;                     // [masses], m: in this step, at most
+  std::vector<double> gap_;                     // [masses + spheres], m
   std::vector<SphereOutcome> outcomes_;
   GutCollisionReport report_;
 
   double watched_m() const noexcept;
   void recall_pushes() noexcept;
-  void carry_pushes(const GutState& state, const GutYield& yield) noexcept;
   void remember_pushes() noexcept;
   void take_in(std::span<const geometry::Vec3> before, const GutState& state,
                std::span<const MovingSphere> spheres) noexcept;

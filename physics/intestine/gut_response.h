@@ -41,7 +41,9 @@ class GutResponse {
 
   /// Of the newest solve: f u on the contact's first point, N s, one for each contact.
   geometry::Vec3 impulse(std::size_t contact) const noexcept;
-  /// The same without friction, along the normal: f.
+  /// g of a contact, kg m.
+  double shift(std::size_t contact) const noexcept { return contact < rows_.size() ? rows_[contact].g : 0; }
+  /// The impulse without friction, along the normal: f, N s.
   double push(std::size_t contact) const noexcept { return contact < rows_.size() ? rows_[contact].f : 0; }
   /// Contacts that pushed.
   std::int32_t pushing() const noexcept;

@@ -71,6 +71,7 @@ class GutSystem final : public GutYield {
   /// A^-1 `forces_n`: how far all masses move within a step. Both [masses].
   void yield_to(std::span<const geometry::Vec3> forces_n,
                 std::span<geometry::Vec3> yield_m) const noexcept override;
+  std::span<const double> own_yields() const noexcept override { return own_yields_; }
 
  private:
   void gather_forces(std::span<const geometry::Vec3> forces_n) noexcept;
@@ -84,7 +85,8 @@ class GutSystem final : public GutYield {
   std::optional<GutProjective> projective_;
   GutCollisions collisions_;
   GutForces energies_;
-  GutPlanes x_;  // [masses] of the state, to measure energies
+  std::vector<double> own_yields_;  // [masses]
+  GutPlanes x_;                     // [masses] of the state, to measure energies
   double wild_j_ = 0;
   GutState state_;
   std::vector<geometry::Vec3> before_;        // [masses]
