@@ -1,6 +1,7 @@
 #include "physics/intestine/gut_parts.h"
 
 #include <cmath>
+#include <limits>
 
 namespace omentum::physics {
 namespace {
@@ -83,6 +84,30 @@ bool reports(const GutParts& parts, std::int32_t segment, std::int32_t part,
   if (places.s == 1 && goes_on(parts, segment, part)) return false;
   if (!parts.is_segment(part)) return triangle_reports(parts, segment, part, places.other);
   return places.other[1] != 1 || !goes_on(parts, part, segment);
+}
+
+double quiet_way(const GutParts& parts, std::span<const Vec3> x, std::int32_t segment, std::int32_t part,
+                 const PairPlaces& places) noexcept {
+  const auto [p, q] = parts.layout.segment(segment);
+  const std::array<MassId, 3>& m = parts.masses[part];
+  const Vec3 one = x[p] + places.s * (x[q] - x[p]);
+  const Vec3 other = places.other[0] * x[m[0]] + places.other[1] * x[m[1]] +
+                     (m[2].valid() ? Vec3(places.other[2] * x[m[2]]) : Vec3(Vec3::Zero()));
+  const Vec3 apart = one - other;
+  // along `edge`, which leaves the closest point, the distance would grow: by the projection upon it
+  const auto way = [&](const Vec3& edge, double rising) {
+    return std::max(0.0, rising) / (4 * apart.norm() + 2 * edge.norm());
+  };
+  if (places.s == 1 && goes_on(parts, segment, part)) return way(x[q] - x[p], -apart.dot(x[q] - x[p]));
+  Eigen::Index corner = 0;
+  places.other.maxCoeff(&corner);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3 && m[static_cast<std::size_t>(k)].valid(); ++k) {
+    if (places.other[k] > 0) continue;
+    const Vec3 edge = x[m[static_cast<std::size_t>(k)]] - x[m[static_cast<std::size_t>(corner)]];
+    least = std::min(least, way(edge, -apart.dot(edge)));
+  }
+  return std::isfinite(least) ? least : 0;
 }
 
 GutContact contact_of(const GutParts& parts, std::span<const Vec3> x, std::int32_t segment, std::int32_t part,

@@ -53,6 +53,12 @@ bool reports(const GutParts& parts, std::int32_t segment, std::int32_t part,
 GutContact contact_of(const GutParts& parts, std::span<const geometry::Vec3> x, std::int32_t segment,
                       std::int32_t part, const PairPlaces& places) noexcept;
 
+/// How far the masses of a pair that does not report may move, together, before that can have changed, m: how
+/// steeply the distance falls towards the parts that answer instead, over how fast motion turns that slope.
+/// 0 where it reports.
+double quiet_way(const GutParts& parts, std::span<const geometry::Vec3> x, std::int32_t segment,
+                 std::int32_t part, const PairPlaces& places) noexcept;
+
 /// Where a point of masses is.
 inline geometry::Vec3 place_of(const GutPoint& point, std::span<const geometry::Vec3> x) {
   geometry::Vec3 place = geometry::Vec3::Zero();
