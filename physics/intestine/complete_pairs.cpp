@@ -17,8 +17,8 @@ constexpr double kMargin = 0.6;
 
 CompletePairs::CompletePairs(const GutParts& parts) : parts_(parts), tree_(parts.count()) {
   const auto count = static_cast<std::size_t>(parts.count());
-  last_.reserve(static_cast<std::size_t>(parts.layout.mass_count()));
-  moved_.resize(static_cast<std::size_t>(parts.layout.mass_count()));
+  last_.reserve(static_cast<std::size_t>(parts.gut.mass_count()));
+  moved_.resize(static_cast<std::size_t>(parts.gut.mass_count()));
   for (auto* of_parts : {&travelled_, &ahead_, &list_until_, &around_}) of_parts->resize(count);
   quiet_.reserve(static_cast<std::size_t>(parts.layout.segment_count()) * count);
   listed_.reserve(static_cast<std::size_t>(parts.layout.segment_count()) * count);
@@ -56,10 +56,10 @@ void CompletePairs::list_pairs(std::span<const Vec3> x, double watched_m) noexce
   listed_.clear();
   quiet_.clear();
   for (std::int32_t segment = 0; segment < parts_.layout.segment_count(); ++segment) {
-    const auto [p, q] = parts_.layout.segment(segment);
     const auto s = static_cast<std::size_t>(segment);
+    const std::array<MassId, 3>& m = parts_.masses[s];
     const double own = list_until_[s] - travelled_[s];
-    tree_.visit_near(x[p], x[q], own, segment + 1, [&](std::int32_t part, double separation) {
+    tree_.visit_near(x[m[0]], x[m[1]], own, segment + 1, [&](std::int32_t part, double separation) {
       if (!parts_.may_touch(segment, part)) return;
       const auto other = static_cast<std::size_t>(part);
       listed_.push_back({segment, part, separation + around_[other] + travelled_[s] + travelled_[other]});
