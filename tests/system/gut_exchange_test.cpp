@@ -55,7 +55,7 @@ class GutExchange : public testing::Test {
 TEST_F(GutExchange, AHeldPressDoesNotDependOnRatesAndSteps) {
   Session expected_session(1000, 100, scene());
   const double expected = press(expected_session).norm();
-  EXPECT_GT(expected, 0.1);
+  EXPECT_GT(expected, 0.1) << expected_session.hand_report() << expected_session.organ_report();
   EXPECT_LT(expected, kDeep_m * 3 * 300) << "a wall of three nodes in front of a gut that does not move";
   for (const auto& [hand_hz, organ_hz, keys] :
        {std::tuple{300.0, 100.0, ""}, std::tuple{1000.0, 60.0, ""},
