@@ -24,16 +24,6 @@ GutStepSettings checked(const GutStepSettings& settings) {
   return settings;
 }
 
-// How far a mass may be from the surface of a ball that touches what hangs on it.
-double memory_reach_m(const geometry::GutShape& shape) {
-  double longest_m = 0;
-  for (std::int32_t m = 0; m + 1 < shape.layout.columns; ++m) {
-    const auto i = static_cast<std::size_t>(m);
-    longest_m = std::max(longest_m, (shape.positions[i + 1] - shape.positions[i]).norm());
-  }
-  return shape.tube_radius_m + 2 * longest_m;
-}
-
 }  // namespace
 
 GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& material,
@@ -43,7 +33,6 @@ GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& materia
       springs_(shape, material),
       band_(springs_, step.step_s),
       collisions_(shape, springs_.mass(), step.step_s, collisions),
-      memory_(springs_, step.step_s, memory_reach_m(shape)),
       energies_(springs_),
       x_(springs_.mass().size()),
       forces_(springs_.mass().size()),
@@ -53,14 +42,13 @@ GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& materia
     projective_.emplace(springs_, band_, step.step_s, step.iterations);
   for (const double m : springs_.mass()) wild_j_ += 0.5 * m * kWildSpeed_m_s * kWildSpeed_m_s;
   reset();
-  before_ = predicted_ = state_.x;
+  before_ = state_.x;
 }
 
 void GutSystem::reset() noexcept {
   state_.x = shape_.positions;
   state_.v.assign(shape_.positions.size(), Vec3::Zero());
   collisions_.reset();
-  memory_.forget();
   report_ = {};
 }
 
@@ -70,11 +58,9 @@ void GutSystem::step(const GutLoads& loads) noexcept {
   gather_forces(loads.forces_n);
   if (explicit_) explicit_->step(forces_, state_);
   if (projective_) projective_->step(forces_, state_);
-  predicted_ = state_.x;
   // the bound of the collisions would hide what comes next
   const bool wild = !(kinetic_energy(springs_, state_.v) < wild_j_);
   collisions_.resolve(before_, state_, loads.obstacles, loads.spheres);
-  if (projective_) remember(loads.spheres);
   observe();
   report_.diverged |= wild;
 }
@@ -84,13 +70,7 @@ void GutSystem::gather_forces(std::span<const Vec3> forces_n) noexcept {
   for (std::size_t i = 0; i < forces_.size(); ++i) {
     forces_[i] = springs_.mass()[i] * settings_.gravity_m_s2;
     if (!forces_n.empty()) forces_[i] += forces_n[i];
-    forces_[i] += memory_.forces_n()[i];
   }
-}
-
-void GutSystem::remember(std::span<const MovingSphere> spheres) noexcept {
-  for (std::size_t i = 0; i < forces_.size(); ++i) forces_[i] -= memory_.forces_n()[i];
-  memory_.learn(predicted_, forces_, state_, spheres);
 }
 
 void GutSystem::observe() noexcept {

@@ -1,7 +1,6 @@
 // An intestine with its mesentery as a whole: what a step of it is.
 #pragma once
 
-#include "physics/intestine/contact_memory.h"
 #include "physics/intestine/gut_collisions.h"
 #include "physics/intestine/gut_explicit.h"
 #include "physics/intestine/gut_projective.h"
@@ -74,7 +73,6 @@ class GutSystem {
 
  private:
   void gather_forces(std::span<const geometry::Vec3> forces_n) noexcept;
-  void remember(std::span<const MovingSphere> spheres) noexcept;
   void observe() noexcept;
 
   geometry::GutShape shape_;
@@ -84,14 +82,13 @@ class GutSystem {
   std::optional<GutExplicit> explicit_;  // one of the two
   std::optional<GutProjective> projective_;
   GutCollisions collisions_;
-  ContactMemory memory_;
   GutForces energies_;
   GutPlanes x_;  // [masses] of the state, to measure energies
   double wild_j_ = 0;
   GutState state_;
-  std::vector<geometry::Vec3> before_, predicted_;  // [masses]
-  std::vector<geometry::Vec3> forces_;              // [masses], N: weight and loads
-  mutable std::vector<GutBand::Node> yield_;        // [free masses]
+  std::vector<geometry::Vec3> before_;        // [masses]
+  std::vector<geometry::Vec3> forces_;        // [masses], N: weight and loads
+  mutable std::vector<GutBand::Node> yield_;  // [free masses]
   GutReport report_;
 };
 

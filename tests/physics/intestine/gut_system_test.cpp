@@ -177,7 +177,7 @@ double mean_speed_m_s(const GutState& state) {
   return sum / static_cast<double>(state.v.size());
 }
 
-// Corrections that the springs' step knows nothing of kept it trembling at 20 mm/s (contact_memory.h).
+// Corrections that the springs' step knows nothing of kept it trembling at 20 mm/s.
 TEST(GutSystem, AFoldedGutComesToRestOnAPlane) {
   GutSystem gut(geometry::make_gut({}), {}, {.friction = 0.2}, {});
   const std::array plane{floor_at(-0.03)};
