@@ -76,9 +76,7 @@ bool CompletePairs::examine(Listed& pair, std::span<const Vec3> x, double watche
   ++tests_;
   pair.distance_then = places.distance_m + travelled_[s] + travelled_[p];
   if (places.distance_m >= near + ways) return places.distance_m < near + left;
-  found.pairs.push_back({pair.segment, pair.part, places.distance_m});
-  if (reports(parts_, pair.segment, pair.part, places))
-    found.contacts.push_back(contact_of(parts_, x, pair.segment, pair.part, places));
+  found.pairs.push_back({pair.segment, pair.part, places, reports(parts_, pair.segment, pair.part, places)});
   lower_gap(parts_.masses[s], places.distance_m, found.gap);
   lower_gap(parts_.masses[p], places.distance_m, found.gap);
   return true;
@@ -91,7 +89,6 @@ void CompletePairs::find(std::span<const Vec3> x, std::span<const double> way_m,
   if (first || !list_holds()) list_pairs(x, watched_m);
   tests_ = 0;
   found.pairs.clear();
-  found.contacts.clear();
   std::ranges::fill(found.gap, farthest_gap_m());
   std::size_t kept = 0;
   for (Listed& pair : listed_) {
