@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 namespace omentum::physics {
@@ -177,9 +179,8 @@ double mean_speed_m_s(const GutState& state) {
   return sum / static_cast<double>(state.v.size());
 }
 
-// Corrections that the springs' step knows nothing of kept it trembling at 20 mm/s.
 TEST(GutSystem, AFoldedGutComesToRestOnAPlane) {
-  GutSystem gut(geometry::make_gut({}), {}, {.friction = 0.2}, {});
+  GutSystem gut(geometry::make_gut({}), {}, {}, {});
   const std::array plane{floor_at(-0.03)};
   double last_second_m_s = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -187,11 +188,10 @@ TEST(GutSystem, AFoldedGutComesToRestOnAPlane) {
     if (i >= 1800) last_second_m_s += mean_speed_m_s(gut.state()) / 200;
   }
   EXPECT_FALSE(gut.report().diverged);
-  EXPECT_LT(last_second_m_s, 3e-3);
+  EXPECT_LT(last_second_m_s, 1e-3);
   EXPECT_LT(gut.report().collisions.deepest_m, 0.05 * gut.shape().tube_radius_m);
 }
 
-// Bit by bit bounded: what 1,000 probe motions without sense can give a gut.
 TEST(GutSystem, ProbesWithoutSenseGiveItNoEnergyToKeep) {
   GutSystem gut(geometry::make_gut({}), {}, {}, {});
   const std::array plane{floor_at(-0.03)};
@@ -207,10 +207,9 @@ TEST(GutSystem, ProbesWithoutSenseGiveItNoEnergyToKeep) {
     most_j = std::max(most_j, gut.report().kinetic_j + gut.report().elastic_j);
   }
   EXPECT_FALSE(gut.report().diverged);
-  std::printf("most %g J\n", most_j);
+  EXPECT_LT(most_j, 50);  // some ten times what its weight gives it
   for (int i = 0; i < 400; ++i) gut.step({.obstacles = plane});
   EXPECT_LT(gut.report().kinetic_j, 0.05);
-  std::printf("then %g %g J\n", gut.report().kinetic_j, gut.report().elastic_j);
 }
 
 }  // namespace
