@@ -136,7 +136,9 @@ void ActivePairs::look_over_sheet(Active& pair) noexcept {
   if (entry == nullptr || entry->value.places.other.minCoeff() > 0) return;
   Eigen::Index corner = 0;
   entry->value.places.other.maxCoeff(&corner);
-  for (const std::int32_t part : around(parts_, parts_.masses[static_cast<std::size_t>(old.part)][corner]))
+  const std::int32_t triangle = old.part - parts_.layout.segment_count();
+  for (const std::int32_t part :
+       around(parts_, parts_.layout.triangle(triangle)[static_cast<std::size_t>(corner)]))
     try_pair(old.segment, part, pair);
 }
 

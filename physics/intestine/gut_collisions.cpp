@@ -96,6 +96,19 @@ void GutCollisions::find_pairs(std::span<const Vec3> before) noexcept {
   }
   finder_->find(before, way_, watched_m(), near_);
   std::ranges::copy(near_.gap, gap_.begin());
+  spread_gaps();
+}
+
+// Masses between two columns of the parts go no farther than these.
+void GutCollisions::spread_gaps() noexcept {
+  const geometry::GutLayout& gut = parts_.gut;
+  for (MassId m(0); parts_.stride > 1 && m < gut.mass_count(); m = MassId(m + 1)) {
+    const std::int32_t row = gut.row(m), column = gut.column(m), since = column % parts_.stride;
+    if (since == 0) continue;
+    const MassId before = gut.mass(row, column - since);
+    const MassId after = gut.mass(row, std::min(column - since + parts_.stride, gut.columns - 1));
+    gap_[m] = std::min({gap_[m], gap_[before], gap_[after]});
+  }
 }
 
 double GutCollisions::watched_m() const noexcept {
@@ -119,11 +132,11 @@ void GutCollisions::gather_walls(std::span<const GutObstacle> obstacles) noexcep
   std::int32_t key = -1 - settings_.most_spheres;
   for (const GutObstacle& obstacle : obstacles) {
     --key;
-    for (MassId m(0); m < parts_.layout.mass_count(); m = MassId(m + 1)) {
+    for (MassId m(0); m < parts_.gut.mass_count(); m = MassId(m + 1)) {
       if (inverse_mass_[m] == 0 || contacts_.size() == contacts_.capacity()) continue;
       const WallPlace wall = place_at_wall(obstacle, x_[m]);
       const double radius = parts_.reach.tube_m / 2;
-      const double reach = parts_.layout.row(m) == 0 ? radius : parts_.reach.mesentery_m - radius;
+      const double reach = parts_.gut.row(m) == 0 ? radius : parts_.reach.mesentery_m - radius;
       if (wall.depth_m >= reach + watched_m()) continue;
       contacts_.push_back({.one = {{m, MassId(), MassId()}, {1, 0, 0}},
                            .other = {},
@@ -136,7 +149,7 @@ void GutCollisions::gather_walls(std::span<const GutObstacle> obstacles) noexcep
 }
 
 void GutCollisions::gather_spheres(std::span<const MovingSphere> spheres) noexcept {
-  const auto masses = static_cast<std::size_t>(parts_.layout.mass_count());
+  const auto masses = static_cast<std::size_t>(parts_.gut.mass_count());
   if (spheres.empty()) return;
   const std::span<const Vec3> x = std::span(x_).first(masses);
   spheres_.look_at(x);
@@ -161,7 +174,7 @@ void GutCollisions::remember_pushes() noexcept {
 }
 
 void GutCollisions::tell_spheres(std::size_t count) noexcept {
-  const auto masses = static_cast<std::size_t>(parts_.layout.mass_count());
+  const auto masses = static_cast<std::size_t>(parts_.gut.mass_count());
   for (std::size_t k = 0; k < count; ++k) outcomes_.push_back({.reached = x_[masses + k]});
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const std::int32_t other = contacts_[c].other.mass[0];

@@ -89,6 +89,7 @@ class GutCollisions {
   void take_in(std::span<const geometry::Vec3> before, const GutState& state,
                std::span<const MovingSphere> spheres) noexcept;
   void find_pairs(std::span<const geometry::Vec3> before) noexcept;
+  void spread_gaps() noexcept;
   void hold_back(std::size_t count) noexcept;
   void gather_pairs(std::span<const geometry::Vec3> before) noexcept;
   void gather_spheres(std::span<const MovingSphere> spheres) noexcept;
