@@ -1,6 +1,6 @@
 #include "physics/intestine/gut_collisions.h"
 
-#include "tests/physics/intestine/folded_gut.h"
+#include "tests/physics/intestine/restless_gut.h"
 #include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
