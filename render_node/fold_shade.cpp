@@ -8,7 +8,7 @@
 namespace omentum::render {
 namespace {
 
-constexpr float kSight = 5;  // radii: a ball farther away hides less than a twenty-fifth of the sky
+constexpr float kSight = 4;  // radii: a ball farther away hides less than a sixteenth of the sky
 
 }  // namespace
 

@@ -10,9 +10,9 @@ const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
 // Bile through a thin wall: dull green-blue, under a smooth and wetter serosa.
 const Material kGallbladder{{0.040f, 0.086f, 0.064f}, 0.0f, 0.17f};
 // Small bowel: pink serosa over muscle, thin and shining.
-const Material kGut{{0.40f, 0.135f, 0.105f}, 0.0f, 0.22f};
+const Material kGut{{0.395f, 0.158f, 0.128f}, 0.0f, 0.22f};
 // Fat under a clear film: yellow, wetter than the gut.
-const Material kMesentery{{0.44f, 0.255f, 0.098f}, 0.0f, 0.26f};
+const Material kMesentery{{0.50f, 0.335f, 0.155f}, 0.0f, 0.26f};
 // Large bowel: paler and greyer, its fat shines through.
 const Material kColon{{0.33f, 0.150f, 0.105f}, 0.0f, 0.26f};
 // Without the capsule's veil: the deeper, duller red of parenchyma full of blood, wet with it; the mucosa of

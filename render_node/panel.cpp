@@ -231,9 +231,11 @@ void strain_scale() {
 }
 
 void organs(const PanelView& view) {
-  ImGui::TextUnformatted("deepest dent");
-  ImGui::SameLine();
-  right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  if (view.dents) {
+    ImGui::TextUnformatted("deepest dent");
+    ImGui::SameLine();
+    right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  }
   if (view.exposed_share) {
     const std::string share = format("%.0f %%", 100 * *view.exposed_share);
     ImGui::TextUnformatted(beside(share, view.exposed_organ + " exposed").c_str());

@@ -65,6 +65,7 @@ struct PanelView {
   std::string exposed_organ;    // of which the share below is told
   std::optional<double>
       exposed_share;   // that nothing hides; none: the scene asks for none, or it is out of sight
+  bool dents = true;   // an organ here has a surface that tools dent
   double dent_mm = 0;  // the deepest of this moment (dent.h)
   std::vector<OrganRow> organs;
   std::uint64_t incomplete_states = 0;

@@ -34,6 +34,14 @@ Vec3 viewing_direction(const scene::Scene& scene) {
   return std::sqrt(1 - height * height) * from + height * Vec3::UnitZ();
 }
 
+// Of the plane that organs fall on, if the scene has one.
+std::optional<double> table_height(const scene::Scene& scene) {
+  constexpr double kLevel = 0.999;  // cosine of its slope: a drape is drawn level
+  for (const scene::ObstacleSpec& obstacle : scene.obstacles)
+    if (obstacle.shape == "plane" && obstacle.normal.z() > kLevel) return obstacle.centre.z();
+  return std::nullopt;
+}
+
 std::vector<std::unique_ptr<OrganDrawing>> drawings_of(const std::vector<OrganShape>& organs) {
   std::vector<std::unique_ptr<OrganDrawing>> drawings;
   for (const OrganShape& shape : organs) drawings.push_back(make_drawing(shape));
@@ -97,7 +105,7 @@ SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<Orga
       parts.push_back({std::move(part), mesh});
     }
   }
-  const MeshData ground = ground_under(all, normals, ball_, area);
+  const MeshData ground = ground_under(all, normals, ball_, area, table_height(scene));
   ground_m_ = ground.vertices.front().position.z();
   ground_ = renderer.add_mesh(ground);
   arrow_shaft_ = renderer.add_mesh(unit_shaft());

@@ -210,7 +210,7 @@ void SheetSkin::write_faces() {
         vertex.normal = face == 0 ? normals_[i] : Vec3f(-normals_[i]);
         vertex.position = middle_[i] + half_m_ * vertex.normal;
         vertex.openness = between_masses(openness_[face], r, c);
-        vertex.strain = between_masses(strain_, r, c);
+        if (maps_strain_) vertex.strain = between_masses(strain_, r, c);
       }
     }
   }

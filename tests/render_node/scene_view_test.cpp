@@ -89,6 +89,18 @@ TEST(SceneView, OrganFollowsItsState) {
   EXPECT_EQ(stage.renderer.updates, 1);
 }
 
+TEST(SceneView, TheGroundIsThePlaneThatOrgansFallOn) {
+  const auto height_in = [](const scene::Scene& scene) {
+    Stage stage(scene);
+    return stage.renderer.mesh_of(with_look(stage.frame({}), Look::kGround).at(0)).vertices[0].position.z();
+  };
+  scene::Scene scene = scene_with({});
+  EXPECT_NEAR(height_in(scene), -kRadius, 0.1 * kRadius) << "under the ball";
+  scene.obstacles = {{.shape = "plane", .centre = Vec3(1, 2, -0.3), .normal = Vec3::UnitX()},
+                     {.shape = "plane", .centre = Vec3(1, 2, -0.2)}};
+  EXPECT_NEAR(height_in(scene), -0.2, kFloat);
+}
+
 // A ball behind another one, as the scene's own camera sees them.
 TEST(SceneView, AnOrganIsExposedAsFarAsOthersAndToolsLeaveIt) {
   scene::Scene scene = scene_with({"probe"});

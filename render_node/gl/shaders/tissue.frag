@@ -22,7 +22,11 @@ const vec3 creep = vec3(0.26, 0.10, 0.08);
 const float scattered = 0.35;  // more, where light creeps: what entered elsewhere comes out there
 
 // The relief of the capsule: slopes of mottling and grain; grain is seen up to this many unit_lengths away.
+#ifdef GUT
+const float mottle_slope = 0.20, grain_slope = 0.06, grain_sight = 5.0;  // stretched over what it holds
+#else
 const float mottle_slope = 0.20, grain_slope = 0.13, grain_sight = 5.0;
+#endif
 const float soft_relief = 0.3;  // of it shades the body: light inside tissue does not see the capsule's grain
 
 #ifdef CUT
@@ -55,23 +59,23 @@ float off_vessel(vec2 p) {
 #endif
 
 #ifdef GUT
-// Fine vessels, where the noise of this period crosses its middle; their half width and tint, and how many there are. Rings
-// of muscle, so far from each other, m: how much they tilt the wall and how much paler their ridges are.
-const float web_period = 0.082, web_width = 0.00026, web_share = 0.55;
-const vec3 web_tint = vec3(0.24, 0.030, 0.028);
-const float ring_spacing = 0.0052, ring_slope = 0.14, ring_pale = 0.07, ring_bend = 0.9;
+// Fine vessels under the serosa, where a slow noise of this period crosses its middle; their half width, m, their tint,
+// and how strongly they show.
+const float web_period = 0.17, web_width = 0.0003, web_share = 0.4;
+const vec3 web_tint = vec3(0.20, 0.030, 0.030);
 #endif
 
 #ifdef SHEET
 // A tree of vessels: trunks at the root, each parting into two from belt to belt on its way to the gut. The belts' width, m,
-// the distance of the last branches, the half width of a branch there and how much it grows away from the gut; an artery
-// and, beside it, a vein. Fat stands along them, lobed, and thins out in between to a reddish film.
-const float belt = 0.036, branch_spacing = 0.021, branch_width = 0.0006, branch_growth = 16.0, branch_meander = 0.012;
-const vec3 artery_tint = vec3(0.27, 0.028, 0.022), vein_tint = vec3(0.082, 0.022, 0.045);
+// the distance of the last branches, the half width of a branch there and how much it grows away from the gut, 1/m; an
+// artery and, beside it, a vein. Fat stands along them, lobed, and thins out in between to a reddish film.
+const float belt = 0.036, branch_spacing = 0.021, branch_width = 0.00055, branch_growth = 14.0;
+const float meander_period = 0.26, meander_reach = 0.028;
+const vec3 artery_tint = vec3(0.25, 0.035, 0.028), vein_tint = vec3(0.090, 0.034, 0.060);
 const float vein_beside = 3.4;  // half widths
-const vec3 film_tint = vec3(0.86, 0.52, 0.60);
-const float fat_reach = 0.34;   // of the way from a branch to the next
-const float lobe_period = 0.021, lobe_slope = 0.42, lobe_weight = 0.55;
+const vec3 film_tint = vec3(0.37, 0.185, 0.130);
+const float fat_reach = 0.2;    // of the way from a branch to the next
+const float lobe_period = 0.026, lobe_slope = 0.34, lobe_weight = 0.45;
 
 // How far along the gut a place is from the nearest branch, m, and from the next one, as the share of half their distance.
 vec2 off_branch(vec2 p) {
@@ -109,16 +113,6 @@ const float smoothest = 0.8, roughened = 0.5;
 const float key_glint = 1.5, fill_glint = 1.3;
 const float mirror_straight = 0.045, mirror_grazing = 0.75, mirror_blur = 0.25, mirror_in_shade = 0.4;
 
-#ifdef GUT
-// How a value of the surface changes from place to place of W, 1/m of it (Mikkelsen 2010).
-vec3 slope_of(float value, vec3 n) {
-  vec3 right = dFdx(p_W), up = dFdy(p_W);
-  vec3 of_right = cross(up, n), of_up = cross(n, right);
-  float area = dot(right, of_right);
-  return (dFdx(value) * of_right + dFdy(value) * of_up) / (abs(area) > 1e-14 ? area : 1e-14);
-}
-#endif
-
 vec3 wrapped(float n_dot_l) {
   vec3 w = clamp((vec3(n_dot_l) + creep) / (1.0 + creep), 0.0, 1.0);
   return w * w * (1.0 + scattered * (1.0 - w));
@@ -136,11 +130,6 @@ void main() {
   vec4 lobules = texture(pattern, rest.zxy / lobule_period);
   slope += (lobules.gbr - 0.5) * lobule_slope * near;
 #endif
-#ifdef GUT
-  float turns = rest.x / ring_spacing + ring_bend * (mottle.a - 0.5) * 8.0;
-  float ring = sin(2.0 * pi * turns), strength = near * smoothstep(0.35, 0.75, fine.a);
-  slope += ring_slope * strength * cos(2.0 * pi * turns) * slope_of(rest.x, n0);
-#endif
 #ifdef SHEET
   vec4 lobes = texture(pattern, rest / lobe_period);
   slope += (lobes.rgb - 0.5) * lobe_slope * near;
@@ -153,20 +142,19 @@ void main() {
   vec3 albedo = material_colour * (1.0 + contrast * spot);
   albedo = mix(albedo, albedo * blood_tint, clamp(-spot, 0.0, 1.0));
 #ifdef GUT
-  albedo *= 1.0 + ring_pale * ring * strength;
-  vec4 web = texture(pattern, rest.zxy / web_period);
-  float off_web = abs(web.a - 0.5), web_blur = fwidth(web.a);
-  float drawn = web_width / web_period * 8.0;
-  float thread = 1.0 - smoothstep(drawn, drawn + 1.5 * web_blur, off_web);
-  albedo = mix(albedo, web_tint, web_share * thread * smoothstep(0.42, 0.62, mottle.a) * min(1.0, drawn / web_blur));
+  float crossing = texture(pattern, rest.zxy / web_period).a - 0.5, from_pixel = fwidth(crossing);
+  float half_width = web_width * max(from_pixel, 1e-4) / max(length(fwidth(p_W)), 1e-6);
+  float thread = 1.0 - smoothstep(half_width, half_width + from_pixel, abs(crossing));
+  albedo = mix(albedo, web_tint, web_share * thread * smoothstep(0.40, 0.65, mottle.a));
 #endif
 #ifdef SHEET
-  vec2 bent = rest.xy + branch_meander * (mottle.rg - 0.5);
+  vec2 sway = vec2(texture(pattern, rest / meander_period).a, texture(pattern, rest.yxz / meander_period + 0.37).a);
+  vec2 bent = rest.xy + meander_reach * (sway - 0.5);
   vec2 off = off_branch(bent);
   float width = branch_width * (1.0 + branch_growth * max(0.0, rest.y));
   albedo *= 1.0 + lobe_weight * (lobes.a - 0.5);
-  float fat = 1.0 - smoothstep(fat_reach, 1.0, off.y + 0.5 * (lobes.a - 0.5));
-  albedo = mix(albedo * film_tint, albedo, fat);
+  float fat = 1.0 - smoothstep(fat_reach, 1.1, off.y + 0.8 * (lobes.a - 0.5));
+  albedo = mix(film_tint, albedo, fat);
   float blur = fwidth(bent.x) + 0.0001, beside = off.x - vein_beside * width;
   albedo = mix(vein_tint, albedo, 0.35 + 0.65 * smoothstep(width, width + blur, abs(beside)));
   albedo = mix(artery_tint, albedo, 0.25 + 0.75 * smoothstep(width, width + blur, abs(off.x)));

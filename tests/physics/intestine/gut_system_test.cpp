@@ -1,11 +1,14 @@
 #include "physics/intestine/gut_system.h"
 
+#include "geometry/gut_anatomy.h"
 #include "tests/physics/intestine/gut_shapes.h"
 #include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 namespace omentum::physics {
@@ -168,6 +171,45 @@ TEST(GutSystem, AHandThatPullsFeelsTheMesenteryTighten) {
     EXPECT_GT(way_m, last_m) << force_n << " N";
     last_m = way_m;
   }
+}
+
+double mean_speed_m_s(const GutState& state) {
+  double sum = 0;
+  for (const Vec3& v : state.v) sum += v.norm();
+  return sum / static_cast<double>(state.v.size());
+}
+
+TEST(GutSystem, AFoldedGutComesToRestOnAPlane) {
+  GutSystem gut(geometry::make_gut({}), {}, {}, {});
+  const std::array plane{floor_at(-0.03)};
+  double last_second_m_s = 0;
+  for (int i = 0; i < 2000; ++i) {
+    gut.step({.obstacles = plane});
+    if (i >= 1800) last_second_m_s += mean_speed_m_s(gut.state()) / 200;
+  }
+  EXPECT_FALSE(gut.report().diverged);
+  EXPECT_LT(last_second_m_s, 1e-3);
+  EXPECT_LT(gut.report().collisions.deepest_m, 0.05 * gut.shape().tube_radius_m);
+}
+
+TEST(GutSystem, ProbesWithoutSenseGiveItNoEnergyToKeep) {
+  GutSystem gut(geometry::make_gut({}), {}, {}, {});
+  const std::array plane{floor_at(-0.03)};
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> place(-0.2, 0.2);
+  Vec3 at(0, 0, 0.5);
+  double most_j = 0;
+  for (int motion = 0; motion < 1000; ++motion) {
+    const Vec3 to(place(generator), place(generator), std::abs(place(generator)));
+    const std::array probe{MovingSphere{.before = at, .after = to, .radius_m = 0.01}};
+    gut.step({.obstacles = plane, .spheres = probe});
+    at = gut.outcomes()[0].reached;
+    most_j = std::max(most_j, gut.report().kinetic_j + gut.report().elastic_j);
+  }
+  EXPECT_FALSE(gut.report().diverged);
+  EXPECT_LT(most_j, 50);  // some ten times what its weight gives it
+  for (int i = 0; i < 400; ++i) gut.step({.obstacles = plane});
+  EXPECT_LT(gut.report().kinetic_j, 0.05);
 }
 
 }  // namespace
