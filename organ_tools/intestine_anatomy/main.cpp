@@ -124,7 +124,7 @@ Vec3 parse_direction(const std::string& from) {
   return Vec3(found->data()).normalized();
 }
 
-// With as many masses as 4 x 4000, every pair takes a minute: then the generator's own check is all.
+// With 4 x 4000 masses every pair takes a quarter of a minute: then the generator's own check is all.
 constexpr std::int32_t kMeasuredColumns = 1200;
 
 std::vector<std::string> describe(const GutAnatomy& anatomy, const geometry::GutShape& gut) {

@@ -156,6 +156,24 @@ TEST(GutAnatomy, LiesWhereItIsPlaced) {
   EXPECT_GT(mean.dot(placed.up), 0) << "the folds lie on the side of `up`";
 }
 
+TEST(GutAnatomy, FourGutsLieInOneCavityByTheirPlacement) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const double x : {-0.18, 0.18}) {
+    for (const double y : {-0.16, 0.16}) {
+      GutAnatomy anatomy = fine_anatomy(1000);
+      anatomy.origin = {x, y, 0};
+      const GutShape gut = make_gut(anatomy);
+      Eigen::AlignedBox3d box;
+      for (const Vec3& p : gut.positions) {
+        box.extend(p + Vec3::Constant(gut.tube_radius_m));
+        box.extend(p - Vec3::Constant(gut.tube_radius_m));
+      }
+      for (const auto& other : boxes) EXPECT_TRUE(box.intersection(other).isEmpty());
+      boxes.push_back(box);
+    }
+  }
+}
+
 TEST(GutAnatomy, OnePassThroughAnotherFoldIsFoundByBothChecks) {
   GutShape gut = make_gut({});
   const MassId moved = gut.layout.mass(0, 40);
