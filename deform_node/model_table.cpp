@@ -1,6 +1,7 @@
 #include "deform_node/model_table.h"
 
 #include "deform_node/dynamic_maker.h"
+#include "deform_node/gut_maker.h"
 #include "deform_node/quasi_static_model.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ constexpr std::array kTable{
     ModelEntry{"tensor-mass", organ::Load::kMeshOnly, make_tensor_mass},
     ModelEntry{"corotational", organ::Load::kMeshOnly, make_corotational},
     ModelEntry{"spring-mass", organ::Load::kMeshOnly, make_spring_mass},
+    ModelEntry{"intestine", organ::Load::kMeshOnly, make_intestine},
 };
 
 }  // namespace

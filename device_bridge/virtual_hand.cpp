@@ -65,7 +65,7 @@ Measurement VirtualHand::measure(std::int64_t now_ns) noexcept {
           .orientation = orientation_,
           .linear_velocity = tip_.velocity,
           .angular_velocity = angular_velocity(before, orientation_, period_s_),
-          .grip = 0,
+          .grip = script_.grip_rad,
           .buttons = hand_.cut && script_.phase == Phase::kSlide ? msg::BUTTON_CUT : 0};
 }
 

@@ -159,6 +159,7 @@ std::optional<LocalPatch> LocalModels::accept(const Heard& heard, Patch& patch) 
   LocalPatch told = patch_of_message(heard.model);
   told.tool = patch.tool;
   told.arrival_ns = heard.arrival_ns;
+  told.bends_freely = organ.known->bends_freely;
   std::optional<std::string> why;
   if (const char* late = too_late(heard, patch)) why = late;
   if (!why && !told.nodes.empty()) why = reason_against(told, setup_.model.organs.size());

@@ -1,5 +1,7 @@
 #include "render_node/organ_drawing.h"
 
+#include "render_node/tube_drawing.h"
+
 #include <optional>
 #include <stdexcept>
 
@@ -77,6 +79,8 @@ std::unique_ptr<OrganDrawing> make_drawing(const OrganShape& shape) {
   switch (shape.kind) {
     case scene::OrganKind::kTetrahedralMesh:
       return std::make_unique<SurfaceDrawing>(shape);
+    case scene::OrganKind::kTube:
+      return make_tube_drawing(*shape.gut, shape.material);
   }
   throw std::invalid_argument("an organ of a kind that nobody draws");
 }

@@ -1,6 +1,7 @@
 // What is drawn of an organ: chosen by its kind, in one place.
 #pragma once
 
+#include "geometry/gut_shape.h"
 #include "render_node/organ_look.h"
 #include "render_node/organ_skin.h"
 #include "scene/scene.h"
@@ -19,6 +20,7 @@ struct OrganShape {
   Material bared = bared_material("liver");
   // What the surface bounds; null: it is never cut. Shared, because shapes are copied and meshes are large.
   std::shared_ptr<const geometry::TetraMesh> mesh{};
+  std::shared_ptr<const geometry::GutShape> gut{};  // of a tube, which has no surface of its own; else null
 };
 
 /// A surface that tools press: its skin, and which of its nodes a file's node is.
@@ -46,6 +48,13 @@ enum class CutOutcome {
   kCut,     // more lies bare, or less
 };
 
+/// A further mesh of an organ, with a material of its own: as many vertices and triangles as ever.
+struct OrganPart {
+  const MeshData* mesh;
+  Look look;
+  Material material;
+};
+
 /// From the values of an organ's states to lit vertices. One thread, the renderer's.
 class OrganDrawing {
  public:
@@ -70,6 +79,11 @@ class OrganDrawing {
   /// Tetrahedra, now.
   virtual std::int32_t removed_count() const { return 0; }
   virtual Material material() const = 0;
+  virtual Look look() const { return Look::kTissue; }
+  /// What is drawn beside mesh() and moves with it, always the same parts.
+  virtual std::vector<OrganPart> parts() const { return {}; }
+  /// How long it is now, m; 0 for an organ that is not one long tube.
+  virtual double length_m() const { return 0; }
   /// Where tools dent it; null for an organ without such a surface.
   virtual const PressedSurface* surface() const { return nullptr; }
 };

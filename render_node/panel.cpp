@@ -197,6 +197,11 @@ void organ_line(const OrganRow& row) {
     ImGui::SameLine();
     right_aligned(format("%d", row.removed_tetrahedra).c_str());
   }
+  if (row.length_mm > 0) {
+    ImGui::TextUnformatted((of + "length").c_str());
+    ImGui::SameLine();
+    right_aligned(format("%.2f m", 1e-3 * row.length_mm).c_str());
+  }
   if (row.beyond_linear()) {
     ImGui::TextColored(kAmber, "%smoved %.0f mm: beyond linear range (%.0f mm)", of.c_str(), row.moved_mm,
                        row.limit_mm);
@@ -226,9 +231,17 @@ void strain_scale() {
 }
 
 void organs(const PanelView& view) {
-  ImGui::TextUnformatted("deepest dent");
-  ImGui::SameLine();
-  right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  if (view.dents) {
+    ImGui::TextUnformatted("deepest dent");
+    ImGui::SameLine();
+    right_aligned(format("%.1f mm", view.dent_mm).c_str());
+  }
+  if (view.exposed_share) {
+    const std::string share = format("%.0f %%", 100 * *view.exposed_share);
+    ImGui::TextUnformatted(beside(share, view.exposed_organ + " exposed").c_str());
+    ImGui::SameLine();
+    right_aligned(share.c_str());
+  }
   if (view.strain) strain_scale();
   if (view.real_time_factor > 0) {
     ImGui::TextUnformatted("real time");

@@ -41,6 +41,7 @@ struct OrganRow {
   std::int64_t age_ns = 0;  // of the newest state; where none came, since the start
   std::string name = {};    // empty where the scene has no other
   std::int32_t removed_tetrahedra = 0;
+  double length_mm = 0;  // of one long tube; 0 of any other
 
   bool beyond_linear() const { return moved_mm > limit_mm; }
   bool stale() const { return age_ns > kStaleState_ns; }
@@ -61,7 +62,11 @@ struct PanelView {
   double hand_to_force_us = 0, hand_to_force_p99_us = 0;
   double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
   double real_time_factor = 0;  // of the organs that live in time of their own; 0: none does
-  double dent_mm = 0;           // the deepest of this moment (dent.h)
+  std::string exposed_organ;    // of which the share below is told
+  std::optional<double>
+      exposed_share;   // that nothing hides; none: the scene asks for none, or it is out of sight
+  bool dents = true;   // an organ here has a surface that tools dent
+  double dent_mm = 0;  // the deepest of this moment (dent.h)
   std::vector<OrganRow> organs;
   std::uint64_t incomplete_states = 0;
   std::vector<std::string> faults;  // of all nodes, their name in front

@@ -1,6 +1,7 @@
 // The node around the renderer: topics in, frames and pictures out.
 #pragma once
 
+#include "render_node/exposure_score.h"
 #include "render_node/frame_rate_control.h"
 #include "render_node/panel.h"
 #include "render_node/picture_schedule.h"
@@ -28,6 +29,9 @@ struct RenderOptions {
   bool no_panel = false;
 };
 
+/// Of an organ that is to be exposed so many pixels are looked at: a hundredth of it is seen in some tens.
+inline constexpr Size kExposureSize{160, 120};
+
 /// Owns the scene's drawing and the node's life on the bus. The renderer's thread.
 class RenderLoop {
  public:
@@ -40,7 +44,8 @@ class RenderLoop {
   /// std::runtime_error when deform_node turns out to serve another organ.
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
-  /// window, `deepest_dent_m` (dent.h) and `unmatched_states` (inbox.h).
+  /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h) and, where the scene
+  /// names an organ to expose, `exposed_share` (exposure_score.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.
@@ -56,6 +61,7 @@ class RenderLoop {
   RenderLoop(const RenderOptions& options, const Loaded& loaded, const transport::OpenBus& open_bus,
              Renderer& renderer, runtime::Pace& pace);
   void frame(bool last);
+  void measure_exposure(std::int64_t now_ns);
   void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
   void finish_frame(std::int64_t begin_ns, bool for_disk);
@@ -85,6 +91,11 @@ class RenderLoop {
   runtime::TickAccount account_;  // frames, not the pace's ticks: a slow machine skips some of those
   bool closed_ = false;           // the window, by a person
   std::int64_t next_status_ns_ = 0;
+  std::string exposed_organ_;             // the scene's
+  std::optional<std::size_t> to_expose_;  // its place among the organs
+  ExposureRaster raster_{kExposureSize};
+  ExposureScore exposure_;
+  std::int64_t next_exposure_ns_ = 0;
   msg::NodeStatus status_;
 
   // declared last: callbacks end before what they touch

@@ -45,13 +45,15 @@ enum class MeshId : std::uint32_t {};
 
 /// How light meets a surface.
 enum class Look : std::uint8_t {
-  kTissue,  // wet, translucent, patterned
-  kCut,     // the same, of an organ that was cut: heat may have charred it
-  kBared,   // the inside of tissue, where it was cut or torn
-  kStrain,  // tissue as a map of its strain (surface_strain.h)
-  kSolid,   // metal or plastic
-  kGround,  // the drape below, fading into the background
-  kSignal,  // arrows and markers: not part of the world, drawn over it, nearly unlit
+  kTissue,     // wet, translucent, patterned
+  kCut,        // the same, of an organ that was cut: heat may have charred it
+  kBared,      // the inside of tissue, where it was cut or torn
+  kGut,        // tissue of a tube: fine vessels, rings of muscle
+  kMesentery,  // a sheet of fat and vessels
+  kStrain,     // tissue as a map of its strain (surface_strain.h)
+  kSolid,      // metal or plastic
+  kGround,     // the drape below, fading into the background
+  kSignal,     // arrows and markers: not part of the world, drawn over it, nearly unlit
 };
 
 /// Colours are linear (not gamma-encoded) sRGB primaries.

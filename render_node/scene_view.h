@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render_node/close_up.h"
+#include "render_node/exposure_raster.h"
 #include "render_node/instrument_shape.h"
 #include "render_node/organ_drawing.h"
 
@@ -60,11 +61,18 @@ class SceneView {
   /// The dent that a tool presses; none where it touches nothing.
   std::optional<Dent> dent_of(const ToolNow& tool) const;
 
+  /// The share of an organ that nothing hides, tools included, as the scene's own camera or its endoscope
+  /// sees it, wherever a person turned the picture; none where it is out of sight. Draws into `raster`.
+  std::optional<double> exposed_share(std::size_t organ, std::span<const ToolNow> tools,
+                                      ExposureRaster& raster) const;
+
   /// Where the orbit camera starts.
   Camera first_camera() const;
   const Ball& ball() const { return ball_; }
   /// Tetrahedra of an organ as it is drawn.
   std::int32_t removed_count(std::size_t organ) const { return organs_[organ].drawing->removed_count(); }
+  /// Of an organ that is one long tube, m; 0 of any other.
+  double length_m(std::size_t organ) const { return organs_[organ].drawing->length_m(); }
   /// Null for an organ that tools do not dent.
   const PressedSurface* surface(std::size_t organ) const { return organs_[organ].drawing->surface(); }
   std::size_t organ_count() const { return organs_.size(); }
@@ -74,17 +82,20 @@ class SceneView {
     std::unique_ptr<OrganDrawing> drawing;
     MeshId mesh{};
     std::optional<MeshId> bared{};  // made when it is first cut
+    std::vector<MeshId> parts;      // as the drawing has them
   };
   struct DrawnPart {
     InstrumentPart part;
     MeshId mesh{};
   };
+  void send_vertices(const DrawnOrgan& organ);
   void show_cut(DrawnOrgan& organ);
   const PressedSurface* touched_surface(const ToolNow& tool) const;
   Ball shadow_ball() const;  // what the shadow map covers
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;
   Frame frame_from(const Camera& camera, const ViewChoices& choices, std::span<const ToolNow> tools,
                    double panel_share) const;
+  static void add_organ(const DrawnOrgan& organ, bool strain, std::vector<DrawItem>& items);
   void add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;

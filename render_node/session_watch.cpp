@@ -174,14 +174,17 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   panel.hand_to_picture_us = hand_to_picture_.percentile_us(0.5);
   panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
   panel.real_time_factor = real_time_factor(statuses_, now_ns);
+  panel.dents = false;
   panel.dent_mm = dent_ ? 1e3 * dent_->depth_m : 0;
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
     OrganRow& row = panel.organs.emplace_back();
     if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
     row.known = state_arrived_ns_[i] > 0;
     row.removed_tetrahedra = view.removed_count(i);
+    row.length_mm = 1e3 * view.length_m(i);
     row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);
     if (const PressedSurface* surface = view.surface(i)) {
+      panel.dents = true;
       row.moved_mm = 1e3 * surface->skin.largest_displacement_m();
       row.limit_mm = 1e3 * kLinearShare * surface->skin.extent_m();
     }

@@ -95,10 +95,10 @@ MeshData unit_ball() {
 }
 
 MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
-                      const Ball& ball, double surface_area_m2) {
+                      const Ball& ball, double surface_area_m2, std::optional<double> height_m) {
   double lowest = ball.centre.z();
   for (const Vec3& p : surface_positions) lowest = std::min(lowest, p.z());
-  const Vec3 middle(ball.centre.x(), ball.centre.y(), lowest - kGroundGap * ball.radius);
+  const Vec3 middle(ball.centre.x(), ball.centre.y(), height_m.value_or(lowest - kGroundGap * ball.radius));
 
   // the share of the sky above `g` that one surface element hides is its form factor
   const std::size_t stride = std::max<std::size_t>(1, surface_positions.size() / kGroundSamples);

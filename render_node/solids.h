@@ -4,6 +4,8 @@
 #include "render_node/camera.h"
 #include "render_node/renderer.h"
 
+#include <optional>
+
 namespace omentum::render {
 
 /// Smooth normals except over edges sharper than the crease angle, where corners are doubled.
@@ -25,8 +27,9 @@ MeshData unit_head();
 MeshData unit_ball();
 
 /// A round drape under an organ, in W: `openness` is the share of the sky that the organ leaves free (the sum
-/// of the form factors of its surface elements), so that it seems to rest on it.
+/// of the form factors of its surface elements), so that it seems to rest on it. It lies just below the
+/// lowest place, or at `height_m`.
 MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
-                      const Ball& ball, double surface_area_m2);
+                      const Ball& ball, double surface_area_m2, std::optional<double> height_m = {});
 
 }  // namespace omentum::render

@@ -2,6 +2,8 @@
 
 #include "messages/common.h"
 #include "scene/dynamics_keys.h"
+#include "scene/hand_way_keys.h"
+#include "scene/intestine_keys.h"
 #include "scene/toml_section.h"
 
 #include <algorithm>
@@ -13,9 +15,10 @@ namespace {
 
 using enum TomlSection::Need;
 
-// What organ_phantom makes: the liver in two sizes, its gallbladder, and two pieces of tissue.
-constexpr std::array<std::string_view, 5> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder",
-                                                    "phantom:plate", "phantom:cylinder"};
+// What organ_phantom makes: the liver in two sizes, its gallbladder, the colon, and two pieces of
+// tissue.
+constexpr std::array<std::string_view, 6> kPhantoms{"phantom:paper", "phantom:fine",  "phantom:gallbladder",
+                                                    "phantom:colon", "phantom:plate", "phantom:cylinder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
@@ -47,7 +50,12 @@ void read_model(TomlSection& s, OrganSpec& organ) {
   s.read_word("model", organ.model, kOptional, words);
   const OrganModelWord& chosen = *std::ranges::find(kOrganModels, organ.model, &OrganModelWord::word);
   organ.kind = chosen.kind;
-  if (chosen.feel == Feel::kLocalModels) organ.dynamics = read_dynamics(s, organ.model);
+  if (chosen.kind == OrganKind::kTube) {
+    organ.intestine = read_intestine(s);
+    organ.look = "gut";
+  } else if (chosen.feel == Feel::kLocalModels) {
+    organ.dynamics = read_dynamics(s, organ.model);
+  }
 }
 
 RegionSpec read_region(TomlSection& s, bool tears) {
@@ -70,11 +78,8 @@ RegionSpec read_region(TomlSection& s, bool tears) {
   return region;
 }
 
-OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
-  OrganSpec organ;
+void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& organ) {
   std::string file;
-  s.read("name", organ.name, kRequired);
-  read_model(s, organ);
   s.read("mesh", organ.mesh, kRequired);
   s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
   s.read("young_pa", organ.young_pa, kRequired, kPositive);
@@ -84,16 +89,23 @@ OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions"))
     organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
-  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder"});
-  s.refuse_unknown_keys();
+  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder", "colon"});
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();
   } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
     s.refuse("mesh", "\"" + organ.mesh + "\"",
-             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:plate\", "
-             "\"phantom:cylinder\" or a file");
+             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:colon\", "
+             "\"phantom:plate\", \"phantom:cylinder\" or a file");
   }
   if (!file.empty()) organ.file = beside(scene, file);
+}
+
+OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
+  OrganSpec organ;
+  s.read("name", organ.name, kRequired);
+  read_model(s, organ);
+  if (organ.kind == OrganKind::kTetrahedralMesh) read_mesh(s, scene, organ);
+  s.refuse_unknown_keys();
   return organ;
 }
 
@@ -127,13 +139,7 @@ ToolSpec read_tool(TomlSection& s) {
   return tool;
 }
 
-HandSpec read_hand(TomlSection& s) {
-  HandSpec hand;
-  s.read("tool", hand.tool, kRequired, msg::MAX_TOOLS - 1);
-  s.read("organ", hand.organ, kOptional);
-  s.read("mass_kg", hand.mass_kg, kOptional, kPositive);
-  s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
-  s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
+void read_press(TomlSection& s, HandSpec& hand) {
   s.read("press_point", hand.press_point, kRequired);
   s.read_direction("press_normal", hand.press_normal, kRequired);
   s.read_direction("slide_direction", hand.slide_direction, kOptional);
@@ -147,6 +153,21 @@ HandSpec read_hand(TomlSection& s) {
   s.read("hold_s", hand.hold_s, kOptional, kNotNegative);
   s.read("slide_s", hand.slide_s, kOptional, kPositive);
   s.read("release_s", hand.release_s, kOptional, kPositive);
+}
+
+HandSpec read_hand(TomlSection& s) {
+  HandSpec hand;
+  s.read("tool", hand.tool, kRequired, msg::MAX_TOOLS - 1);
+  s.read("organ", hand.organ, kOptional);
+  s.read("mass_kg", hand.mass_kg, kOptional, kPositive);
+  s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
+  s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
+  hand.way = read_way(s);
+  if (hand.way.empty()) {
+    read_press(s, hand);
+  } else {
+    hand.press_point = hand.way.front().to;
+  }
   s.refuse_unknown_keys();
   return hand;
 }
@@ -178,6 +199,16 @@ CameraSpec read_camera(TomlSection s, bool given) {
   s.read("field_of_view_deg", camera.field_of_view_deg, kOptional, kFieldOfView);
   s.refuse_unknown_keys();
   return camera;
+}
+
+ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs) {
+  ScoreSpec score;
+  s.read("exposed_organ", score.exposed_organ, kOptional);
+  const auto is_exposed = [&](const OrganSpec& organ) { return organ.name == score.exposed_organ; };
+  if (s.has("exposed_organ") && std::ranges::none_of(organs, is_exposed))
+    s.refuse("exposed_organ", "\"" + score.exposed_organ + "\"", "the name of one of the [[organs]]");
+  s.refuse_unknown_keys();
+  return score;
 }
 
 void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {
@@ -239,14 +270,19 @@ Scene load_scene(const std::filesystem::path& file) {
   scene.file = file;
   root.read("name", scene.name, kRequired);
   auto organs = root.sections("organs");
+  auto obstacles = root.sections("obstacles");
   auto tools = root.sections("tools");
   auto hands = root.sections("hands");
   const bool has_camera = root.has("camera");
   scene.haptics = read_haptics(root.section("haptics"));
   scene.camera = read_camera(root.section("camera"), has_camera);
+  TomlSection score = root.section("score");
   root.refuse_unknown_keys();
 
   for (TomlSection& s : organs) scene.organs.push_back(read_organ(s, file));
+  for (TomlSection& s : obstacles) scene.obstacles.push_back(read_obstacle(s));
+  for (OrganSpec& organ : scene.organs)
+    if (organ.intestine) organ.intestine->obstacles = scene.obstacles;
   for (TomlSection& s : tools) scene.tools.push_back(read_tool(s));
   for (TomlSection& s : hands) scene.hands.push_back(read_hand(s));
   refuse_wrong_count(root, "organs", organs.size(), msg::MAX_ORGANS);
@@ -255,6 +291,7 @@ Scene load_scene(const std::filesystem::path& file) {
   refuse_repeated_tools(scene, tools);
   refuse_wrong_hands(scene, hands);
   find_pressed_organs(scene, hands);
+  scene.score = read_score(std::move(score), scene.organs);
   return scene;
 }
 

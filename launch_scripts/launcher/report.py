@@ -159,6 +159,10 @@ def summary(report):
                      f"{haptic['contacts']['ticks_in_contact']} ticks in contact")
     if picture:
         lines.append(f"deepest dent: {1e3 * picture['deepest_dent_m']:.1f} mm")
+    exposed = picture.get("exposed_share") if picture else None
+    if exposed and exposed["first"] is not None:
+        lines.append(f"exposed: {100 * exposed['first']:.0f} % at first, {100 * exposed['newest']:.0f} % at the end, "
+                     f"{100 * exposed['largest']:.0f} % at most")
     for name, node in report["nodes"].items():
         lines += [f"{name}: {fault}" for fault in node["faults"]]
         if node["exit"] is None:

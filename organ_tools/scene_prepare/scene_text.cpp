@@ -61,6 +61,7 @@ std::string region_text(const scene::RegionSpec& region) {
 
 void write_organ(const scene::OrganSpec& organ, toml::table& table) {
   table.insert_or_assign("name", organ.name);
+  if (organ.kind != scene::OrganKind::kTetrahedralMesh) return;
   table.insert_or_assign("young_pa", organ.young_pa);
   table.insert_or_assign("poisson", organ.poisson);
   table.insert_or_assign("density_kg_m3", organ.density_kg_m3);
@@ -75,6 +76,7 @@ void write_organ(const scene::OrganSpec& organ, toml::table& table) {
 
 void write_hand(const scene::HandSpec& hand, toml::table& table) {
   table.insert_or_assign("organ", hand.organ);
+  if (!hand.way.empty()) return;
   table.insert_or_assign("press_point", to_array(hand.press_point));
   table.insert_or_assign("press_normal", to_array(hand.press_normal));
   table.insert_or_assign("slide_direction", to_array(hand.slide_direction));
@@ -109,6 +111,7 @@ nlohmann::json describe(const scene::Scene& scene) {
     nlohmann::json regions = nlohmann::json::array();
     for (const scene::RegionSpec& region : organ.regions) regions.push_back(region_text(region));
     organs.push_back({{"name", organ.name},
+                      {"has_file", organ.kind == scene::OrganKind::kTetrahedralMesh},
                       {"mesh", organ.mesh},
                       {"file", organ.file.string()},
                       {"metres_per_unit", organ.metres_per_unit},

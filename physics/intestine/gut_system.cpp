@@ -68,6 +68,20 @@ void GutSystem::reset() noexcept {
   report_ = {};
 }
 
+void GutSystem::take_up(const GutState& state) noexcept {
+  collisions_.reset();
+  state_ = state;
+  report_ = {};
+}
+
+void GutSystem::move_to(const GutState& wanted, const GutLoads& loads) noexcept {
+  if (report_.diverged) return;
+  before_ = state_.x;
+  state_ = wanted;
+  collisions_.resolve(before_, state_, loads.obstacles, {});
+  observe();
+}
+
 void GutSystem::step(const GutLoads& loads) noexcept {
   if (report_.diverged) return;
   before_ = state_.x;

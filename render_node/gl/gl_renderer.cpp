@@ -58,12 +58,14 @@ struct Programs {
         cut("cut tissue", shaders::surface_vert, prefix + "#define CUT\n", shaders::tissue_frag),
         bared("bared tissue", shaders::surface_vert, prefix + "#define CUT\n#define BARED\n",
               shaders::tissue_frag),
+        gut("gut", shaders::surface_vert, prefix + "#define GUT\n", shaders::tissue_frag),
+        mesentery("mesentery", shaders::surface_vert, prefix + "#define SHEET\n", shaders::tissue_frag),
         strain("strain", shaders::surface_vert, prefix, shaders::strain_frag),
         solid("solid", shaders::surface_vert, prefix, shaders::solid_frag),
         ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
         signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
 
-  Program backdrop, lens, tissue, cut, bared, strain, solid, ground, signal;
+  Program backdrop, lens, tissue, cut, bared, gut, mesentery, strain, solid, ground, signal;
 
   const Program& of(Look look) const {
     switch (look) {
@@ -73,6 +75,10 @@ struct Programs {
         return cut;
       case Look::kBared:
         return bared;
+      case Look::kGut:
+        return gut;
+      case Look::kMesentery:
+        return mesentery;
       case Look::kStrain:
         return strain;
       case Look::kGround:
@@ -195,8 +201,8 @@ class GlRenderer final : public Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look :
-         {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kStrain, Look::kGround, Look::kSignal})
+    for (const Look look : {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kGut,
+                            Look::kMesentery, Look::kStrain, Look::kGround, Look::kSignal})
       draw_items(frame, look);
     glDisable(GL_CULL_FACE);
     glDepthRange(kSignalDepth, 1);

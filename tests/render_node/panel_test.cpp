@@ -254,6 +254,21 @@ TEST_F(PanelLayout, FaultsAndButtonsTakeRoom) {
   EXPECT_GT(height_of(view), without);
 }
 
+TEST_F(PanelLayout, ATubeHasALengthAndNoDentAndAnExposedOrganItsShare) {
+  PanelView view = busy();
+  view.organs = {{.known = true, .name = "gut"}};
+  const float with_dent = height_of(view);
+  view.dents = false;
+  const float plain = height_of(view);
+  EXPECT_LT(plain, with_dent);
+  view.organs[0].length_mm = 3950;
+  const float with_length = height_of(view);
+  EXPECT_GT(with_length, plain);
+  view.exposed_organ = "a colon with a name that is far too long for one line of a panel";
+  view.exposed_share = 0.42;
+  EXPECT_GT(height_of(view), with_length);
+}
+
 TEST_F(PanelLayout, StaleOrganIsTold) {
   PanelView view = busy();
   const float told = height_of(view);

@@ -220,6 +220,19 @@ TEST_F(RenderLoopTest, TheMapOfStrainHasAButtonAndAKey) {
   EXPECT_THAT(renderer_.frames.back().items, testing::Not(map));
 }
 
+TEST_F(RenderLoopTest, ReportsHowFarTheScenesOrganIsExposed) {
+  options_.node.scene = block().scene_with("[[tools]]", "[score]\nexposed_organ = \"block\"\n[[tools]]");
+  start();
+  frames(1);
+  EXPECT_EQ(close()["exposed_share"], (nlohmann::json{{"first", 1.0}, {"newest", 1.0}, {"largest", 1.0}}));
+}
+
+TEST_F(RenderLoopTest, WithoutAScoreNothingIsSaidOfExposure) {
+  start();
+  frames(1);
+  EXPECT_FALSE(close().contains("exposed_share"));
+}
+
 TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {
   start();
   frames(1000);
