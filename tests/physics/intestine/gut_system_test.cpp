@@ -186,12 +186,12 @@ double mean_speed_m_s(const GutState& state) {
 }
 
 TEST(GutSystem, AFoldedGutComesToRestOnAPlane) {
-  GutSystem gut(geometry::make_gut({}), {}, {}, {});
-  const std::array plane{floor_at(-0.03)};
+  GutSystem gut(geometry::make_gut({}), {}, {}, {.step_s = 2.5e-3, .iterations = 5});
+  const std::array plane{floor_at(-0.08)};
   double last_second_m_s = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 4000; ++i) {
     gut.step({.obstacles = plane});
-    if (i >= 1800) last_second_m_s += mean_speed_m_s(gut.state()) / 200;
+    if (i >= 3600) last_second_m_s += mean_speed_m_s(gut.state()) / 400;
   }
   EXPECT_FALSE(gut.report().diverged);
   EXPECT_LT(last_second_m_s, 1e-3);
