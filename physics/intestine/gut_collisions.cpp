@@ -17,8 +17,15 @@ using geometry::Vec3;
 // Contacts that the passes may close are watched from this part of the least reach on.
 constexpr double kWatched = 0.02;
 
-// Room for contacts with walls and balls, for each mass.
-constexpr std::size_t kOtherContactsPerMass = 4;
+// Room for contacts: with walls and balls for each mass, of pairs for each part. A gut at rest has one for four
+// parts; what finds no room is not corrected, but held apart by the bound.
+constexpr std::size_t kContactsPerMass = 4, kContactsPerPart = 16;
+
+std::size_t most_contacts(const PairFinder& finder, const GutParts& parts) {
+  const auto count = static_cast<std::size_t>(parts.count()),
+             masses = static_cast<std::size_t>(parts.gut.mass_count());
+  return std::min(finder.most_pairs(), kContactsPerPart * count) + kContactsPerMass * masses;
+}
 
 void require(bool good, const char* expectation) {
   if (!good) throw std::invalid_argument(std::string("collisions of an intestine: ") + expectation);
@@ -39,12 +46,11 @@ GutCollisions::GutCollisions(const geometry::GutShape& shape, std::span<const do
       settings_(settings),
       finder_(finder_of(parts_, settings)),
       spheres_(parts_),
-      response_(finder_->most_pairs() + kOtherContactsPerMass * masses_kg.size(), settings.passes,
-                settings.friction),
-      pushes_(finder_->most_pairs() + kOtherContactsPerMass * masses_kg.size()),
+      response_(most_contacts(*finder_, parts_), settings.passes, settings.friction),
+      pushes_(most_contacts(*finder_, parts_)),
       carry_(shape.layout.mass_count(),
              masses_kg.size() + static_cast<std::size_t>(std::max(settings.most_spheres, 0)),
-             finder_->most_pairs() + kOtherContactsPerMass * masses_kg.size()) {
+             most_contacts(*finder_, parts_)) {
   const auto masses = static_cast<std::size_t>(shape.layout.mass_count());
   require(masses_kg.size() == masses, "one mass in kg for each of the grid is expected");
   require(step_s > 0 && std::isfinite(step_s), "a step above 0 s is expected");
@@ -55,7 +61,7 @@ GutCollisions::GutCollisions(const geometry::GutShape& shape, std::span<const do
   near_.pairs.reserve(finder_->most_pairs());
   near_.gap.resize(masses);
   way_.resize(masses);
-  contacts_.reserve(finder_->most_pairs() + kOtherContactsPerMass * masses);
+  contacts_.reserve(most_contacts(*finder_, parts_));
   for (auto* of_all : {&before_, &x_, &v_}) of_all->resize(all);
   gap_.resize(all);
   keys_.reserve(contacts_.capacity());

@@ -19,7 +19,10 @@ struct Ball {
 };
 
 /// Numbers of parts: the axis' segments first, behind them the mesentery's triangles. A pair is a segment
-/// and any part behind it; of the mesentery with itself there is none (Raghupathi 2004, section 4.1).
+/// and any part behind it; of the mesentery with itself there is none (Raghupathi 2004, section 4.1). Along
+/// the gut parts are no shorter than kFinest of the tube's radius: where masses are nearer to each other, a
+/// part spans several, and the cost no longer grows with the square of their number. The tightest turn that
+/// the tube can make lies within 3 % of the radius of its parts.
 struct GutParts {
   geometry::GutLayout gut;     // of the masses
   std::int32_t stride = 1;     // columns of the gut from one column of the parts to the next
