@@ -105,6 +105,22 @@ TEST(GutModel, AHoldForceIsTheSameInExplicitSteps) {
   EXPECT_LT(held.given_j, 0.05 * held.put_in_j);
 }
 
+TEST(GutModel, AGutThatCannotMoveAnswersWithItsWallAloneAtEveryStep) {
+  const NodeId node = highest_node();
+  const Vec3 top = skin_places(gut_model())[static_cast<std::size_t>(std::int32_t{node})];
+  physics::GutObstacle ceiling;
+  ceiling.centre = top;
+  ceiling.axes = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  constexpr double kPulled_m = 0.006, kSagitta_m = 0.0015, kWall_n_m = 300;
+  const GutStageOptions below{.obstacles = {ceiling}};
+  const double expected = hold({0.01, 1000}, below, kPulled_m).force_n;
+  // masses lie on a polygon, the skin on a curve that reaches over it by its sagitta
+  EXPECT_GT(expected, 0.97 * kWall_n_m * (kPulled_m - kSagitta_m));
+  EXPECT_LT(expected, 1.03 * kWall_n_m * kPulled_m);
+  for (const double step_s : {0.0025, 0.005})
+    EXPECT_NEAR(hold({step_s, 1000}, below, kPulled_m).force_n, expected, 0.03 * expected) << step_s;
+}
+
 TEST(GutModel, TheMesenteryTightensUnderAPull) {
   const double near_n = hold({0.01, 1000}, {}, 0.02).force_n, far_n = hold({0.01, 1000}, {}, 0.04).force_n;
   EXPECT_GT(far_n, 1.5 * near_n);
