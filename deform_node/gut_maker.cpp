@@ -11,9 +11,10 @@ namespace {
 
 using physics::GutMethod;
 
-// One in each tick at deform_node's own rate: a hand goes by a local model until the next one comes, and that
-// is good for one step.
-constexpr double kProjectiveStep_s = 0.01;
+// Four in each tick at deform_node's own rate: loops that lie on each other tremble in longer ones.
+constexpr double kProjectiveStep_s = 0.0025;
+// A hand goes by a local model until the next one comes, a tick later.
+constexpr double kFeltStep_s = 0.01;
 // Of the largest step that is stable: contacts come between.
 constexpr double kShareOfStable = 0.5;
 
@@ -75,7 +76,7 @@ std::unique_ptr<GutModel> make(const geometry::GutShape& gut, const scene::Intes
   step.gravity_m_s2 = spec.gravity_m_s2;
   physics::GutStepSettings felt = step;
   felt.method = GutMethod::kProjective;
-  felt.step_s = std::max(step.step_s, kProjectiveStep_s);
+  felt.step_s = std::max(step.step_s, kFeltStep_s);
   return std::make_unique<GutModel>(
       GutParts{.system = std::make_unique<physics::GutSystem>(gut, material, collisions, step),
                .felt = std::make_unique<physics::GutSystem>(gut, material, collisions, felt),

@@ -81,6 +81,7 @@ GutModel::GutModel(GutParts parts)
 
 GutModel::Felt::Felt(const GutSkin& skin)
     : places(skin.node_count()),
+      dented(skin.node_count()),
       next(skin.node_count()),
       block(kMostPatchMasses * kMostPatchMasses),
       choice(skin.node_count(), skin.triangles().size(), kPatchNodes) {
@@ -172,7 +173,10 @@ OrganView GutModel::view() const noexcept {
 }
 
 void GutModel::look() const noexcept {
-  if (!std::exchange(look_->is_seen, true)) skin_.place(system_->state().x, look_->places);
+  if (std::exchange(look_->is_seen, true)) return;
+  skin_.place(system_->state().x, look_->places);
+  std::ranges::copy(look_->places, look_->dented.begin());
+  presses_.dent(look_->dented);
 }
 
 void GutModel::look_ahead() const noexcept {
@@ -184,7 +188,7 @@ void GutModel::look_ahead() const noexcept {
 
 bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   look();
-  const SkinFaces faces{skin_, look_->places, system_->state().x};
+  const SkinFaces faces{skin_, look_->dented, system_->state().x};
   if (!look_->choice.choose(place, faces, patch)) return false;
   look_ahead();
   patch.topology_version = 0;
@@ -193,7 +197,7 @@ bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noe
     const auto n = static_cast<std::size_t>(nodes[i]);
     patch.nodes[i] = static_cast<std::uint32_t>(n);
     patch.velocities[i] = (look_->next[n] - look_->places[n]) / felt_->settings().step_s;
-    patch.positions[i] = look_->places[n] + presses_.dent(nodes[i]) + ahead_s_ * patch.velocities[i];
+    patch.positions[i] = look_->dented[n] + ahead_s_ * patch.velocities[i];
     patch.forces[i] = presses_.of_tool(place.tool, nodes[i]);
   }
   find_compliance(nodes, patch.compliance);

@@ -69,7 +69,8 @@ class GutModel final : public OrganModel {
   static constexpr std::size_t kMostPatchMasses = kPatchNodes * geometry::GutSkin::kMostWeights;
   struct Felt {
     explicit Felt(const geometry::GutSkin& skin);
-    std::vector<Vec3> places, next;  // [nodes of the skin] now, and a step later under the same forces
+    // [nodes of the skin] now, with the dents that tools press, and a step later under the same forces
+    std::vector<Vec3> places, dented, next;
     bool is_seen = false, is_foreseen = false;
     std::vector<geometry::MassId> masses;  // that carry a patch
     std::vector<double> block;             // A^-1 of these

@@ -88,12 +88,10 @@ Vec3 GutPresses::of_tool(std::uint32_t tool, NodeId n) const noexcept {
   return sum;
 }
 
-Vec3 GutPresses::dent(NodeId n) const noexcept {
-  Vec3 sum = Vec3::Zero();
+void GutPresses::dent(std::span<Vec3> places) const noexcept {
   for (const HeldPress& held : held_)
     for (std::size_t i = 0; i < held.count; ++i)
-      if (held.nodes[i] == n) sum += held.strength * wall_m_n_ * held.forces[i];
-  return sum;
+      places[static_cast<std::size_t>(held.nodes[i])] += held.strength * wall_m_n_ * held.forces[i];
 }
 
 }  // namespace omentum::deform

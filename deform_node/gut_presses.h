@@ -34,8 +34,8 @@ class GutPresses {
   std::span<const Vec3> forces() const noexcept { return forces_; }
   /// One tool's at a node of the skin, N.
   Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
-  /// How far all tools press a node of the skin into its wall, m.
-  Vec3 dent(NodeId n) const noexcept;
+  /// Moves the nodes of the skin that tools press into its wall.
+  void dent(std::span<Vec3> places) const noexcept;
   double wall_m_n() const noexcept { return wall_m_n_; }
 
  private:

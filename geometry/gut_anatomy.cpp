@@ -102,7 +102,7 @@ GutShape shape_of(const GutAnatomy& a, const GutFit& fit) {
 }
 
 void refuse_overlaps(const GutShape& shape) {
-  const GutOverlaps found = all_overlaps(shape);
+  const GutOverlaps found = find_overlaps(shape);
   if (found.empty()) return;
   const bool tube = !found.tube.empty();
   const GutOverlap& first = tube ? found.tube.front() : found.mesentery.front();

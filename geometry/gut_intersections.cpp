@@ -13,6 +13,18 @@ const Vec3& at(std::span<const Vec3> positions, MassId m) {
   return positions[static_cast<std::size_t>(m)];
 }
 
+// tube(segment, segment) and mesentery(segment, triangle), once for each pair that may touch.
+template <class Tube, class Mesentery>
+void visit_pairs(const GutLayout& layout, GutNeighbourhood near, Tube&& tube, Mesentery&& mesentery) {
+  for (std::int32_t i = 0; i < layout.segment_count(); ++i) {
+    for (std::int32_t j = i + near.columns_apart; j < layout.segment_count(); ++j) tube(i, j);
+    for (std::int32_t t = 0; t < layout.triangle_count(); ++t)
+      if (near.may_touch(i, segment_above(layout, t))) mesentery(i, t);
+  }
+}
+
+}  // namespace
+
 double distance_of_segments(const GutLayout& layout, std::span<const Vec3> x, std::int32_t i,
                             std::int32_t j) {
   const auto [a, b] = layout.segment(i);
@@ -27,18 +39,6 @@ double distance_to_triangle(const GutLayout& layout, std::span<const Vec3> x, st
   return std::sqrt(closest_points_of_segment_and_triangle(at(x, p), at(x, q), at(x, a), at(x, b), at(x, c))
                        .squared_distance);
 }
-
-// tube(segment, segment) and mesentery(segment, triangle), once for each pair that may touch.
-template <class Tube, class Mesentery>
-void visit_pairs(const GutLayout& layout, GutNeighbourhood near, Tube&& tube, Mesentery&& mesentery) {
-  for (std::int32_t i = 0; i < layout.segment_count(); ++i) {
-    for (std::int32_t j = i + near.columns_apart; j < layout.segment_count(); ++j) tube(i, j);
-    for (std::int32_t t = 0; t < layout.triangle_count(); ++t)
-      if (near.may_touch(i, segment_above(layout, t))) mesentery(i, t);
-  }
-}
-
-}  // namespace
 
 GutOverlaps all_overlaps(const GutLayout& layout, std::span<const Vec3> positions, const GutReach& reach,
                          GutNeighbourhood near) {

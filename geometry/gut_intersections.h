@@ -1,4 +1,4 @@
-// Where an intestine overlaps itself or its mesentery: every pair is looked at.
+// Where an intestine overlaps itself or its mesentery.
 #pragma once
 
 #include "geometry/gut_neighbours.h"
@@ -37,6 +37,16 @@ inline GutReach reach_of(const GutShape& shape) {
 GutOverlaps all_overlaps(const GutLayout& layout, std::span<const Vec3> positions, const GutReach& reach,
                          GutNeighbourhood near);
 GutOverlaps all_overlaps(const GutShape& shape);
+
+/// The same list for a shape, found through boxes around runs of columns: about O(n log n) where few parts
+/// are near each other.
+GutOverlaps find_overlaps(const GutShape& shape);
+
+/// Between the axis of segment i and that of segment j, or triangle t of the mesentery, m.
+double distance_of_segments(const GutLayout& layout, std::span<const Vec3> positions, std::int32_t i,
+                            std::int32_t j);
+double distance_to_triangle(const GutLayout& layout, std::span<const Vec3> positions, std::int32_t i,
+                            std::int32_t t);
 
 /// Distance tests of all_overlaps: pairs of segments, and of a segment and a triangle, that may touch.
 std::int64_t exhaustive_tests(const GutLayout& layout, GutNeighbourhood near);

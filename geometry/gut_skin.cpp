@@ -1,5 +1,7 @@
 #include "geometry/gut_skin.h"
 
+#include "geometry/tube_axis.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,15 +22,14 @@ std::size_t nodes_around(double radius_m) {
   return std::max(kFewestAround, static_cast<std::size_t>(count));
 }
 
-// Masses before and behind the ends go on straight: m_-1 = 2 m_0 - m_1.
+// Masses before and behind the ends lie on the parabola through the three next ones (ghost_before).
 void add(const GutLayout& layout, std::int32_t column, double weight, GutSkin::Node& node) {
-  if (column < 0) {
-    add(layout, 0, 2 * weight, node);
-    return add(layout, 1, -weight, node);
-  }
-  if (column >= layout.columns) {
-    add(layout, layout.columns - 1, 2 * weight, node);
-    return add(layout, layout.columns - 2, -weight, node);
+  const std::int32_t last = layout.columns - 1;
+  if (column < 0 || column > last) {
+    const std::int32_t end = column < 0 ? 0 : last, inward = column < 0 ? 1 : -1;
+    add(layout, end, 3 * weight, node);
+    add(layout, end + inward, -3 * weight, node);
+    return add(layout, end + 2 * inward, weight, node);
   }
   const MassId mass = layout.mass(0, column);
   std::size_t k = 0;
@@ -37,22 +38,9 @@ void add(const GutLayout& layout, std::int32_t column, double weight, GutSkin::N
   node.weight[k] += weight;
 }
 
-// The cardinal spline through the axis at `t` of a segment, and its derivative.
-GutSkin::Node spline(const GutLayout& layout, std::int32_t segment, double t) {
+GutSkin::Node on_spline(const GutLayout& layout, std::int32_t segment, const Eigen::Vector4d& weights) {
   GutSkin::Node node;
-  add(layout, segment - 1, 0.5 * t * (-1 + t * (2 - t)), node);
-  add(layout, segment, 0.5 * (2 + t * t * (-5 + 3 * t)), node);
-  add(layout, segment + 1, 0.5 * t * (1 + t * (4 - 3 * t)), node);
-  add(layout, segment + 2, 0.5 * t * t * (t - 1), node);
-  return node;
-}
-
-GutSkin::Node spline_rate(const GutLayout& layout, std::int32_t segment, double t) {
-  GutSkin::Node node;
-  add(layout, segment - 1, 0.5 * (-1 + t * (4 - 3 * t)), node);
-  add(layout, segment, 0.5 * t * (-10 + 9 * t), node);
-  add(layout, segment + 1, 0.5 * (1 + t * (8 - 9 * t)), node);
-  add(layout, segment + 2, 0.5 * t * (-2 + 3 * t), node);
+  for (std::int32_t c = 0; c < 4; ++c) add(layout, segment - 1 + c, weights[c], node);
   return node;
 }
 
@@ -108,7 +96,8 @@ void GutSkin::add_rings(const GutShape& shape) {
 }
 
 void GutSkin::add_ring(std::int32_t segment, double at) {
-  rings_.push_back({segment, at, spline(layout_, segment, at), spline_rate(layout_, segment, at)});
+  rings_.push_back({segment, at, on_spline(layout_, segment, cardinal_weights(at)),
+                    on_spline(layout_, segment, cardinal_slopes(at))});
   nodes_.insert(nodes_.end(), around_, rings_.back().centre);
 }
 

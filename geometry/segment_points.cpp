@@ -11,6 +11,10 @@ namespace {
 // would meet.
 constexpr double kParallel = 1e-28;
 
+// Square of the share of their size within which two points of segment and triangle are one: what is left of
+// double precision when they cross at a ten-millionth of a right angle.
+constexpr double kSamePlace = 1e-18;
+
 // Along p + s * along, nearest to `to`; 0 on a segment without length.
 double nearest_parameter(const Vec3& p, const Vec3& along, const Vec3& to) noexcept {
   const double length_squared = along.squaredNorm();
@@ -24,6 +28,19 @@ double line_parameter(const Vec3& between, const Vec3& d1, const Vec3& d2) noexc
   const double squared = normal.squaredNorm();
   if (squared <= kParallel * d1.squaredNorm() * d2.squaredNorm()) return 0;
   return std::clamp(between.cross(d2).dot(normal) / squared, 0.0, 1.0);
+}
+
+// A hit whose two points are one. In the triangle's own plane rounding decides what is a hit, and where; ends
+// and edges know better there.
+std::optional<SegmentTrianglePair> crossing_of(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
+                                               const Vec3& c) noexcept {
+  const auto hit = intersect_segment_triangle(p, q, a, b, c);
+  if (!hit) return std::nullopt;
+  const Vec3 on_segment = p + hit->parameter * (q - p);
+  const Vec3 on_triangle = hit->barycentric[0] * a + hit->barycentric[1] * b + hit->barycentric[2] * c;
+  const double size = (q - p).squaredNorm() + (b - a).squaredNorm() + (c - a).squaredNorm();
+  if ((on_segment - on_triangle).squaredNorm() > kSamePlace * size) return std::nullopt;
+  return SegmentTrianglePair{hit->parameter, hit->barycentric, 0};
 }
 
 }  // namespace
@@ -40,8 +57,7 @@ SegmentPair closest_points_of_segments(const Vec3& p1, const Vec3& q1, const Vec
 
 SegmentTrianglePair closest_points_of_segment_and_triangle(const Vec3& p, const Vec3& q, const Vec3& a,
                                                            const Vec3& b, const Vec3& c) noexcept {
-  if (const auto hit = intersect_segment_triangle(p, q, a, b, c))
-    return {hit->parameter, hit->barycentric, 0};
+  if (const auto crossing = crossing_of(p, q, a, b, c)) return *crossing;
   const TrianglePoint at_p = closest_point_on_triangle(p, a, b, c);
   SegmentTrianglePair best{0, at_p.barycentric, at_p.squared_distance};
   const TrianglePoint at_q = closest_point_on_triangle(q, a, b, c);

@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kParallel = 1e-3;  // sine of an angle below which a direction across is rounding
 
-Eigen::Vector4d cardinal_slopes(double t) {
-  const double t2 = t * t;
-  return 0.5 * Eigen::Vector4d(-3 * t2 + 4 * t - 1, 9 * t2 - 10 * t, -9 * t2 + 8 * t + 1, 3 * t2 - 2 * t);
-}
-
 // Of `guide`, what is across t, unit; zero where hardly anything is.
 Vec3 across(const Vec3& guide, const Vec3& t) {
   const Vec3 left = guide - guide.dot(t) * t;
@@ -43,6 +38,11 @@ void turn_into(const Vec3& k_before, const Vec3& b_before, TubeFrame& frame) {
 Eigen::Vector4d cardinal_weights(double t) {
   const double t2 = t * t, t3 = t2 * t;
   return 0.5 * Eigen::Vector4d(-t3 + 2 * t2 - t, 3 * t3 - 5 * t2 + 2, -3 * t3 + 4 * t2 + t, t3 - t2);
+}
+
+Eigen::Vector4d cardinal_slopes(double t) {
+  const double t2 = t * t;
+  return 0.5 * Eigen::Vector4d(-3 * t2 + 4 * t - 1, 9 * t2 - 10 * t, -9 * t2 + 8 * t + 1, 3 * t2 - 2 * t);
 }
 
 TubeAxis::TubeAxis(std::size_t mass_count) : points_(mass_count + 2, Vec3::Zero()) {

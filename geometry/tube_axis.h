@@ -11,6 +11,8 @@ namespace omentum::geometry {
 /// Weights of P_{i-1}, P_i, P_{i+1}, P_{i+2} in the cardinal spline's point at u = i + t, 0 <= t <= 1; the
 /// slope at P_i is (P_{i+1} - P_{i-1}) / 2. They sum to 1.
 Eigen::Vector4d cardinal_weights(double t);
+/// The same of its derivative by u; they sum to 0.
+Eigen::Vector4d cardinal_slopes(double t);
 
 /// The point before P_0, on the parabola through P_0, P_1, P_2 (Bessel; Raghupathi 2004, section 5.1).
 inline Vec3 ghost_before(const Vec3& p0, const Vec3& p1, const Vec3& p2) {

@@ -1,22 +1,12 @@
 #include "node_common/organ_source.h"
 
-#include "files/sha256.h"
 #include "geometry/gut_anatomy.h"
+#include "organ/gut_hash.h"
 
 #include <stdexcept>
 
 namespace omentum::node {
 namespace {
-
-// Two machines that make another gut of the same numbers must not take part in one session.
-std::string hash_of(const geometry::GutShape& gut) {
-  files::Sha256 sha;
-  sha.add(&gut.layout, sizeof gut.layout);
-  sha.add(gut.positions.data(), gut.positions.size() * sizeof gut.positions.front());
-  sha.add(&gut.tube_radius_m, sizeof gut.tube_radius_m);
-  sha.add(&gut.mesentery_thickness_m, sizeof gut.mesentery_thickness_m);
-  return sha.hexadecimal();
-}
 
 OrganSource make_tube(const scene::OrganSpec& spec) {
   OrganSource source{.kind = spec.kind, .organ = {}, .rest = {}};
@@ -26,7 +16,7 @@ OrganSource make_tube(const scene::OrganSpec& spec) {
     throw std::runtime_error(spec.intestine->where + ": organ " + spec.name + ": " + e.what());
   }
   source.organ.name = spec.name;
-  source.organ.hash = hash_of(*source.gut);
+  source.organ.hash = organ::gut_hash(*source.gut);
   source.rest = source.gut->positions;
   return source;
 }

@@ -90,23 +90,23 @@ void ActivePairs::add_random_pair(bool of_axis) noexcept {
 }
 
 // Measures a pair that may touch, once in a step; none for one that may not, or when memory is full.
-PairMemory::Entry* ActivePairs::test(std::int32_t segment, std::int32_t part) noexcept {
+ActivePairs::Memory::Entry* ActivePairs::test(std::int32_t segment, std::int32_t part) noexcept {
   if (parts_.is_segment(part) && part < segment) std::swap(segment, part);
   if (segment < 0 || part < 0 || segment >= parts_.layout.segment_count() || part >= parts_.count())
     return nullptr;
   if (!parts_.may_touch(segment, part)) return nullptr;
   const auto [entry, is_new] = memory_.remember(segment, part);
   if (is_new) {
-    entry->places = measure(parts_, x_, segment, part, std::numeric_limits<double>::infinity());
+    entry->value.places = measure(parts_, x_, segment, part, std::numeric_limits<double>::infinity());
     ++tests_;
   }
   return entry;
 }
 
 void ActivePairs::try_pair(std::int32_t segment, std::int32_t part, Active& best) noexcept {
-  const PairMemory::Entry* const entry = test(segment, part);
-  if (entry == nullptr || entry->places.distance_m >= best.distance_m) return;
-  best = {entry->segment, entry->part, best.stride, entry->places.distance_m};
+  const Memory::Entry* const entry = test(segment, part);
+  if (entry == nullptr || entry->value.places.distance_m >= best.distance_m) return;
+  best = {entry->segment, entry->part, best.stride, entry->value.places.distance_m};
 }
 
 void ActivePairs::look_along_axis(Active& pair) noexcept {
@@ -132,19 +132,21 @@ void ActivePairs::look_over_sheet(Active& pair) noexcept {
       try_pair(old.segment, triangle_at(parts_, row, c, lower), pair);
     return;
   }
-  const PairMemory::Entry* const entry = test(old.segment, old.part);
-  if (entry == nullptr || entry->places.other.minCoeff() > 0) return;
+  const Memory::Entry* const entry = test(old.segment, old.part);
+  if (entry == nullptr || entry->value.places.other.minCoeff() > 0) return;
   Eigen::Index corner = 0;
-  entry->places.other.maxCoeff(&corner);
-  for (const std::int32_t part : around(parts_, parts_.masses[static_cast<std::size_t>(old.part)][corner]))
+  entry->value.places.other.maxCoeff(&corner);
+  const std::int32_t triangle = old.part - parts_.layout.segment_count();
+  for (const std::int32_t part :
+       around(parts_, parts_.layout.triangle(triangle)[static_cast<std::size_t>(corner)]))
     try_pair(old.segment, part, pair);
 }
 
 // One update; false when the pair is to be dropped.
 bool ActivePairs::settle(Active& pair) noexcept {
-  const PairMemory::Entry* const here = test(pair.segment, pair.part);
+  const Memory::Entry* const here = test(pair.segment, pair.part);
   if (here == nullptr) return false;
-  pair.distance_m = here->places.distance_m;
+  pair.distance_m = here->value.places.distance_m;
   const Active old = pair;
   parts_.is_segment(pair.part) ? look_along_axis(pair) : look_over_sheet(pair);
   const bool moved = old.segment != pair.segment || old.part != pair.part;
@@ -155,9 +157,9 @@ bool ActivePairs::settle(Active& pair) noexcept {
 }
 
 void ActivePairs::join_area(std::int32_t segment, std::int32_t part) noexcept {
-  PairMemory::Entry* const entry = test(segment, part);
-  if (entry == nullptr || entry->looked_at) return;
-  entry->looked_at = true;
+  Memory::Entry* const entry = test(segment, part);
+  if (entry == nullptr || entry->value.looked_at) return;
+  entry->value.looked_at = true;
   area_.push_back(entry);
 }
 
@@ -165,19 +167,18 @@ void ActivePairs::spread(std::int32_t segment, std::int32_t part, std::span<cons
                          double watched_m, NearPairs& found) noexcept {
   join_area(segment, part);
   while (!area_.empty()) {
-    const PairMemory::Entry entry = *area_.back();
+    const Memory::Entry entry = *area_.back();
     area_.pop_back();
     const std::array<MassId, 3>&one = parts_.masses[static_cast<std::size_t>(entry.segment)],
                              &other = parts_.masses[static_cast<std::size_t>(entry.part)];
-    const double distance = entry.places.distance_m;
+    const double distance = entry.value.places.distance_m;
     if (distance >=
         parts_.reach_m(entry.part) + watched_m + largest_of(one, way_m) + largest_of(other, way_m))
       continue;
-    found.pairs.push_back({entry.segment, entry.part, distance});
+    found.pairs.push_back({entry.segment, entry.part, entry.value.places,
+                           reports(parts_, entry.segment, entry.part, entry.value.places)});
     lower_gap(one, distance, found.gap);
     lower_gap(other, distance, found.gap);
-    if (reports(parts_, entry.segment, entry.part, entry.places))
-      found.contacts.push_back(contact_of(parts_, x_, entry.segment, entry.part, entry.places));
     for (const std::int32_t step : {-1, 1}) join_area(entry.segment + step, entry.part);
     if (!parts_.is_segment(entry.part)) {
       for (const std::int32_t next : beside(parts_, entry.part)) join_area(entry.segment, next);
@@ -196,7 +197,6 @@ void ActivePairs::find(std::span<const Vec3> x, std::span<const double> way_m, d
   memory_.forget();
   merged_.forget();
   found.pairs.clear();
-  found.contacts.clear();
   std::ranges::fill(found.gap, farthest_gap_m());
   for (std::int32_t n = 0; n < new_pairs_; ++n) add_random_pair(n % 2 == 0);
   std::erase_if(active_, [&](Active& pair) { return !settle(pair); });

@@ -1,6 +1,7 @@
 // Raghupathi 2004, section 4.1: pairs of parts that are followed where their distance is least.
 #pragma once
 
+#include "physics/intestine/gut_distance.h"
 #include "physics/intestine/pair_finder.h"
 #include "physics/intestine/pair_memory.h"
 
@@ -37,15 +38,23 @@ class ActivePairs : public PairFinder {
   std::int32_t new_pairs_;
   std::uint64_t seed_, random_;
   std::vector<Active> active_;
-  PairMemory memory_, merged_;
-  std::vector<PairMemory::Entry*> area_;  // still to be spread from
+  // A pair that was measured in this step.
+  struct Measured {
+    bool looked_at = false;  // as a member of a colliding area
+    PairPlaces places;
+  };
+  struct Nothing {};
+  using Memory = PairMemory<Measured>;
+  Memory memory_;
+  PairMemory<Nothing> merged_;
+  std::vector<Memory::Entry*> area_;  // still to be spread from
   std::int64_t tests_ = 0;
   std::span<const geometry::Vec3> x_;  // of the newest search
   double threshold_m_ = 0;
 
   std::uint64_t random_below(std::uint64_t end) noexcept;
   void add_random_pair(bool of_axis) noexcept;
-  PairMemory::Entry* test(std::int32_t segment, std::int32_t part) noexcept;
+  Memory::Entry* test(std::int32_t segment, std::int32_t part) noexcept;
   void try_pair(std::int32_t segment, std::int32_t part, Active& best) noexcept;
   void look_along_axis(Active& pair) noexcept;
   void look_over_sheet(Active& pair) noexcept;

@@ -8,7 +8,8 @@ namespace omentum::physics {
 
 /// Never misses a pair. Pairs nearer than reach and a margin are listed (Verlet 1967); the list holds until a
 /// part has used up half of the margin. A listed pair is measured again only when the ways of both parts
-/// since its last measurement could have brought it near.
+/// since its last measurement could have brought it near; and one that is near, but whose neighbours answer
+/// for the place (gut_parts.h), only when that may have changed: in fine guts that is most of them.
 class CompletePairs : public PairFinder {
  public:
   explicit CompletePairs(const GutParts& parts);
@@ -35,13 +36,21 @@ class CompletePairs : public PairFinder {
   std::vector<double> around_;        // [parts], m: how near others have to come to be listed
   BallTree tree_;
   std::vector<Listed> listed_;
+  // Of a listed pair that is near and does not report: what it was measured to be stands until both parts
+  // have travelled so far together.
+  struct Quiet {
+    double until = -1;
+    PairPlaces places;
+  };
+  std::vector<Quiet> quiet_;  // of listed_
   std::int64_t tests_ = 0;
 
   void travel(std::span<const geometry::Vec3> x, std::span<const double> way_m) noexcept;
   bool list_holds() const noexcept;
   void list_pairs(std::span<const geometry::Vec3> x, double watched_m) noexcept;
   // Whether it may come near before the list is made again.
-  bool examine(Listed& pair, std::span<const geometry::Vec3> x, double watched_m, NearPairs& found) noexcept;
+  bool examine(Listed& pair, Quiet& quiet, std::span<const geometry::Vec3> x, double watched_m,
+               NearPairs& found) noexcept;
 };
 
 }  // namespace omentum::physics

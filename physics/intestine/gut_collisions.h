@@ -1,11 +1,13 @@
 // All that an intestine meets in a step: itself, its mesentery, walls and balls.
 #pragma once
 
+#include "physics/intestine/gut_carry.h"
 #include "physics/intestine/gut_obstacle.h"
 #include "physics/intestine/gut_response.h"
 #include "physics/intestine/gut_spheres.h"
 #include "physics/intestine/gut_state.h"
 #include "physics/intestine/pair_finder.h"
+#include "physics/intestine/pair_memory.h"
 
 #include <memory>
 
@@ -37,8 +39,8 @@ struct GutCollisionReport {
 /// at a time; no allocation after construction; the same calls give the same results bit for bit.
 class GutCollisions {
  public:
-  /// `masses_kg`: [masses], > 0; held masses (GutLayout) never move. Throws std::invalid_argument where a
-  /// number is out of its range, in words.
+  /// `masses_kg`: [masses], > 0 but for held ones (GutLayout), which never move. Throws std::invalid_argument
+  /// where a number is out of its range, in words.
   GutCollisions(const geometry::GutShape& shape, std::span<const double> masses_kg, double step_s,
                 const GutCollisionSettings& settings = {});
 
@@ -46,8 +48,11 @@ class GutCollisions {
   /// return what it is. Positions that overlapped are apart by the end, but never by more than
   /// kShareOfGap of what was free: whatever the prediction, no axis crosses another nor the mesentery, and
   /// no sphere's centre crosses either (its `reached` may stay behind what it asked for).
+  /// With `yield`, contacts that go on begin with the impulse that they gave before, and springs that are
+  /// stiff for the step carry it on (gut_carry.h).
   void resolve(std::span<const geometry::Vec3> before, GutState& state,
-               std::span<const GutObstacle> obstacles, std::span<const MovingSphere> spheres) noexcept;
+               std::span<const GutObstacle> obstacles, std::span<const MovingSphere> spheres,
+               const GutYield* yield = nullptr) noexcept;
 
   /// Of the newest step: one for each sphere given, up to most_spheres.
   std::span<const SphereOutcome> outcomes() const noexcept { return outcomes_; }
@@ -66,7 +71,11 @@ class GutCollisions {
   GutSpheres spheres_;
   GutResponse response_;
   NearPairs near_;
-  std::vector<GutContact> contacts_;            // of all kinds, for the response
+  std::vector<GutContact> contacts_;  // of all kinds, for the response
+  std::vector<ContactKey> keys_;      // of contacts_
+  std::vector<double> warm_;          // of contacts_: what each gave in the step before, N s
+  PairMemory<double> pushes_;         // the same by keys
+  GutCarry carry_;
   std::vector<double> inverse_mass_;            // [masses + spheres], 1/kg
   std::vector<geometry::Vec3> before_, x_, v_;  // [masses + spheres]
   std::vector<double> way_;                     // [masses], m: in this step, at most
@@ -75,11 +84,14 @@ class GutCollisions {
   GutCollisionReport report_;
 
   double watched_m() const noexcept;
+  void recall_pushes() noexcept;
+  void remember_pushes() noexcept;
   void take_in(std::span<const geometry::Vec3> before, const GutState& state,
                std::span<const MovingSphere> spheres) noexcept;
   void find_pairs(std::span<const geometry::Vec3> before) noexcept;
+  void spread_gaps() noexcept;
   void hold_back(std::size_t count) noexcept;
-  void gather_pairs() noexcept;
+  void gather_pairs(std::span<const geometry::Vec3> before) noexcept;
   void gather_spheres(std::span<const MovingSphere> spheres) noexcept;
   void gather_walls(std::span<const GutObstacle> obstacles) noexcept;
   void tell_spheres(std::size_t count) noexcept;

@@ -1,6 +1,7 @@
 #include "physics/intestine/gut_parts.h"
 
 #include <cmath>
+#include <limits>
 
 namespace omentum::physics {
 namespace {
@@ -18,6 +19,19 @@ Vec3 across(const Vec3& along, const std::array<Vec3, 3>& at, bool is_segment) {
   return normal.squaredNorm() > 0 ? normal.normalized() : Vec3(along.unitOrthogonal());
 }
 
+// Columns of the gut for one of the parts.
+std::int32_t stride_of(const geometry::GutShape& shape) {
+  double length_m = 0;
+  for (std::int32_t i = 0; i < shape.layout.segment_count(); ++i) {
+    const auto [a, b] = shape.layout.segment(i);
+    length_m += (shape.positions[b] - shape.positions[a]).norm();
+  }
+  const double columns = GutParts::kFinest * shape.tube_radius_m * shape.layout.segment_count() / length_m;
+  const std::int32_t most =
+      std::max(1, shape.layout.segment_count() / 3);  // a layout has four columns at least
+  return std::isfinite(columns) ? std::clamp(static_cast<std::int32_t>(columns + 1e-6), 1, most) : 1;
+}
+
 // Whether another segment, which may touch `part` too, begins where this one ends.
 bool goes_on(const GutParts& parts, std::int32_t segment, std::int32_t part) {
   return segment + 1 < parts.layout.segment_count() && parts.may_touch(segment + 1, part);
@@ -27,12 +41,12 @@ bool goes_on(const GutParts& parts, std::int32_t segment, std::int32_t part) {
 // corners (r, c), (r + 1, c), (r, c + 1), odd ones (r, c + 1), (r + 1, c), (r + 1, c + 1): each inner edge is
 // one even and one odd triangle's, each inner corner is the first one of one even triangle.
 bool triangle_reports(const GutParts& parts, std::int32_t segment, std::int32_t part, const Vec3& weights) {
-  const std::array<MassId, 3>& m = parts.masses[part];
+  const std::int32_t t = part - parts.layout.segment_count();
+  const std::array<MassId, 3> m = parts.layout.triangle(t);
   const auto in_row = [&](int i) { return weights[i] == 0 || parts.layout.row(m[i]) == 0; };
   if (in_row(0) && in_row(1) && in_row(2)) return false;
   const int zeros = static_cast<int>((weights.array() == 0).count());
   if (zeros == 0) return true;
-  const std::int32_t t = part - parts.layout.segment_count();
   if (t % 2 == 0 && (zeros == 1 || weights[0] > 0)) return true;
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
@@ -50,14 +64,22 @@ bool triangle_reports(const GutParts& parts, std::int32_t segment, std::int32_t 
 }  // namespace
 
 GutParts::GutParts(const geometry::GutShape& shape)
-    : layout(shape.layout), reach(geometry::reach_of(shape)), near(geometry::neighbourhood(shape)) {
+    : gut(shape.layout),
+      stride(stride_of(shape)),
+      layout{gut.rows, 1 + (gut.columns - 2 + stride) / stride},
+      reach(geometry::reach_of(shape)) {
+  geometry::GutShape own{layout, {}, shape.tube_radius_m, shape.mesentery_thickness_m};
+  for (std::int32_t m = 0; m < layout.mass_count(); ++m)
+    own.positions.push_back(shape.positions[own_mass(MassId(m))]);
+  near = geometry::neighbourhood(own);
   for (std::int32_t i = 0; i < layout.segment_count(); ++i) {
     const auto [a, b] = layout.segment(i);
-    masses.push_back({a, b, MassId()});
+    masses.push_back({own_mass(a), own_mass(b), MassId()});
     along.push_back(i);
   }
   for (std::int32_t t = 0; t < layout.triangle_count(); ++t) {
-    masses.push_back(layout.triangle(t));
+    const auto [a, b, c] = layout.triangle(t);
+    masses.push_back({own_mass(a), own_mass(b), own_mass(c)});
     along.push_back(geometry::segment_above(layout, t));
   }
 }
@@ -72,7 +94,7 @@ Ball GutParts::ball_around(std::int32_t part, std::span<const Vec3> x) const {
 
 PairPlaces measure(const GutParts& parts, std::span<const Vec3> x, std::int32_t segment, std::int32_t part,
                    double farthest_m) noexcept {
-  const auto [p, q] = parts.layout.segment(segment);
+  const MassId p = parts.masses[segment][0], q = parts.masses[segment][1];
   const std::array<MassId, 3> m = parts.masses[part];
   if (parts.is_segment(part)) return between_segments(x[p], x[q], x[m[0]], x[m[1]]);
   return between_segment_and_triangle(x[p], x[q], {&x[m[0]], &x[m[1]], &x[m[2]]}, farthest_m);
@@ -85,9 +107,33 @@ bool reports(const GutParts& parts, std::int32_t segment, std::int32_t part,
   return places.other[1] != 1 || !goes_on(parts, part, segment);
 }
 
+double quiet_way(const GutParts& parts, std::span<const Vec3> x, std::int32_t segment, std::int32_t part,
+                 const PairPlaces& places) noexcept {
+  const MassId p = parts.masses[segment][0], q = parts.masses[segment][1];
+  const std::array<MassId, 3>& m = parts.masses[part];
+  const Vec3 one = x[p] + places.s * (x[q] - x[p]);
+  const Vec3 other = places.other[0] * x[m[0]] + places.other[1] * x[m[1]] +
+                     (m[2].valid() ? Vec3(places.other[2] * x[m[2]]) : Vec3(Vec3::Zero()));
+  const Vec3 apart = one - other;
+  // along `edge`, which leaves the closest point, the distance would grow: by the projection upon it
+  const auto way = [&](const Vec3& edge, double rising) {
+    return std::max(0.0, rising) / (4 * apart.norm() + 2 * edge.norm());
+  };
+  if (places.s == 1 && goes_on(parts, segment, part)) return way(x[q] - x[p], -apart.dot(x[q] - x[p]));
+  Eigen::Index corner = 0;
+  places.other.maxCoeff(&corner);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3 && m[static_cast<std::size_t>(k)].valid(); ++k) {
+    if (places.other[k] > 0) continue;
+    const Vec3 edge = x[m[static_cast<std::size_t>(k)]] - x[m[static_cast<std::size_t>(corner)]];
+    least = std::min(least, way(edge, -apart.dot(edge)));
+  }
+  return std::isfinite(least) ? least : 0;
+}
+
 GutContact contact_of(const GutParts& parts, std::span<const Vec3> x, std::int32_t segment, std::int32_t part,
                       const PairPlaces& places) noexcept {
-  const auto [p, q] = parts.layout.segment(segment);
+  const MassId p = parts.masses[segment][0], q = parts.masses[segment][1];
   GutContact contact;
   contact.one = {{p, q, MassId()}, {1 - places.s, places.s, 0}};
   contact.other = {parts.masses[part], {places.other[0], places.other[1], places.other[2]}};

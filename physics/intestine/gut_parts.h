@@ -19,15 +19,27 @@ struct Ball {
 };
 
 /// Numbers of parts: the axis' segments first, behind them the mesentery's triangles. A pair is a segment
-/// and any part behind it; of the mesentery with itself there is none (Raghupathi 2004, section 4.1).
+/// and any part behind it; of the mesentery with itself there is none (Raghupathi 2004, section 4.1). Along
+/// the gut parts are no shorter than kFinest of the tube's radius: where masses are nearer to each other, a
+/// part spans several, and the cost no longer grows with the square of their number. The tightest turn that
+/// the tube can make lies within 3 % of the radius of its parts.
 struct GutParts {
-  geometry::GutLayout layout;
+  geometry::GutLayout gut;     // of the masses
+  std::int32_t stride = 1;     // columns of the gut from one column of the parts to the next
+  geometry::GutLayout layout;  // of the parts; its numbers of masses are its own: own_mass() has the gut's
   geometry::GutReach reach;
   geometry::GutNeighbourhood near;
   std::vector<std::array<geometry::MassId, 3>> masses;  // [parts]; the third of a segment is none
   std::vector<std::int32_t> along;  // [parts]: the axis' segment itself, or the one that a triangle hangs on
 
+  static constexpr double kFinest = 0.5;
+
   explicit GutParts(const geometry::GutShape& shape);
+
+  /// The gut's mass at a corner of the parts' layout.
+  geometry::MassId own_mass(geometry::MassId corner) const {
+    return gut.mass(layout.row(corner), std::min(layout.column(corner) * stride, gut.columns - 1));
+  }
 
   std::int32_t count() const { return static_cast<std::int32_t>(masses.size()); }
   bool is_segment(std::int32_t part) const { return part < layout.segment_count(); }
@@ -52,6 +64,12 @@ bool reports(const GutParts& parts, std::int32_t segment, std::int32_t part,
 /// What the response needs of a pair. Where the two cross, the normal is across both.
 GutContact contact_of(const GutParts& parts, std::span<const geometry::Vec3> x, std::int32_t segment,
                       std::int32_t part, const PairPlaces& places) noexcept;
+
+/// How far the masses of a pair that does not report may move, together, before that can have changed, m: how
+/// steeply the distance falls towards the parts that answer instead, over how fast motion turns that slope.
+/// 0 where it reports.
+double quiet_way(const GutParts& parts, std::span<const geometry::Vec3> x, std::int32_t segment,
+                 std::int32_t part, const PairPlaces& places) noexcept;
 
 /// Where a point of masses is.
 inline geometry::Vec3 place_of(const GutPoint& point, std::span<const geometry::Vec3> x) {

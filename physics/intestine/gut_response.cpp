@@ -83,10 +83,14 @@ void GutResponse::rub(Row& row, const MovingMasses& masses) const noexcept {
   row.rubbed_speed = given;
 }
 
-void GutResponse::solve(std::span<const GutContact> contacts, const MovingMasses& masses) noexcept {
+void GutResponse::solve(std::span<const GutContact> contacts, std::span<const double> warm, double step_s,
+                        const MovingMasses& masses) noexcept {
   rows_.clear();
-  for (const GutContact& contact : contacts.first(std::min(contacts.size(), rows_.capacity()))) {
-    rows_.push_back(prepared(contact, masses));
+  for (std::size_t c = 0; c < std::min(contacts.size(), rows_.capacity()); ++c) {
+    rows_.push_back(prepared(contacts[c], masses));
+    if (warm.empty()) continue;
+    rows_.back().f = warm[c];
+    rows_.back().g = warm[c] * step_s;
   }
   for (std::int32_t pass = 0; pass < passes_; ++pass) {
     for (Row& row : rows_) {

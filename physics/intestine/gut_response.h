@@ -24,6 +24,8 @@ struct MovingMasses {
 /// what one contact gave too much, because another one gave it as well, it takes back. Each correction leaves
 /// linear and angular momentum as they are. Velocities are corrected where positions were. Closest points and
 /// normals are those at the start of the step.
+/// What a contact gave in the step before may be there already (`warm`, N s, one for each contact): then g
+/// and f begin with it, and it is taken back as far as it was too much.
 /// Friction (Coulomb): the way along each other in this step, and the velocity, are taken back as far as
 /// `friction` times g and f allow.
 class GutResponse {
@@ -31,10 +33,18 @@ class GutResponse {
   GutResponse(std::size_t most_contacts, std::int32_t passes, double friction);
 
   /// Contacts beyond the capacity are left out. No allocation.
-  void solve(std::span<const GutContact> contacts, const MovingMasses& masses) noexcept;
+  void solve(std::span<const GutContact> contacts, const MovingMasses& masses) noexcept {
+    solve(contacts, {}, 0, masses);
+  }
+  void solve(std::span<const GutContact> contacts, std::span<const double> warm, double step_s,
+             const MovingMasses& masses) noexcept;
 
   /// Of the newest solve: f u on the contact's first point, N s, one for each contact.
   geometry::Vec3 impulse(std::size_t contact) const noexcept;
+  /// g of a contact, kg m.
+  double shift(std::size_t contact) const noexcept { return contact < rows_.size() ? rows_[contact].g : 0; }
+  /// The impulse without friction, along the normal: f, N s.
+  double push(std::size_t contact) const noexcept { return contact < rows_.size() ? rows_[contact].f : 0; }
   /// Contacts that pushed.
   std::int32_t pushing() const noexcept;
   /// The largest overlap of a contact after the newest solve, m, as seen along its normal.

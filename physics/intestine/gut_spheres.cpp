@@ -66,7 +66,8 @@ void GutSpheres::lower_gaps(std::span<const Vec3> x, std::span<const MovingSpher
 }
 
 void GutSpheres::add_contacts(std::span<const Vec3> x, const Vec3& centre, double radius_m, MassId sphere,
-                              double skin_m, std::vector<GutContact>& contacts) const noexcept {
+                              std::int32_t key, double skin_m, std::vector<GutContact>& contacts,
+                              std::vector<ContactKey>& keys) const noexcept {
   for (std::size_t p = 0; p < radius_.size(); ++p) {
     const auto part = static_cast<std::int32_t>(p);
     const double near = reach_m(part) + radius_m + skin_m, far = near + radius_[p];
@@ -81,6 +82,7 @@ void GutSpheres::add_contacts(std::span<const Vec3> x, const Vec3& centre, doubl
     contact.normal = distance > kTouching_m ? Vec3(between / distance) : Vec3::UnitZ();
     contact.reach_m = reach_m(part) + radius_m;
     contacts.push_back(contact);
+    keys.push_back({key, part});
   }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "physics/intestine/gut_obstacle.h"
-#include "physics/intestine/gut_parts.h"
+#include "physics/intestine/pair_finder.h"
 
 #include <span>
 #include <vector>
@@ -23,10 +23,11 @@ class GutSpheres {
   void lower_gaps(std::span<const geometry::Vec3> x, std::span<const MovingSphere> spheres,
                   std::span<double> gap) const noexcept;
 
-  /// Adds the contacts of a ball with `radius_m`, mass `sphere`, whose centre is there now. Parts that are
-  /// nearer than their reach and `skin_m` count.
+  /// Adds the contacts of a ball with `radius_m`, mass `sphere`, whose centre is there now, with their keys
+  /// {key, part}: parts nearer than their reach and `skin_m`.
   void add_contacts(std::span<const geometry::Vec3> x, const geometry::Vec3& centre, double radius_m,
-                    geometry::MassId sphere, double skin_m, std::vector<GutContact>& contacts) const noexcept;
+                    geometry::MassId sphere, std::int32_t key, double skin_m,
+                    std::vector<GutContact>& contacts, std::vector<ContactKey>& keys) const noexcept;
 
  private:
   GutParts parts_;

@@ -24,6 +24,21 @@ GutStepSettings checked(const GutStepSettings& settings) {
   return settings;
 }
 
+// The diagonal of A^-1 for all masses, four at a time in the lanes of a node.
+std::vector<double> diagonal_of_inverse(const GutBand& band, std::size_t masses) {
+  std::vector<double> diagonal(masses, 0.0);
+  std::vector<GutBand::Node> column(band.size());
+  for (std::size_t first = 0; first < band.size(); first += 4) {
+    const std::size_t lanes = std::min<std::size_t>(4, band.size() - first);
+    std::ranges::fill(column, GutBand::Node{});
+    for (std::size_t k = 0; k < lanes; ++k) column[first + k].v[k] = 1;
+    band.solve(column.data());
+    for (std::size_t k = 0; k < lanes; ++k)
+      diagonal[static_cast<std::size_t>(band.mass(first + k))] = column[first + k].v[k];
+  }
+  return diagonal;
+}
+
 }  // namespace
 
 GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& material,
@@ -34,6 +49,7 @@ GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& materia
       band_(springs_, step.step_s),
       collisions_(shape, springs_.mass(), step.step_s, collisions),
       energies_(springs_),
+      own_yields_(diagonal_of_inverse(band_, springs_.mass().size())),
       x_(springs_.mass().size()),
       forces_(springs_.mass().size()),
       yield_(band_.size()) {
@@ -74,7 +90,7 @@ void GutSystem::step(const GutLoads& loads) noexcept {
   if (projective_) projective_->step(forces_, state_);
   // the bound of the collisions would hide what comes next
   const bool wild = !(kinetic_energy(springs_, state_.v) < wild_j_);
-  collisions_.resolve(before_, state_, loads.obstacles, loads.spheres);
+  collisions_.resolve(before_, state_, loads.obstacles, loads.spheres, projective_ ? this : nullptr);
   observe();
   report_.diverged |= wild;
 }

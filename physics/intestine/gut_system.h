@@ -43,7 +43,7 @@ struct GutReport {
 ///
 ///     GutSystem gut(make_gut(anatomy), material, collisions, {.step_s = 5e-3});
 ///     gut.step({.obstacles = cavity, .spheres = probes});  // each 5 ms
-class GutSystem {
+class GutSystem final : public GutYield {
  public:
   /// Throws std::invalid_argument naming the member and what is expected of it; for an explicit step above
   /// the stable one too, which it then tells. Allocates what steps need.
@@ -74,7 +74,9 @@ class GutSystem {
   /// entries of A^-1 of GutBand, [masses x masses], m/N; 0 where held. Neither allocates.
   void compliance(std::span<const geometry::MassId> masses, std::span<double> block) const noexcept;
   /// A^-1 `forces_n`: how far all masses move within a step. Both [masses].
-  void yield_to(std::span<const geometry::Vec3> forces_n, std::span<geometry::Vec3> yield_m) const noexcept;
+  void yield_to(std::span<const geometry::Vec3> forces_n,
+                std::span<geometry::Vec3> yield_m) const noexcept override;
+  std::span<const double> own_yields() const noexcept override { return own_yields_; }
 
  private:
   void gather_forces(std::span<const geometry::Vec3> forces_n) noexcept;
@@ -88,7 +90,8 @@ class GutSystem {
   std::optional<GutProjective> projective_;
   GutCollisions collisions_;
   GutForces energies_;
-  GutPlanes x_;  // [masses] of the state, to measure energies
+  std::vector<double> own_yields_;  // [masses]
+  GutPlanes x_;                     // [masses] of the state, to measure energies
   double wild_j_ = 0;
   GutState state_;
   std::vector<geometry::Vec3> before_;        // [masses]

@@ -10,13 +10,19 @@ namespace omentum::physics {
 /// One found pair.
 struct NearPair {
   std::int32_t segment = 0, part = 0;  // GutParts
-  double distance_m = 0;
+  PairPlaces places;
+  bool reports = false;  // its closest points, or another pair does (gut_parts.h)
+};
+
+/// A contact's name, which is the same in the next step: a segment and a part; a sphere, from -1 down, and a
+/// part; a wall, behind the spheres, and a mass.
+struct ContactKey {
+  std::int32_t one = 0, other = 0;
 };
 
 /// What a search gives. Vectors keep the capacity that the finder asked for.
 struct NearPairs {
   std::vector<NearPair> pairs;
-  std::vector<GutContact> contacts;  // of those that report one (gut_parts.h)
   std::vector<double> gap;  // [masses], m: to the nearest part that it may hit; at most what was looked at
 };
 

@@ -1,16 +1,16 @@
-// Which pairs were looked at in a step, and what came out.
+// What is known of pairs, for a step.
 #pragma once
-
-#include "physics/intestine/gut_distance.h"
 
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace omentum::physics {
 
-/// A table by segment and part (open addressing) that forgets everything at once. No allocation after
+/// A table by two numbers (open addressing) that forgets everything at once. No allocation after
 /// construction.
+template <class Value>
 class PairMemory {
  public:
   /// Room for this many pairs; beyond, remember() says none.
@@ -20,8 +20,7 @@ class PairMemory {
   struct Entry {
     std::uint32_t round = 0;  // the entry is empty in all others
     std::int32_t segment = 0, part = 0;
-    bool looked_at = false;  // as a member of a colliding area
-    PairPlaces places;
+    Value value;
   };
 
   void forget() noexcept {
@@ -30,7 +29,7 @@ class PairMemory {
     for (Entry& entry : entries_) entry.round = 0;
     round_ = 1;
   }
-  /// The pair's entry, and whether it is new (its places are then to be filled in); none when full.
+  /// The pair's entry, and whether it is new (its value is then to be filled in); none when full.
   std::pair<Entry*, bool> remember(std::int32_t segment, std::int32_t part) noexcept {
     for (std::size_t at = home(segment, part);; at = (at + 1) & (entries_.size() - 1)) {
       Entry& entry = entries_[at];
@@ -38,9 +37,17 @@ class PairMemory {
       if (entry.round == round_) continue;
       if (used_ == most_) return {nullptr, false};
       ++used_;
-      entry = {round_, segment, part, false, {}};
+      entry = {round_, segment, part, {}};
       return {&entry, true};
     }
+  }
+  /// The pair's value; none where it is not remembered.
+  const Value* find(std::int32_t segment, std::int32_t part) const noexcept {
+    for (std::size_t at = home(segment, part); entries_[at].round == round_;
+         at = (at + 1) & (entries_.size() - 1)) {
+      if (entries_[at].segment == segment && entries_[at].part == part) return &entries_[at].value;
+    }
+    return nullptr;
   }
 
  private:

@@ -1,6 +1,8 @@
 #include "tests/deform_node/gut_stage.h"
 #include "tests/support/heap_count.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <numbers>
 
 namespace omentum::deform {
@@ -62,14 +64,14 @@ Held hold(const Rates& rates, GutStageOptions options, double most_m) {
   GutModel model = gut_model(options);
   const NodeId node = highest_node();
   const Vec3 begin = skin_places(model)[static_cast<std::size_t>(std::int32_t{node})];
-  HoldingHand hand(node, begin.z());
+  HoldingHand hand(node, begin);
   Held held;
   int count = 0;
   const double period_s = 1 / rates.hand_hz;
   double organ_s = 0;
-  hand.learn(model, begin);
+  hand.learn(model);
   for (double t = 0; t < 4.5; t += period_s) {
-    const double height = height_at(t, most_m), force = hand.hold(height, period_s);
+    const double height = height_at(t, most_m), force = hand.hold({0, 0, height}, period_s).z();
     const double work_j = force * (height_at(t + period_s, most_m) - height);
     if (t < 2) held.put_in_j += work_j;
     held.given_j -= work_j;
@@ -79,7 +81,7 @@ Held hold(const Rates& rates, GutStageOptions options, double most_m) {
     const ToolLoad load = hand.load();
     model.step({.presses = {&load, 1}, .cuts = {}}, kGutTick_s);
     EXPECT_FALSE(model.status().diverged);
-    hand.learn(model, begin + Vec3(0, 0, height));
+    hand.learn(model);
   }
   return held;
 }
@@ -98,9 +100,25 @@ TEST(GutModel, AHoldForceIsTheSameAtEveryStepAndRateAndNoEnergyComesBack) {
 
 TEST(GutModel, AHoldForceIsTheSameInExplicitSteps) {
   const Held expected = hold({0.01, 1000}, {}, 0.03);
-  const Held held = hold({0.0005, 1000}, {.method = physics::GutMethod::kExplicit}, 0.03);
+  const Held held = hold({0.00005, 1000}, {.method = physics::GutMethod::kExplicit}, 0.03);
   EXPECT_NEAR(held.force_n, expected.force_n, 0.03 * expected.force_n);
   EXPECT_LT(held.given_j, 0.05 * held.put_in_j);
+}
+
+TEST(GutModel, AGutThatCannotMoveAnswersWithItsWallAloneAtEveryStep) {
+  const NodeId node = highest_node();
+  const Vec3 top = skin_places(gut_model())[static_cast<std::size_t>(std::int32_t{node})];
+  physics::GutObstacle ceiling;
+  ceiling.centre = top;
+  ceiling.axes = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  constexpr double kPulled_m = 0.006, kSagitta_m = 0.0015, kWall_n_m = 300;
+  const GutStageOptions below{.obstacles = {ceiling}};
+  const double expected = hold({0.01, 1000}, below, kPulled_m).force_n;
+  // masses lie on a polygon, the skin on a curve that reaches over it by its sagitta
+  EXPECT_GT(expected, 0.97 * kWall_n_m * (kPulled_m - kSagitta_m));
+  EXPECT_LT(expected, 1.03 * kWall_n_m * kPulled_m);
+  for (const double step_s : {0.0025, 0.005})
+    EXPECT_NEAR(hold({step_s, 1000}, below, kPulled_m).force_n, expected, 0.03 * expected) << step_s;
 }
 
 TEST(GutModel, TheMesenteryTightensUnderAPull) {

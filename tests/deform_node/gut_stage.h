@@ -65,44 +65,44 @@ inline NodeId highest_node() {
   return NodeId(static_cast<std::size_t>(top - places.begin()));
 }
 
-/// Holds one node of the skin, two-sided, by its height: answers at its own rate what the newest patch says.
+/// Holds one node of the skin: answers at its own rate what the newest patch says, which yields alike in all
+/// directions.
 class HoldingHand {
  public:
-  HoldingHand(NodeId node, double begin_z) : node_(node), begin_z_(begin_z) {}
+  HoldingHand(NodeId node, const Vec3& begin) : node_(node), begin_(begin), place_(begin) {}
 
-  void learn(const GutModel& model, const Vec3& around) {
+  void learn(const GutModel& model) {
     LocalPatch patch(GutModel::kPatchNodes);
-    if (!model.local_model({0, around, 0.015}, patch)) return;
+    if (!model.local_model({0, place_, 0.015}, patch)) return;
     for (std::size_t i = 0; i < patch.node_count; ++i) {
       if (patch.nodes[i] != static_cast<std::uint32_t>(std::int32_t{node_})) continue;
-      const std::size_t r = 3 * i + 2, rows = 3 * patch.node_count;
-      known_ = Known{patch.positions[i].z(), patch.velocities[i].z(), patch.forces[i].z(),
+      const std::size_t r = 3 * i, rows = 3 * patch.node_count;
+      known_ = Known{patch.positions[i], patch.velocities[i], patch.forces[i],
                      patch.compliance[r * rows - r * (r - 1) / 2]};
       age_s_ = 0;
     }
   }
-  /// The force on the tissue with the hand so far above where the node was at the start.
-  double hold(double height_m, double dt_s) {
-    if (!known_) return 0;
-    height_m_ = begin_z_ + height_m;
-    force_n_ = known_->force + (height_m_ - known_->place - age_s_ * known_->speed) / known_->compliance;
+  /// The force on the tissue with the hand so far from where the node was at the start.
+  Vec3 hold(const Vec3& way, double dt_s) {
+    place_ = begin_ + way;
+    if (!known_) return Vec3::Zero();
+    force_ = known_->force + (place_ - known_->place - age_s_ * known_->speed) / known_->compliance;
     age_s_ += dt_s;
-    return force_n_;
+    return force_;
   }
   ToolLoad load() {
-    force_ = {0, 0, force_n_};
-    way_ = {0, 0, height_m_ - begin_z_};
+    way_ = place_ - begin_;
     return {.tool = 0, .nodes = {&node_, 1}, .displacements = {&way_, 1}, .forces = {&force_, 1}};
   }
-  double force_n() const { return force_n_; }
-  double wall_and_gut_m_n() const { return known_->compliance; }
 
  private:
   struct Known {
-    double place, speed, force, compliance;
+    Vec3 place, speed, force;
+    double compliance;
   };
   NodeId node_;
-  double begin_z_, height_m_ = 0, force_n_ = 0, age_s_ = 0;
+  Vec3 begin_, place_;
+  double age_s_ = 0;
   std::optional<Known> known_;
   Vec3 force_ = Vec3::Zero(), way_ = Vec3::Zero();
 };

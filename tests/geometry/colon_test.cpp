@@ -2,6 +2,7 @@
 #include "geometry/surface.h"
 #include "organ_tools/phantom/colon_shape.h"
 #include "organ_tools/phantom/liver_shape.h"
+#include "scene/scene.h"
 #include "tests/support/process.h"
 
 #include <gmock/gmock.h>
@@ -11,15 +12,15 @@
 namespace omentum::phantom {
 namespace {
 
-// Of scenes/abdomen.toml.
-geometry::GutAnatomy gut_of_the_abdomen() {
-  geometry::GutAnatomy anatomy;
-  anatomy.legs = 7;
-  anatomy.origin = {0, -0.265, -0.075};
-  return anatomy;
+scene::Scene abdomen() {
+  return scene::load_scene(std::filesystem::path(OMENTUM_SOURCE_DIR) / "scenes" / "abdomen.toml");
 }
-const Vec3 kCavityCentre(0, -0.265, -0.055), kCavityHalfAxes(0.25, 0.26, 0.26);  // an ellipsoid's
-constexpr double kBackWall = -0.21;                                              // z of the plane below it
+
+geometry::GutShape gut_of(const scene::Scene& scene) {
+  for (const scene::OrganSpec& organ : scene.organs)
+    if (organ.intestine) return geometry::make_gut(organ.intestine->anatomy);
+  throw std::runtime_error("the abdomen has no intestine");
+}
 
 // Places inside a triangle, its corners among them.
 template <class Use>
@@ -65,7 +66,7 @@ TEST(ColonShape, IsATubeOfSomeFiveCentimetresInsideItsExtent) {
 
 TEST(ColonShape, LiesBehindTheGutAndClearOfTheLiver) {
   double to_colon = 1, liver_to_gut = 1;
-  for_points_of(geometry::make_gut(gut_of_the_abdomen()), [&](const Vec3& p, double reach) {
+  for_points_of(gut_of(abdomen()), [&](const Vec3& p, double reach) {
     to_colon = std::min(to_colon, colon_distance(p) - reach);
     liver_to_gut = std::min(liver_to_gut, liver_distance(p) - reach);
   });
@@ -74,18 +75,26 @@ TEST(ColonShape, LiesBehindTheGutAndClearOfTheLiver) {
   for (const Vec3& p : colon_axis()) EXPECT_GT(liver_distance(p), 0.05);
 }
 
+// The plane stands for what lies behind the gut, the colon's front among it; the ellipsoid is the wall.
 TEST(ColonShape, GutAndColonLieInsideTheCavity) {
-  double level = 0, lowest = 1;
-  const auto take = [&](const Vec3& p, double reach) {
-    const Vec3 outward = (p - kCavityCentre).cwiseQuotient(kCavityHalfAxes.cwiseAbs2()).normalized();
-    level = std::max(level, (p + reach * outward - kCavityCentre).cwiseQuotient(kCavityHalfAxes).norm());
-    lowest = std::min(lowest, p.z() - reach);
+  const scene::Scene scene = abdomen();
+  const auto take = [&](const Vec3& p, double reach, std::string_view shape) {
+    for (const scene::ObstacleSpec& obstacle : scene.obstacles) {
+      if (obstacle.shape != shape) continue;
+      const Vec3 from = p - obstacle.centre;
+      if (shape == "plane") {
+        ASSERT_GT(from.dot(obstacle.normal), reach) << p.transpose();
+      } else {
+        const Vec3 outward = from.cwiseQuotient(obstacle.half_axes_m.cwiseAbs2()).normalized();
+        ASSERT_LT((from + reach * outward).cwiseQuotient(obstacle.half_axes_m).norm(), 1) << p.transpose();
+      }
+    }
   };
-  for_points_of(geometry::make_gut(gut_of_the_abdomen()), take);
-  EXPECT_GT(lowest, kBackWall + 0.04);
-  for (const Vec3& p : colon_axis()) take(p, -colon_distance(p));
-  EXPECT_GT(lowest, kBackWall);
-  EXPECT_LT(level, 1);
+  for_points_of(gut_of(scene), [&](const Vec3& p, double reach) {
+    take(p, reach, "plane");
+    take(p, reach, "ellipsoid");
+  });
+  for (const Vec3& p : colon_axis()) take(p, -colon_distance(p), "ellipsoid");
 }
 
 TEST(ColonShape, ItsMeshIsOneValidTube) {

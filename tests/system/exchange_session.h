@@ -58,6 +58,7 @@ class Session {
     pose.position = {tip.x(), tip.y(), tip.z()};
     pose.orientation.w = 1;
     pose.buttons = pressed ? msg::BUTTON_CUT : 0;
+    pose.grip = grip_rad_;
     bus_.post(pose);
     hand_.tick();
     tip_ = tip;
@@ -101,6 +102,8 @@ class Session {
     move_to(kPressed, 1);
   }
 
+  /// Of the next poses: how far the jaws are open.
+  void open_jaws(double grip_rad) { grip_rad_ = grip_rad; }
   void stop_organ() { organ_lives_ = false; }
   double given_j() const { return given_j_; }
   double largest_step_n() const { return largest_step_n_; }
@@ -137,6 +140,7 @@ class Session {
   std::uint64_t poses_ = 0;
   Vec3 tip_ = kAbove, last_ = Vec3::Zero();
   bool organ_lives_ = true;
+  double grip_rad_ = 0;
   double given_j_ = 0, largest_step_n_ = 0;
 };
 

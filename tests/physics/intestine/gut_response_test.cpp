@@ -1,6 +1,6 @@
 #include "physics/intestine/gut_response.h"
 
-#include "tests/physics/intestine/folded_gut.h"
+#include "tests/physics/intestine/restless_gut.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,14 @@
 #include "physics/intestine/gut_system.h"
 
+#include "geometry/gut_anatomy.h"
 #include "tests/physics/intestine/gut_shapes.h"
 #include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 namespace omentum::physics {
@@ -149,25 +152,70 @@ TEST(GutSystem, RefusesStepsThatCannotBe) {
   EXPECT_NE(refusal({.method = GutMethod::kExplicit, .step_s = 0.01}).find("step_s"), std::string::npos);
 }
 
-// The stretch of a mass of the gut that is pulled down, by force.
-double pulled_m(double force_n) {
-  GutSystem gut(test::curtain({4, 60}, 1.5), {}, {}, {});
-  const auto middle = static_cast<std::size_t>(gut.shape().layout.mass(0, 30));
+// How far a loop of a gut on a plane comes up under a force, m.
+double lifted_m(double force_n) {
+  GutSystem gut(geometry::make_gut({}), {}, {}, {});
+  const std::array plane{floor_at(-0.08)};
+  const auto loop = static_cast<std::size_t>(gut.shape().layout.mass(0, 50));
   Points forces(gut.state().x.size(), Vec3::Zero());
-  for (int i = 0; i < 400; ++i) gut.step({});
-  const double start_m = gut.state().x[middle].z();
-  forces[middle] = Vec3(0, 0, -force_n);
-  for (int i = 0; i < 800; ++i) gut.step({.forces_n = forces});
-  return start_m - gut.state().x[middle].z();
+  for (int i = 0; i < 600; ++i) gut.step({.obstacles = plane});
+  const double start_m = gut.state().x[loop].z();
+  forces[loop].z() = force_n;
+  for (int i = 0; i < 800; ++i) gut.step({.forces_n = forces, .obstacles = plane});
+  return gut.state().x[loop].z() - start_m;
 }
 
-TEST(GutSystem, AHandThatPullsFeelsTheMesenteryTighten) {
-  double last_m = 0;
+// docs/intestine.md has the table: from lifting weight to stretching what holds it.
+TEST(GutSystem, AHandThatPullsALoopFeelsTheMesenteryTighten) {
+  double last_m = lifted_m(0), last_n = 0, last_stiffness_n_m = 0;
   for (const double force_n : {1.0, 2.0, 4.0, 8.0}) {
-    const double way_m = pulled_m(force_n);
+    const double way_m = lifted_m(force_n);
+    const double stiffness_n_m = (force_n - last_n) / (way_m - last_m);
     EXPECT_GT(way_m, last_m) << force_n << " N";
+    EXPECT_GT(stiffness_n_m, last_stiffness_n_m) << force_n << " N";
     last_m = way_m;
+    last_n = force_n;
+    last_stiffness_n_m = stiffness_n_m;
   }
+}
+
+double mean_speed_m_s(const GutState& state) {
+  double sum = 0;
+  for (const Vec3& v : state.v) sum += v.norm();
+  return sum / static_cast<double>(state.v.size());
+}
+
+TEST(GutSystem, AFoldedGutComesToRestOnAPlane) {
+  GutSystem gut(geometry::make_gut({}), {}, {}, {.step_s = 2.5e-3, .iterations = 5});
+  const std::array plane{floor_at(-0.08)};
+  double last_second_m_s = 0;
+  for (int i = 0; i < 4000; ++i) {
+    gut.step({.obstacles = plane});
+    if (i >= 3600) last_second_m_s += mean_speed_m_s(gut.state()) / 400;
+  }
+  EXPECT_FALSE(gut.report().diverged);
+  EXPECT_LT(last_second_m_s, 1e-3);
+  EXPECT_LT(gut.report().collisions.deepest_m, 0.05 * gut.shape().tube_radius_m);
+}
+
+TEST(GutSystem, ProbesWithoutSenseGiveItNoEnergyToKeep) {
+  GutSystem gut(geometry::make_gut({}), {}, {}, {});
+  const std::array plane{floor_at(-0.03)};
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> place(-0.2, 0.2);
+  Vec3 at(0, 0, 0.5);
+  double most_j = 0;
+  for (int motion = 0; motion < 1000; ++motion) {
+    const Vec3 to(place(generator), place(generator), std::abs(place(generator)));
+    const std::array probe{MovingSphere{.before = at, .after = to, .radius_m = 0.01}};
+    gut.step({.obstacles = plane, .spheres = probe});
+    at = gut.outcomes()[0].reached;
+    most_j = std::max(most_j, gut.report().kinetic_j + gut.report().elastic_j);
+  }
+  EXPECT_FALSE(gut.report().diverged);
+  EXPECT_LT(most_j, 50);  // some ten times what its weight gives it
+  for (int i = 0; i < 400; ++i) gut.step({.obstacles = plane});
+  EXPECT_LT(gut.report().kinetic_j, 0.05);
 }
 
 }  // namespace
