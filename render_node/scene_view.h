@@ -49,6 +49,9 @@ class SceneView {
   /// changed.
   [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values);
 
+  /// The ground's shade follows organs that wander: for now and then, it takes milliseconds.
+  void shade_ground();
+
   /// Whether organs tell their strain from here on: ViewChoices::strain shows it.
   void map_strain(bool on);
 
@@ -88,6 +91,7 @@ class SceneView {
     InstrumentPart part;
     MeshId mesh{};
   };
+  Outline outline() const;
   void send_vertices(const DrawnOrgan& organ);
   void show_cut(DrawnOrgan& organ);
   const PressedSurface* touched_surface(const ToolNow& tool) const;
@@ -105,7 +109,7 @@ class SceneView {
   std::vector<DrawnOrgan> organs_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
-  double ground_m_ = 0;  // height of the table
+  MeshData drape_;  // the ground's
   MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{};
 };
 

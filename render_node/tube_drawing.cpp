@@ -26,7 +26,8 @@ class TubeDrawing final : public OrganDrawing {
   }
 
   // Of the tube alone, which is all of the gut that a ground needs to know.
-  RestOutline rest_outline() const override;
+  Outline outline() const override;
+  bool wanders() const override { return true; }
   void deform(std::span<const float> values) override;
   void map_strain(bool on) override;
   const MeshData& mesh() const override { return tube_.mesh(); }
@@ -45,8 +46,8 @@ class TubeDrawing final : public OrganDrawing {
   SheetSkin sheet_;
 };
 
-RestOutline TubeDrawing::rest_outline() const {
-  RestOutline outline;
+Outline TubeDrawing::outline() const {
+  Outline outline;
   for (const Vertex& vertex : tube_.mesh().vertices) {
     outline.points.push_back(vertex.position.cast<double>());
     outline.normals.push_back(vertex.normal);
