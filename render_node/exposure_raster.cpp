@@ -24,8 +24,9 @@ struct Run {
 };
 Run centres(float low, float high, int size) {
   const auto most = static_cast<float>(size);
-  return {static_cast<int>(std::ceil(std::clamp(low, 0.0f, most) - 0.5f)),
-          static_cast<int>(std::ceil(std::clamp(high, 0.0f, most) - 0.5f)) - 1};
+  // rounded by cutting off: a call of ceil() would be half of all the time
+  return {static_cast<int>(std::clamp(low, 0.0f, most) + 0.5f),
+          static_cast<int>(std::clamp(high, 0.0f, most) + 0.5f) - 1};
 }
 
 bool in_front(const Eigen::Vector4f& corner) {
