@@ -37,7 +37,7 @@ struct PressedSurface {
 /// The outside of an organ, for the camera's distance and the ground under it.
 struct Outline {
   std::vector<geometry::Vec3> points;  // in W, m
-  std::vector<Vec3f> normals;          // of the points, outward, unit
+  std::vector<Vec3f> normals;          // of the points, outward, unit; zero where only the place counts
   double area_m2 = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "render_node/sheet_skin.h"
 #include "render_node/tube_skin.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace omentum::render {
@@ -25,7 +26,7 @@ class TubeDrawing final : public OrganDrawing {
     sheet_.deform(masses_, tube_.shade());
   }
 
-  // Of the tube alone, which is all of the gut that a ground needs to know.
+  // Of the mesentery its lowest place alone: the tube shades the ground, but nothing may lie below it.
   Outline outline() const override;
   bool wanders() const override { return true; }
   void deform(std::span<const float> values) override;
@@ -52,6 +53,10 @@ Outline TubeDrawing::outline() const {
     outline.points.push_back(vertex.position.cast<double>());
     outline.normals.push_back(vertex.normal);
   }
+  const auto height = [](const Vertex& vertex) { return vertex.position.z(); };
+  const Vertex lowest = *std::ranges::min_element(sheet_.mesh().vertices, {}, height);
+  outline.points.push_back(lowest.position.cast<double>());
+  outline.normals.push_back(Vec3f::Zero());
   outline.area_m2 = 2 * std::numbers::pi * tube_.radius_m() * tube_.length_m();
   return outline;
 }

@@ -54,6 +54,14 @@ TEST(TubeDrawing, BothMoveWithAState) {
               sheet.vertices[99].position.z() + 0.25f, 1e-5f);
 }
 
+TEST(TubeDrawing, NothingOfItLiesBelowTheGround) {
+  const Stage stage;
+  const float ground = stage.renderer.mesh_of(stage.item(Look::kGround)).vertices[0].position.z();
+  for (const Look look : {Look::kGut, Look::kMesentery})
+    for (const Vertex& v : stage.renderer.mesh_of(stage.item(look)).vertices)
+      ASSERT_GT(v.position.z(), ground);
+}
+
 TEST(TubeDrawing, TheGroundsShadeFollowsIt) {
   Stage stage;
   const auto darkest = [&] {
