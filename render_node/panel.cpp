@@ -104,7 +104,9 @@ void node_table(const std::vector<NodeRow>& nodes) {
 
 void latency(const char* name, double p50_us, double p99_us) {
   if (p50_us <= 0) return;
-  figure(name, duration(p50_us) + "  (p99 " + duration(p99_us) + ")");
+  ImGui::TextUnformatted(name);
+  ImGui::SameLine();
+  right_aligned((duration(p50_us) + "  (p99 " + duration(p99_us) + ")").c_str());
 }
 
 // One line for each stretch without a gap.
