@@ -11,7 +11,7 @@ namespace {
 constexpr float kFar = 2;        // behind the far plane, which is at 1
 constexpr float kSeam = -1e-4f;  // of a weight: rounding opens no gap between neighbours
 
-using Pixel = Eigen::Vector2f;
+using Pixel = Vec3f;  // place in the picture, in pixels, and depth
 
 // Twice the area of a triangle, positive where it turns to the left.
 float turn(const Pixel& a, const Pixel& b, const Pixel& c) {
@@ -24,12 +24,19 @@ struct Run {
 };
 Run centres(float low, float high, int size) {
   const auto most = static_cast<float>(size);
-  return {static_cast<int>(std::ceil(std::clamp(low, 0.0f, most) - 0.5f)),
-          static_cast<int>(std::ceil(std::clamp(high, 0.0f, most) - 0.5f)) - 1};
+  // rounded by cutting off: a call of ceil() would be half of all the time
+  return {static_cast<int>(std::clamp(low, 0.0f, most) + 0.5f),
+          static_cast<int>(std::clamp(high, 0.0f, most) + 0.5f) - 1};
 }
 
 bool in_front(const Eigen::Vector4f& corner) {
   return corner.z() > -corner.w();
+}
+
+Pixel project(const Eigen::Vector4f& corner, Size size) {
+  const Vec3f place = corner.hnormalized();
+  return {0.5f * static_cast<float>(size.width) * (1 + place.x()),
+          0.5f * static_cast<float>(size.height) * (1 - place.y()), place.z()};
 }
 
 }  // namespace
@@ -56,15 +63,17 @@ void ExposureRaster::add_cover(const MeshData& mesh, const Mat4f& W_from_mesh) {
 void ExposureRaster::add(const MeshData& mesh, const Mat4f& W_from_mesh, bool covers) {
   const Mat4f clip_from_mesh = clip_from_W_ * W_from_mesh;
   corners_.clear();
-  for (const Vertex& vertex : mesh.vertices)
+  pixels_.clear();
+  for (const Vertex& vertex : mesh.vertices) {
     corners_.emplace_back(clip_from_mesh * vertex.position.homogeneous());
+    pixels_.push_back(project(corners_.back(), size_));
+  }
   for (const auto& [a, b, c] : mesh.triangles) {
-    const std::array<Corner, 3> corners{corners_[a], corners_[b], corners_[c]};
-    const auto front = std::count_if(corners.begin(), corners.end(), in_front);
+    const int front = in_front(corners_[a]) + in_front(corners_[b]) + in_front(corners_[c]);
     if (front == 3) {
-      fill(corners[0], corners[1], corners[2], covers);
+      fill(pixels_[a], pixels_[b], pixels_[c], covers);
     } else if (front > 0) {
-      fill_clipped(corners, covers);
+      fill_clipped({corners_[a], corners_[b], corners_[c]}, covers);
     }
   }
 }
@@ -80,29 +89,23 @@ void ExposureRaster::fill_clipped(const std::array<Corner, 3>& corners, bool cov
     const float inside = from.z() + from.w(), other = to.z() + to.w();
     left[count++] = from + inside / (inside - other) * (to - from);
   }
-  for (std::size_t i = 1; i + 1 < count; ++i) fill(left[0], left[i], left[i + 1], covers);
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    fill(project(left[0], size_), project(left[i], size_), project(left[i + 1], size_), covers);
 }
 
-// Depth (z over w) is linear over the picture.
-void ExposureRaster::fill(const Corner& a, const Corner& b, const Corner& c, bool covers) {
-  const auto place = [&](const Corner& corner) {
-    return Pixel(0.5f * static_cast<float>(size_.width) * (1 + corner.x() / corner.w()),
-                 0.5f * static_cast<float>(size_.height) * (1 - corner.y() / corner.w()));
-  };
-  const Pixel pa = place(a), pb = place(b), pc = place(c);
-  const Run rows =
-      centres(std::min({pa.y(), pb.y(), pc.y()}), std::max({pa.y(), pb.y(), pc.y()}), size_.height);
-  const Run columns =
-      centres(std::min({pa.x(), pb.x(), pc.x()}), std::max({pa.x(), pb.x(), pc.x()}), size_.width);
-  const float area = turn(pa, pb, pc);
-  if (rows.last < rows.first || columns.last < columns.first || !(std::abs(area) > 0)) return;
-  const float za = a.z() / a.w(), zb = b.z() / b.w(), zc = c.z() / c.w();
+// Depth is linear over the picture.
+void ExposureRaster::fill(const Vec3f& a, const Vec3f& b, const Vec3f& c, bool covers) {
+  const Run rows = centres(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), size_.height);
+  if (rows.last < rows.first) return;
+  const Run columns = centres(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), size_.width);
+  const float area = turn(a, b, c);
+  if (columns.last < columns.first || !(std::abs(area) > 0)) return;
   for (int y = rows.first; y <= rows.last; ++y) {
     for (int x = columns.first; x <= columns.last; ++x) {
-      const Pixel p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-      const float wa = turn(pb, pc, p) / area, wb = turn(pc, pa, p) / area, wc = 1 - wa - wb;
+      const Pixel p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0);
+      const float wa = turn(b, c, p) / area, wb = turn(c, a, p) / area, wc = 1 - wa - wb;
       if (wa < kSeam || wb < kSeam || wc < kSeam) continue;
-      see(static_cast<std::size_t>(y * size_.width + x), wa * za + wb * zb + wc * zc, covers);
+      see(static_cast<std::size_t>(y * size_.width + x), wa * a.z() + wb * b.z() + wc * c.z(), covers);
     }
   }
 }

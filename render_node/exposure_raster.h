@@ -28,11 +28,12 @@ class ExposureRaster {
   using Corner = Eigen::Vector4f;  // in clip coordinates
   void add(const MeshData& mesh, const Mat4f& W_from_mesh, bool covers);
   void fill_clipped(const std::array<Corner, 3>& corners, bool covers);
-  void fill(const Corner& a, const Corner& b, const Corner& c, bool covers);
+  void fill(const Vec3f& a, const Vec3f& b, const Vec3f& c, bool covers);
   void see(std::size_t pixel, float depth, bool covers);
 
   Size size_;
   Mat4f clip_from_W_ = Mat4f::Identity();
+  std::vector<Vec3f> pixels_;         // of a mesh's vertices: place in the picture, and depth
   std::vector<Corner> corners_;       // of a mesh's vertices
   std::vector<float> depth_;          // of the thing, per pixel; kFar where it is not
   std::vector<std::uint8_t> hidden_;  // 1: something is in front of it there

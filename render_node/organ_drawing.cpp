@@ -25,7 +25,7 @@ class SurfaceDrawing final : public OrganDrawing {
       outline_.normals.push_back(surface_.skin.rest_normal(geometry::SurfaceId(s)));
   }
 
-  RestOutline rest_outline() const override { return outline_; }
+  Outline outline() const override { return outline_; }
   void deform(std::span<const float> values) override { surface_.skin.deform(values); }
   CutOutcome cut(const RemovedSet& removed, std::size_t node_count) override;
   bool map(std::span<const float> shares) override {
@@ -45,7 +45,7 @@ class SurfaceDrawing final : public OrganDrawing {
 
   OrganShape shape_;
   PressedSurface surface_;
-  RestOutline outline_;
+  Outline outline_;
   RemovedSet removed_;           // of what is drawn
   std::optional<OrganCut> cut_;  // made when it is first cut
   std::int32_t removed_count_ = 0;

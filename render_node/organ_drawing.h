@@ -34,10 +34,10 @@ struct PressedSurface {
   }
 };
 
-/// The outside of an organ at rest, for the camera's distance and the ground under it.
-struct RestOutline {
+/// The outside of an organ, for the camera's distance and the ground under it.
+struct Outline {
   std::vector<geometry::Vec3> points;  // in W, m
-  std::vector<Vec3f> normals;          // of the points, outward, unit
+  std::vector<Vec3f> normals;          // of the points, outward, unit; zero where only the place counts
   double area_m2 = 0;
 };
 
@@ -60,7 +60,10 @@ class OrganDrawing {
  public:
   virtual ~OrganDrawing() = default;
 
-  virtual RestOutline rest_outline() const = 0;
+  /// As it lies now where it wanders(), else at rest.
+  virtual Outline outline() const = 0;
+  /// Whether it moves so far that the ground's shade has to follow.
+  virtual bool wanders() const { return false; }
   /// `values`: of a whole state of this organ's kind, x y z of each node.
   virtual void deform(std::span<const float> values) = 0;
   /// From here on exactly this is removed of it, and its states have `node_count` nodes.

@@ -58,6 +58,12 @@ std::string beside(const std::string& right, std::string text) {
   return text + kCut;
 }
 
+void figure(const std::string& of, const std::string& value, const ImVec4* colour = nullptr) {
+  ImGui::TextUnformatted(beside(value, of).c_str());
+  ImGui::SameLine();
+  right_aligned(value.c_str(), colour);
+}
+
 void header(const PanelView& view) {
   const std::string right = view.paused ? "paused" : format("%.1f s", view.time_s);
   ImGui::TextUnformatted(beside(right, view.scene).c_str());
@@ -200,16 +206,8 @@ void organ_line(const OrganRow& row, TissueMap map) {
     ImGui::TextColored(kAmber, "%s%s for %s", of.c_str(),
                        row.known ? "organ stale: no state" : "no organ state", age.c_str());
   }
-  if (row.removed_tetrahedra > 0) {
-    ImGui::TextUnformatted((of + "removed tetrahedra").c_str());
-    ImGui::SameLine();
-    right_aligned(format("%d", row.removed_tetrahedra).c_str());
-  }
-  if (row.length_mm > 0) {
-    ImGui::TextUnformatted((of + "length").c_str());
-    ImGui::SameLine();
-    right_aligned(format("%.2f m", 1e-3 * row.length_mm).c_str());
-  }
+  if (row.removed_tetrahedra > 0) figure(of + "removed tetrahedra", format("%d", row.removed_tetrahedra));
+  if (row.length_mm > 0) figure(of + "length", format("%.2f m", 1e-3 * row.length_mm));
   if (row.beyond_small_strains()) {
     ImGui::TextColored(kAmber, "%sstrained %.0f %%: beyond small strains (%.0f %%)", of.c_str(),
                        100 * *row.strained, 100 * kSmallStrain);
@@ -264,26 +262,16 @@ void map_scale(const PanelView& view) {
 }
 
 void organs(const PanelView& view) {
-  if (view.dents) {
-    ImGui::TextUnformatted("deepest dent");
-    ImGui::SameLine();
-    right_aligned(format("%.1f mm", view.dent_mm).c_str());
-  }
-  if (view.exposed_share) {
-    const std::string share = format("%.0f %%", 100 * *view.exposed_share);
-    ImGui::TextUnformatted(beside(share, view.exposed_organ + " exposed").c_str());
-    ImGui::SameLine();
-    right_aligned(share.c_str());
-  }
+  if (view.dents) figure("deepest dent", format("%.1f mm", view.dent_mm));
+  if (view.exposed_share)
+    figure(view.exposed_organ + " exposed", format("%.0f %%", 100 * *view.exposed_share));
   if (view.map != TissueMap::kOff) {
     map_scale(view);
     largest_line(view);
   }
   if (view.real_time_factor > 0) {
-    ImGui::TextUnformatted("real time");
-    ImGui::SameLine();
     const bool slow = view.real_time_factor < kKeepsUp;
-    right_aligned(format("%.2f x", view.real_time_factor).c_str(), slow ? &kAmber : nullptr);
+    figure("real time", format("%.2f x", view.real_time_factor), slow ? &kAmber : nullptr);
   }
   ImGui::PushTextWrapPos(0);  // an organ may have a long name
   for (const OrganRow& row : view.organs) organ_line(row, view.map);

@@ -15,9 +15,10 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kPicturePeriod_s = 2;                      // off-screen, unless asked otherwise
-constexpr std::int64_t kExposurePeriod_ns = 1'000'000'000;  // loops are folded aside within seconds
-constexpr std::int64_t kStatusPeriod_ns = 100'000'000;      // docs/topics.md: 1-10 Hz
+constexpr double kPicturePeriod_s = 2;            // off-screen, unless asked otherwise
+constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and the ground's shade is seen to
+                                                  // follow them, within seconds
+constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
 constexpr double kDuty = 0.45;
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
@@ -120,7 +121,7 @@ void RenderLoop::frame(bool last) {
   const std::int64_t begin_ns = pace_.now_ns();
   account_.start(begin_ns);
   watch_.listen(*inbox_, view_, faults_, begin_ns);
-  if (to_expose_ && begin_ns >= next_exposure_ns_) measure_exposure(begin_ns);
+  if (begin_ns >= next_slow_ns_) watch_slowly(begin_ns);
   const std::optional<Dent>& dent = watch_.deepest_dent();
   PicturesDue due;
   if (last) {
@@ -138,8 +139,13 @@ void RenderLoop::frame(bool last) {
   finish_frame(begin_ns, due.indent || !due.numbered.empty());
 }
 
-void RenderLoop::measure_exposure(std::int64_t now_ns) {
-  next_exposure_ns_ = now_ns + kExposurePeriod_ns;
+void RenderLoop::watch_slowly(std::int64_t now_ns) {
+  next_slow_ns_ = now_ns + kSlow_ns;
+  view_.shade_ground();
+  if (to_expose_) measure_exposure();
+}
+
+void RenderLoop::measure_exposure() {
   const std::optional<double> share = view_.exposed_share(*to_expose_, watch_.tools(), raster_);
   if (share) exposure_.add(*share);
 }

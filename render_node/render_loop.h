@@ -62,7 +62,8 @@ class RenderLoop {
   RenderLoop(const RenderOptions& options, const Loaded& loaded, const transport::OpenBus& open_bus,
              Renderer& renderer, runtime::Pace& pace);
   void frame(bool last);
-  void measure_exposure(std::int64_t now_ns);
+  void measure_exposure();
+  void watch_slowly(std::int64_t now_ns);
   void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
   void finish_frame(std::int64_t begin_ns, bool for_disk);
@@ -96,7 +97,7 @@ class RenderLoop {
   std::optional<std::size_t> to_expose_;  // its place among the organs
   ExposureRaster raster_{kExposureSize};
   ExposureScore exposure_;
-  std::int64_t next_exposure_ns_ = 0;
+  std::int64_t next_slow_ns_ = 0;
   msg::NodeStatus status_;
 
   // declared last: callbacks end before what they touch

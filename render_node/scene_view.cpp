@@ -20,6 +20,8 @@ constexpr double kShadowReach =
 constexpr double kScopeDistance = 0.42;  // of the orbit camera's start
 constexpr double kScopeField_deg = 62;   // a laparoscope's, bottom to top
 
+constexpr std::size_t kGroundSamples = 400;  // of the organs, for a shade that follows them: 4 ms
+
 constexpr double kLeastHeight = 0.45;  // of the unit viewing direction: never from under the table
 
 // From where a whole scene is best seen: the side on which it is pressed, from above.
@@ -84,20 +86,14 @@ SceneView::SceneView(const scene::Scene& scene, const std::vector<OrganShape>& o
 SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs,
                      Renderer& renderer)
     : renderer_(renderer), scene_(scene) {
-  std::vector<Vec3> all;
-  std::vector<Vec3f> normals;
-  double area = 0;
   for (std::unique_ptr<OrganDrawing>& drawing : organs) {
-    const RestOutline outline = drawing->rest_outline();
-    all.insert(all.end(), outline.points.begin(), outline.points.end());
-    normals.insert(normals.end(), outline.normals.begin(), outline.normals.end());
-    area += outline.area_m2;
     const MeshId mesh = renderer.add_mesh(drawing->mesh());
     std::vector<MeshId> parts;
     for (const OrganPart& part : drawing->parts()) parts.push_back(renderer.add_mesh(*part.mesh));
     organs_.push_back({std::move(drawing), mesh, {}, std::move(parts)});
   }
-  ball_ = ball_around(all);
+  const Outline all = outline();
+  ball_ = ball_around(all.points);
   for (const auto& tool : scene.tools) {
     auto& parts = instruments_.emplace_back();
     for (auto& part : instrument_parts(tool, tool_colour(tool.id))) {
@@ -105,12 +101,30 @@ SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<Orga
       parts.push_back({std::move(part), mesh});
     }
   }
-  const MeshData ground = ground_under(all, normals, ball_, area, table_height(scene));
-  ground_m_ = ground.vertices.front().position.z();
-  ground_ = renderer.add_mesh(ground);
+  drape_ = ground_under(all.points, all.normals, ball_, all.area_m2, table_height(scene));
+  ground_ = renderer.add_mesh(drape_);
   arrow_shaft_ = renderer.add_mesh(unit_shaft());
   arrow_head_ = renderer.add_mesh(unit_head());
   marker_ = renderer.add_mesh(unit_ball());
+}
+
+Outline SceneView::outline() const {
+  Outline all;
+  for (const DrawnOrgan& organ : organs_) {
+    const Outline of_organ = organ.drawing->outline();
+    all.points.insert(all.points.end(), of_organ.points.begin(), of_organ.points.end());
+    all.normals.insert(all.normals.end(), of_organ.normals.begin(), of_organ.normals.end());
+    all.area_m2 += of_organ.area_m2;
+  }
+  return all;
+}
+
+void SceneView::shade_ground() {
+  const auto wanders = [](const DrawnOrgan& organ) { return organ.drawing->wanders(); };
+  if (std::ranges::none_of(organs_, wanders)) return;
+  const Outline all = outline();
+  render::shade_ground(all.points, all.normals, all.area_m2, kGroundSamples, drape_);
+  renderer_.update_vertices(ground_, drape_.vertices);
 }
 
 void SceneView::deform(std::size_t organ, std::span<const float> values) {
@@ -191,7 +205,8 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
     const std::vector<const MeshData*> of_organ = meshes_of(*organ.drawing);
     meshes.insert(meshes.end(), of_organ.begin(), of_organ.end());
   }
-  const Camera camera = close_up_of(dent, meshes, shafts, choices.orbit, ground_m_);
+  const Camera camera =
+      close_up_of(dent, meshes, shafts, choices.orbit, drape_.vertices.front().position.z());
   Frame frame = frame_from(camera, near, tools, 0);
   frame.lighting = rake_light(camera, shadow_ball());
   frame.with_panel = false;

@@ -56,6 +56,9 @@ class SceneView {
   /// Whether an organ's shares are known.
   bool mapped(std::size_t organ) const { return organs_[organ].mapped; }
 
+  /// The ground's shade follows organs that wander: for now and then, it takes milliseconds.
+  void shade_ground();
+
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
 
@@ -93,6 +96,7 @@ class SceneView {
     InstrumentPart part;
     MeshId mesh{};
   };
+  Outline outline() const;
   void send_vertices(const DrawnOrgan& organ);
   void show_cut(DrawnOrgan& organ);
   const PressedSurface* touched_surface(const ToolNow& tool) const;
@@ -110,7 +114,7 @@ class SceneView {
   std::vector<DrawnOrgan> organs_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
-  double ground_m_ = 0;  // height of the table
+  MeshData drape_;  // the ground's
   MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{};
 };
 

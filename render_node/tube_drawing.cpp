@@ -4,6 +4,7 @@
 #include "render_node/sheet_skin.h"
 #include "render_node/tube_skin.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace omentum::render {
@@ -25,8 +26,9 @@ class TubeDrawing final : public OrganDrawing {
     sheet_.deform(masses_, tube_.shade());
   }
 
-  // Of the tube alone, which is all of the gut that a ground needs to know.
-  RestOutline rest_outline() const override;
+  // Of the mesentery its lowest place alone: the tube shades the ground, but nothing may lie below it.
+  Outline outline() const override;
+  bool wanders() const override { return true; }
   void deform(std::span<const float> values) override;
   [[nodiscard]] bool map(std::span<const float> shares) override;
   const MeshData& mesh() const override { return tube_.mesh(); }
@@ -45,12 +47,16 @@ class TubeDrawing final : public OrganDrawing {
   SheetSkin sheet_;
 };
 
-RestOutline TubeDrawing::rest_outline() const {
-  RestOutline outline;
+Outline TubeDrawing::outline() const {
+  Outline outline;
   for (const Vertex& vertex : tube_.mesh().vertices) {
     outline.points.push_back(vertex.position.cast<double>());
     outline.normals.push_back(vertex.normal);
   }
+  const auto height = [](const Vertex& vertex) { return vertex.position.z(); };
+  const Vertex lowest = *std::ranges::min_element(sheet_.mesh().vertices, {}, height);
+  outline.points.push_back(lowest.position.cast<double>());
+  outline.normals.push_back(Vec3f::Zero());
   outline.area_m2 = 2 * std::numbers::pi * tube_.radius_m() * tube_.length_m();
   return outline;
 }

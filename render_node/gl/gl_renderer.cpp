@@ -201,7 +201,7 @@ class GlRenderer final : public Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look : {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kGut,
+    for (const Look look : {Look::kSolid, Look::kGut, Look::kTissue, Look::kCut, Look::kBared,
                             Look::kMesentery, Look::kMap, Look::kGround, Look::kSignal})
       draw_items(frame, look);
     glDisable(GL_CULL_FACE);

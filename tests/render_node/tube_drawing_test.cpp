@@ -54,6 +54,29 @@ TEST(TubeDrawing, BothMoveWithAState) {
               sheet.vertices[99].position.z() + 0.25f, 1e-5f);
 }
 
+TEST(TubeDrawing, NothingOfItLiesBelowTheGround) {
+  const Stage stage;
+  const float ground = stage.renderer.mesh_of(stage.item(Look::kGround)).vertices[0].position.z();
+  for (const Look look : {Look::kGut, Look::kMesentery})
+    for (const Vertex& v : stage.renderer.mesh_of(stage.item(look)).vertices)
+      ASSERT_GT(v.position.z(), ground);
+}
+
+TEST(TubeDrawing, TheGroundsShadeFollowsIt) {
+  Stage stage;
+  const auto darkest = [&] {
+    const auto& vertices = stage.renderer.mesh_of(stage.item(Look::kGround)).vertices;
+    return *std::ranges::min_element(vertices, {}, &Vertex::openness);
+  };
+  const Vertex before = darkest();
+  for (Vec3& p : stage.gut.positions) p.x() += 0.4;
+  stage.view.deform(0, values_of(stage.gut));
+  EXPECT_EQ(darkest().position, before.position) << "it costs too much for every state";
+  stage.view.shade_ground();
+  EXPECT_GT(darkest().position.x(), before.position.x() + 0.1f);
+  EXPECT_NEAR(darkest().openness, before.openness, 0.15f);
+}
+
 TEST(TubeDrawing, TheCameraHasAllOfItInView) {
   const Stage stage;
   for (const Vec3& p : stage.gut.positions)
