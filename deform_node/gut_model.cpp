@@ -189,7 +189,10 @@ void GutModel::look_ahead() const noexcept {
 bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   look();
   const SkinFaces faces{skin_, look_->dented, system_->state().x};
-  if (!look_->choice.choose(place, faces, patch)) return false;
+  PatchPlace around = place;
+  // what is held must not leave the patch where a hand is ahead of a gut that falls behind the clock
+  around.centre = presses_.middle(place.tool, look_->dented).value_or(place.centre);
+  if (!look_->choice.choose(around, faces, patch)) return false;
   look_ahead();
   patch.topology_version = 0;
   const std::span<const NodeId> nodes = look_->choice.nodes();

@@ -88,6 +88,18 @@ Vec3 GutPresses::of_tool(std::uint32_t tool, NodeId n) const noexcept {
   return sum;
 }
 
+std::optional<Vec3> GutPresses::middle(std::uint32_t tool, std::span<const Vec3> places) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  std::size_t count = 0;
+  for (const HeldPress& held : held_) {
+    if (held.tool != tool) continue;
+    count += held.count;
+    for (std::size_t i = 0; i < held.count; ++i) sum += places[static_cast<std::size_t>(held.nodes[i])];
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
 void GutPresses::dent(std::span<Vec3> places) const noexcept {
   for (const HeldPress& held : held_)
     for (std::size_t i = 0; i < held.count; ++i)

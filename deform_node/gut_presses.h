@@ -5,6 +5,7 @@
 #include "geometry/gut_skin.h"
 #include "physics/dynamics/imposed_press.h"
 
+#include <optional>
 #include <vector>
 
 namespace omentum::deform {
@@ -34,6 +35,8 @@ class GutPresses {
   std::span<const Vec3> forces() const noexcept { return forces_; }
   /// One tool's at a node of the skin, N.
   Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
+  /// The middle of the nodes of the skin that a tool presses; nothing where it presses none.
+  std::optional<Vec3> middle(std::uint32_t tool, std::span<const Vec3> places) const noexcept;
   /// Moves the nodes of the skin that tools press into its wall.
   void dent(std::span<Vec3> places) const noexcept;
   double wall_m_n() const noexcept { return wall_m_n_; }
