@@ -38,7 +38,7 @@ class BodyLoads {
   /// One tool's, without nodes that nothing is left around.
   struct HeldPress {
     std::uint32_t tool = 0;
-    double strength = 1;
+    double strength = 1, gain = 1;
     std::size_t count = 0;
     std::array<NodeId, kMaxNodesPerTool> nodes;
     std::array<Vec3, kMaxNodesPerTool> displacements, forces;

@@ -37,7 +37,6 @@ physics::GutCollisionSettings collisions_of(const scene::IntestineSpec& spec) {
                                                    : physics::GutPairMethod::kComplete;
   settings.friction = spec.friction;
   settings.seed = spec.seed;
-  settings.most_spheres = static_cast<std::int32_t>(GutModel::kMostMet);
   return settings;
 }
 

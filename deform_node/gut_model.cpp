@@ -1,6 +1,7 @@
 #include "deform_node/gut_model.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace omentum::deform {
@@ -71,18 +72,21 @@ GutModel::GutModel(GutParts parts)
       is_felt_in_its_own_steps_(system_->settings().step_s == felt_->settings().step_s),
       skin_(system_->shape()),
       presses_(skin_, places_of(skin_, system_->shape().positions), parts.wall_m_n),
-      spheres_(system_->shape(), system_->springs().mass(), kMostMet),
       imposed_(system_->shape().positions.size(), kMaxTools),
       wanted_(system_->state()),
       values_(3 * system_->shape().positions.size()),
-      look_(std::make_unique<Felt>(skin_)) {
+      look_(std::make_unique<Felt>(skin_, system_->shape().positions.size())),
+      meeting_(std::make_unique<GutMeeting>(*felt_)) {
   show();
 }
 
-GutModel::Felt::Felt(const GutSkin& skin)
+GutModel::Felt::Felt(const GutSkin& skin, std::size_t all)
     : places(skin.node_count()),
       dented(skin.node_count()),
       next(skin.node_count()),
+      ahead(all),
+      wanted(all),
+      forces(all),
       block(kMostPatchMasses * kMostPatchMasses),
       choice(skin.node_count(), skin.triangles().size(), kPatchNodes) {
   masses.reserve(kMostPatchMasses);
@@ -92,7 +96,7 @@ ModelSizes GutModel::sizes() const {
   return {.values = values_.size(),
           .removed_bytes = 0,
           .local_nodes = kPatchNodes,
-          .spheres = spheres_.now().size()};
+          .spheres = meeting_->most_spheres()};
 }
 
 void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -104,23 +108,31 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
   look();
   presses_.press(loads.presses, look_->places, system_->state().x);
   until_felt_s_ = 0;
+  meeting_->act(steps * step_s);
   for (int i = 0; i < steps && !status_.diverged; ++i) advance();
-  spheres_.forget();
+  meeting_->put_down();
   show();
 }
 
 void GutModel::advance() noexcept {
   const double step_s = system_->settings().step_s;
   if (!is_felt_in_its_own_steps_) press_ahead();
-  system_->step(loads(spheres_.met(step_s)));
+  system_->step(loads());
   if (is_felt_in_its_own_steps_) impose();
   ++status_.steps;
   status_.simulated_s += step_s;
   status_.diverged = system_->report().diverged;
 }
 
-physics::GutLoads GutModel::loads(std::span<const physics::MovingSphere> spheres) const noexcept {
-  return {.forces_n = presses_.forces(), .obstacles = obstacles_, .spheres = spheres};
+physics::GutLoads GutModel::loads() const noexcept {
+  return {.forces_n = forces(), .obstacles = obstacles_};
+}
+
+std::span<const Vec3> GutModel::forces() const noexcept {
+  const std::span<const Vec3> of_organs = meeting_->forces();
+  if (of_organs.empty()) return presses_.forces();
+  std::ranges::transform(presses_.forces(), of_organs, look_->forces.begin(), std::plus{});
+  return look_->forces;
 }
 
 // Of a gut that was stepped under the hands' own forces: how strong they would have to be.
@@ -136,7 +148,7 @@ void GutModel::impose() noexcept {
   const std::span<const double> strengths = strengths_on(*system_);
   presses_.act(strengths);
   if (std::ranges::all_of(strengths, [](double s) { return std::abs(s - 1) < kAsSaid; })) return;
-  system_->move_to(wanted_, loads({}));
+  system_->move_to(wanted_, loads());
 }
 
 // Steps are short: hands are told, and answered, only now and then, and between hold their strengths.
@@ -146,7 +158,7 @@ void GutModel::press_ahead() noexcept {
   until_felt_s_ = felt_->settings().step_s;
   presses_.act(1);
   felt_->take_up(system_->state());
-  felt_->step(loads({}));
+  felt_->step(loads());
   presses_.act(strengths_on(*felt_));
 }
 
@@ -154,15 +166,14 @@ void GutModel::reset() noexcept {
   system_->reset();
   felt_->reset();
   presses_.forget();
-  spheres_.forget();
+  meeting_->reset();
   ahead_s_ = until_felt_s_ = 0;
   status_.diverged = false;
   show();
 }
 
 void GutModel::show() noexcept {
-  look_->is_seen = look_->is_foreseen = false;
-  spheres_.follow(system_->state());
+  look_->is_seen = look_->is_foreseen = look_->is_next_seen = false;
   float* value = values_.data();
   for (const Vec3& x : system_->state().x)
     for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(x[axis]);
@@ -179,11 +190,33 @@ void GutModel::look() const noexcept {
   presses_.dent(look_->dented);
 }
 
-void GutModel::look_ahead() const noexcept {
+void GutModel::foresee() const noexcept {
   if (std::exchange(look_->is_foreseen, true)) return;
   felt_->take_up(system_->state());
-  felt_->step(loads({}));
-  skin_.place(felt_->state().x, look_->next);
+  felt_->step(loads());
+  for (std::size_t m = 0; m < look_->ahead.size(); ++m)
+    look_->ahead[m] = (felt_->state().x[m] - system_->state().x[m]) / felt_->settings().step_s;
+}
+
+void GutModel::look_ahead() const noexcept {
+  if (std::exchange(look_->is_next_seen, true)) return;
+  foresee();
+  const double step_s = felt_->settings().step_s;
+  std::ranges::transform(system_->state().x, look_->ahead, look_->wanted.begin(),
+                         [step_s](const Vec3& x, const Vec3& v) -> Vec3 { return x + step_s * v; });
+  skin_.place(look_->wanted, look_->next);
+}
+
+std::span<const CollisionSphere> GutModel::collidable() const noexcept {
+  if (!meeting_->looks_ahead()) return meeting_->collidable(system_->state().x, system_->state().v);
+  foresee();
+  return meeting_->collidable(system_->state().x, look_->ahead);
+}
+
+void GutModel::respond(std::span<const OrganContact> contacts) noexcept {
+  foresee();
+  meeting_->respond(contacts, system_->state(), presses_.forces(), look_->ahead);
+  look_->is_next_seen = false;
 }
 
 bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {

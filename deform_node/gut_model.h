@@ -1,8 +1,8 @@
 // An intestine and its mesentery as deform_node moves them (Raghupathi 2004).
 #pragma once
 
+#include "deform_node/gut_meeting.h"
 #include "deform_node/gut_presses.h"
-#include "deform_node/gut_spheres.h"
 #include "deform_node/organ_models.h"
 #include "deform_node/patch_choice.h"
 #include "physics/intestine/gut_system.h"
@@ -26,8 +26,6 @@ class GutModel final : public OrganModel {
  public:
   /// Nodes of one patch: as many as a LAN carries.
   static constexpr std::size_t kPatchNodes = 24;
-  /// Spheres of other organs that count in one tick.
-  static constexpr std::size_t kMostMet = 256;
 
   explicit GutModel(GutParts parts);
 
@@ -37,8 +35,8 @@ class GutModel final : public OrganModel {
   OrganView view() const noexcept override;
   ModelStatus status() const noexcept override { return status_; }
   bool local_model(const PatchPlace& place, LocalPatch& patch) const noexcept override;
-  std::span<const CollisionSphere> collidable() const noexcept override { return spheres_.now(); }
-  void respond(std::span<const OrganContact> contacts) noexcept override { spheres_.meet(contacts); }
+  std::span<const CollisionSphere> collidable() const noexcept override;
+  void respond(std::span<const OrganContact> contacts) noexcept override;
 
   const physics::GutReport& report() const noexcept { return system_->report(); }
 
@@ -47,9 +45,11 @@ class GutModel final : public OrganModel {
   std::span<const double> strengths_on(const physics::GutSystem& gut) noexcept;
   void impose() noexcept;
   void press_ahead() noexcept;
-  physics::GutLoads loads(std::span<const physics::MovingSphere> spheres) const noexcept;
+  physics::GutLoads loads() const noexcept;
+  std::span<const Vec3> forces() const noexcept;
   void show() noexcept;
   void look() const noexcept;
+  void foresee() const noexcept;
   void look_ahead() const noexcept;
   void find_compliance(std::span<const NodeId> nodes, std::span<float> upper) const noexcept;
 
@@ -58,7 +58,6 @@ class GutModel final : public OrganModel {
   bool is_felt_in_its_own_steps_;
   geometry::GutSkin skin_;
   GutPresses presses_;
-  GutSpheres spheres_;
   physics::ImposedPress imposed_;
   physics::GutState wanted_;  // workspace: where presses want the masses
   double ahead_s_ = 0;        // of the clock's time, not yet stepped
@@ -68,15 +67,19 @@ class GutModel final : public OrganModel {
   // workspace of local_model()
   static constexpr std::size_t kMostPatchMasses = kPatchNodes * geometry::GutSkin::kMostWeights;
   struct Felt {
-    explicit Felt(const geometry::GutSkin& skin);
+    Felt(const geometry::GutSkin& skin, std::size_t masses);
     // [nodes of the skin] now, with the dents that tools press, and a step later under the same forces
     std::vector<Vec3> places, dented, next;
-    bool is_seen = false, is_foreseen = false;
+    bool is_seen = false, is_foreseen = false, is_next_seen = false;
+    std::vector<Vec3> ahead;               // [masses] velocities at the end of that step, m/s
+    std::vector<Vec3> wanted;              // [masses] places there, m
+    std::vector<Vec3> forces;              // [masses] of tools and other organs, N
     std::vector<geometry::MassId> masses;  // that carry a patch
     std::vector<double> block;             // A^-1 of these
     PatchChoice choice;
   };
   std::unique_ptr<Felt> look_;
+  std::unique_ptr<GutMeeting> meeting_;
 };
 
 }  // namespace omentum::deform

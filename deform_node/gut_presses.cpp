@@ -36,10 +36,11 @@ void GutPresses::press(std::span<const ToolLoad> presses, std::span<const Vec3> 
       const Vec3 offset = places[n] - weighted(skin_.node(load.nodes[i]), x);
       add(load.nodes[i], rest_[n] + load.displacements[i] - offset, load.forces[i], held);
     }
-    presses_.push_back({{held.masses.data(), held.mass_count},
-                        {held.places.data(), held.mass_count},
-                        {held.mass_forces.data(), held.mass_count},
-                        held.own_yield_j});
+    presses_.push_back({.nodes = {held.masses.data(), held.mass_count},
+                        .displacements = {held.places.data(), held.mass_count},
+                        .forces = {held.mass_forces.data(), held.mass_count},
+                        .own_yield_j = held.own_yield_j,
+                        .most_strength = load.gain * physics::Press::kMostStrength});
   }
   add_up();
 }

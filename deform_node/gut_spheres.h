@@ -1,32 +1,27 @@
-// An intestine as other organs meet it.
+// The spheres of an intestine: what other organs meet of it, and what that does to its masses.
 #pragma once
 
 #include "deform_node/organ_contact.h"
 #include "geometry/gut_shape.h"
-#include "physics/intestine/gut_obstacle.h"
-#include "physics/intestine/gut_state.h"
 
 #include <span>
 #include <vector>
 
 namespace omentum::deform {
 
-/// Spheres along the axis, about a radius of the tube apart, each with its share of the gut's mass. What they
-/// met in a tick acts in the next step, as spheres that move into their way by the gut's share of the
-/// overlap, so that momentum stays with both organs together.
+/// Along the axis, about a radius of the tube apart, each with its share of the gut's mass; one between two
+/// held masses does not yield. Takes its memory when it is made; one thread.
 class GutSpheres {
  public:
-  /// `masses_kg`: [masses]. `most_met`: of one tick; what comes beyond is left out.
-  GutSpheres(const geometry::GutShape& shape, std::span<const double> masses_kg, std::size_t most_met);
+  /// `masses_kg`: [masses].
+  GutSpheres(const geometry::GutShape& shape, std::span<const double> masses_kg);
 
-  /// Follows the masses.
-  void follow(const physics::GutState& state) noexcept;
-  std::span<const CollisionSphere> now() const noexcept { return now_; }
-
-  void meet(std::span<const OrganContact> contacts) noexcept;
-  void forget() noexcept { met_.clear(); }
-  /// What the next step of `step_s` has to do with.
-  std::span<const physics::MovingSphere> met(double step_s) noexcept;
+  std::size_t count() const noexcept { return places_.size(); }
+  /// With the masses at `x`, m, going by `v`, m/s, both [masses]; valid until the next call.
+  std::span<const CollisionSphere> follow(std::span<const geometry::Vec3> x,
+                                          std::span<const geometry::Vec3> v) noexcept;
+  /// What they met since follow(), added to the masses' impulses, [masses], N s.
+  void push(std::span<const OrganContact> contacts, std::span<geometry::Vec3> impulses) const noexcept;
 
  private:
   struct Place {
@@ -34,10 +29,8 @@ class GutSpheres {
     double at = 0;            // along it, 0 to 1
   };
 
-  std::vector<Place> places_;         // [spheres]
-  std::vector<CollisionSphere> now_;  // [spheres]
-  std::vector<OrganContact> met_;     // capacity most_met
-  std::vector<physics::MovingSphere> moving_;
+  std::vector<Place> places_;           // [spheres]
+  std::vector<CollisionSphere> shown_;  // [spheres]
 };
 
 }  // namespace omentum::deform

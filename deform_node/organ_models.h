@@ -26,7 +26,8 @@ struct ToolLoad {
   std::uint32_t tool = 0;
   std::span<const NodeId> nodes;
   std::span<const Vec3> displacements;  // imposed u of each node, in W, m
-  std::span<const Vec3> forces;         // on the tissue, in W, N
+  std::span<const Vec3> forces;         // on the tissue, in W, N, times `gain`
+  double gain = 1;                      // below 1: its hand fell silent, and lets go
 };
 
 /// What a tool's cutting edge swept since the last tick: the two ruled triangles between both places.

@@ -7,6 +7,7 @@
 #include "scene/toml_section.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -88,14 +89,25 @@ void read_supports(TomlSection& s, OrganSpec& organ) {
              "at most " + std::to_string(kMost) + ", or a file");
 }
 
+void refuse_what_is_built(TomlSection& s) {
+  for (const char* key : {"metres_per_unit", "fixed"})
+    if (s.has(key)) s.refuse(key, "one beside an organ file", "none: the file is built with its own");
+}
+
 void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& organ) {
   std::string file;
   s.read("mesh", organ.mesh, kRequired);
-  s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
-  s.read("young_pa", organ.young_pa, kRequired, kPositive);
-  s.read("poisson", organ.poisson, kRequired, kPoisson);
-  s.read("density_kg_m3", organ.density_kg_m3, kRequired, kPositive);
-  read_supports(s, organ);
+  if (is_organ_file(organ.mesh)) {
+    refuse_what_is_built(s);
+  } else {
+    s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
+    read_supports(s, organ);
+  }
+  // a scene that is prepared names the file, and says what that is of
+  const TomlSection::Need need = is_organ_file(organ.mesh) && !s.has("file") ? kOptional : kRequired;
+  s.read("young_pa", organ.young_pa, need, kPositive);
+  s.read("poisson", organ.poisson, need, kPoisson);
+  s.read("density_kg_m3", organ.density_kg_m3, need, kPositive);
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions"))
     organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
@@ -273,6 +285,12 @@ void refuse_wrong_count(const TomlSection& root, const std::string& key, std::si
 }
 
 }  // namespace
+
+bool is_organ_file(const std::string& mesh) {
+  std::string ending = std::filesystem::path(mesh).extension();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".h5";
+}
 
 Scene load_scene(const std::filesystem::path& file) {
   TomlSection root = open_toml(file);

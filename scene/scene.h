@@ -68,14 +68,18 @@ struct OrganSpec {
   std::string
       mesh;  // a mesh or organ file (relative to the scene), or "phantom:..." (scene.cpp has the words)
   double metres_per_unit = 1;
+  // 0, all or some: what the mesh, an organ file, was built of (scene_prepare fills it in)
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
   std::vector<RegionSpec> regions;         // of several that overlap the last one holds
-  std::string fixed;                       // as organ_build --fixed takes it
+  std::string fixed;                       // as organ_build --fixed takes it; of an organ file empty
   std::string look = "liver";              // "liver", "gallbladder" or "colon"; of a tube "gut"
   std::optional<DynamicsSpec> dynamics;    // of a mesh whose model moves it by itself
   std::optional<IntestineSpec> intestine;  // of a tube
   std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
+
+/// Whether an OrganSpec's mesh is a built organ, which has its material, supports and metres.
+bool is_organ_file(const std::string& mesh);
 
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the
 /// handle).

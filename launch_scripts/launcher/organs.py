@@ -131,6 +131,9 @@ def users_organ_file(options, cache, spec):
     """Of the organ that the user gives instead of `spec`, the scene's first one."""
     if options.organ.suffix.lower() == ".h5":
         return options.organ
+    if not spec["young_pa"]:
+        raise Refusal(f"{options.scene}: the organ {spec['name']} is an organ file, without a material for the mesh "
+                      f"{options.organ.name}: expected --organ FILE.h5, or young_pa, poisson and density_kg_m3 beside it")
     scale, fixed = foreign_terms(options, spec)
     if spec["regions"]:
         print(f"run: {options.organ.name} is of one material: the scene's regions lie in its own organ", flush=True)

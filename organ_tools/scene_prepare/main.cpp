@@ -46,7 +46,7 @@ void fit(std::size_t i, bool is_its_own, scene::Scene& scene) {
   warn_of_what_can_hardly_be_meant(organ, scene);
   const scene_prepare::OrganSkin skin(organ);
   if (is_its_own) {
-    scene_prepare::require_own_material(organ, i, scene);
+    scene_prepare::take_own_material(organ, i, scene);
     scene_prepare::project_hands(skin, i, scene);
     return;
   }

@@ -54,7 +54,7 @@ std::span<const double> ImposedPress::impose(Yielding& body, std::span<const Pre
     }
     coupling_[p * count_ + p] += presses[p].own_yield_j;
   }
-  solve();
+  solve(presses);
   for (std::size_t p = 0; p < count_; ++p) {
     const double more = strength_[p] - already;
     if (more == 0) continue;
@@ -66,7 +66,7 @@ std::span<const double> ImposedPress::impose(Yielding& body, std::span<const Pre
   return std::span(strength_).first(count_);
 }
 
-void ImposedPress::solve() noexcept {
+void ImposedPress::solve(std::span<const Press> presses) noexcept {
   std::fill_n(strength_.begin(), count_, 0.0);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (std::size_t p = 0; p < count_; ++p) {
@@ -74,7 +74,7 @@ void ImposedPress::solve() noexcept {
       if (!(row[p] > 0)) continue;
       double rest = lacking_[p];
       for (std::size_t q = 0; q < count_; ++q) rest -= row[q] * strength_[q];
-      strength_[p] = std::clamp(strength_[p] + rest / row[p], 0.0, kMostStrength);
+      strength_[p] = std::clamp(strength_[p] + rest / row[p], 0.0, presses[p].most_strength);
     }
   }
 }

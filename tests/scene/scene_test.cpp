@@ -182,6 +182,23 @@ TEST(Scene, SupportsThatAreTooLongToTellAreRefusedWithTheirLine) {
               AllOf(HasSubstr(".toml:8: "), HasSubstr("fixed: found " + std::to_string(boxes.size()))));
 }
 
+TEST(Scene, AnOrganFileHasItsOwnMaterialSupportsAndMetres) {
+  const std::string built = "meshes/liver.H5\"\n#";
+  std::string text = with("meshes/liver.msh\"\nyoung_pa", built);
+  for (const std::string key : {"poisson", "density_kg_m3", "fixed"}) text.replace(text.find(key), 0, "#");
+  EXPECT_EQ(load_scene(write_scene(text)).organs[0].fixed, "");
+  EXPECT_THAT(message_of(write_scene(with("meshes/liver.msh\"", built + "\nmetres_per_unit = 0.001"))),
+              HasSubstr(".toml:6: organs[0].metres_per_unit: found one beside an organ file, expected none"));
+  EXPECT_THAT(message_of(write_scene(with("liver.msh", "liver.h5"))),
+              HasSubstr(".toml:8: organs[0].fixed: found one beside an organ file, expected none"));
+}
+
+TEST(Scene, APreparedOrganFileSaysItsMaterial) {
+  std::string text = with("liver.msh\"\nyoung_pa", "liver.h5\"\nfile = \"liver.h5\"\n#");
+  text.replace(text.find("fixed"), 0, "#");
+  EXPECT_THAT(message_of(write_scene(text)), HasSubstr("organs[0].young_pa: found nothing"));
+}
+
 TEST(Scene, AHandMayNameTheOrganThatItPresses) {
   const Scene scene =
       load_scene(write_scene(with_second_organ("sac", "phantom:gallbladder") + "organ = \"sac\"\n"));

@@ -62,6 +62,9 @@ TEST(ImposedPressTest, NoPressPullsAndNoneIsMoreThanTwiceAsStrong) {
   EXPECT_EQ(imposed.impose(stepper, std::array{press_of(kTop, up, f)}, state)[0], 0);
   EXPECT_EQ(at(state.u, kTop), Vec3(0, 0, 0));
   EXPECT_EQ(imposed.impose(stepper, std::array{press_of(kTop, far, f)}, state)[0], 2);
+  Press of_silent_hand = press_of(kTop, far, f);
+  of_silent_hand.most_strength = 0.5;
+  EXPECT_EQ(imposed.impose(stepper, std::array{of_silent_hand}, state)[0], 0.5);
 }
 
 TEST(ImposedPressTest, APlaceWithAWallOfItsOwnIsDeeperByWhatThatYields) {
@@ -75,7 +78,7 @@ TEST(ImposedPressTest, APlaceWithAWallOfItsOwnIsDeeperByWhatThatYields) {
   press.own_yield_j = wall_m_n * f.squaredNorm();
   const double strength = imposed.impose(stepper, std::array{press}, state)[0];
   EXPECT_GT(strength, 0.1);
-  EXPECT_LT(strength, ImposedPress::kMostStrength);
+  EXPECT_LT(strength, Press::kMostStrength);
   EXPECT_NEAR(at(state.u, kTop).z() + strength * wall_m_n * f.z(), -kPressed_m, 1e-6 * kPressed_m);
 }
 
