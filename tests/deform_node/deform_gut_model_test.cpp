@@ -1,6 +1,8 @@
 #include "tests/deform_node/gut_stage.h"
 #include "tests/support/heap_count.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <numbers>
 
 namespace omentum::deform {
