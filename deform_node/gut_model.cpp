@@ -1,5 +1,7 @@
 #include "deform_node/gut_model.h"
 
+#include "deform_node/gut_gauge.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -169,6 +171,10 @@ void GutModel::show() noexcept {
 
 OrganView GutModel::view() const noexcept {
   return {.kind = StateKind::kTube, .topology_version = 0, .values = values_};
+}
+
+std::unique_ptr<StrainGauge> GutModel::strain_gauge() const {
+  return std::make_unique<GutGauge>(system_->shape());
 }
 
 void GutModel::look() const noexcept {
