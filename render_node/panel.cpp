@@ -354,7 +354,7 @@ PanelActions lay_out_panel(const PanelView& view) {
   ImGui::SetNextWindowSize({kPanelWidth, picture.y}, ImGuiCond_Once);
   ImGui::Begin("omentum", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoBackground);
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PushClipRect({0, 0}, picture, false);
   header(view);
   node_table(view.nodes);
