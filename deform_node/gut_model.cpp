@@ -1,5 +1,7 @@
 #include "deform_node/gut_model.h"
 
+#include "deform_node/gut_gauge.h"
+
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -157,7 +159,7 @@ void GutModel::press_ahead() noexcept {
   if (until_felt_s_ > 0 || presses_.presses().empty()) return;
   until_felt_s_ = felt_->settings().step_s;
   presses_.act(1);
-  felt_->take_up(system_->state());
+  felt_->take_up(*system_);
   felt_->step(loads());
   presses_.act(strengths_on(*felt_));
 }
@@ -183,6 +185,10 @@ OrganView GutModel::view() const noexcept {
   return {.kind = StateKind::kTube, .topology_version = 0, .values = values_};
 }
 
+std::unique_ptr<StrainGauge> GutModel::strain_gauge() const {
+  return std::make_unique<GutGauge>(system_->shape());
+}
+
 void GutModel::look() const noexcept {
   if (std::exchange(look_->is_seen, true)) return;
   skin_.place(system_->state().x, look_->places);
@@ -192,7 +198,7 @@ void GutModel::look() const noexcept {
 
 void GutModel::foresee() const noexcept {
   if (std::exchange(look_->is_foreseen, true)) return;
-  felt_->take_up(system_->state());
+  felt_->take_up(*system_);
   felt_->step(loads());
   for (std::size_t m = 0; m < look_->ahead.size(); ++m)
     look_->ahead[m] = (felt_->state().x[m] - system_->state().x[m]) / felt_->settings().step_s;

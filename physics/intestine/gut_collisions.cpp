@@ -217,7 +217,7 @@ void GutCollisions::resolve(std::span<const Vec3> before, GutState& state,
     hold_back(count);
   }
   response_.solve(contacts_, warm_, step_s_, masses);
-  remember_pushes();
+  if (yield != nullptr) remember_pushes();
   hold_back(count);
   tell_spheres(spheres.size());
   std::copy_n(x_.begin(), before.size(), state.x.begin());
@@ -232,6 +232,12 @@ void GutCollisions::reset() noexcept {
   near_.pairs.clear();
   outcomes_.clear();
   report_ = {};
+}
+
+void GutCollisions::take_up(const GutCollisions& other) noexcept {
+  reset();
+  const double longer = step_s_ / other.step_s_;
+  pushes_.take_over(other.pushes_, [longer](double push) { return longer * push; });
 }
 
 }  // namespace omentum::physics

@@ -68,9 +68,9 @@ void GutSystem::reset() noexcept {
   report_ = {};
 }
 
-void GutSystem::take_up(const GutState& state) noexcept {
-  collisions_.reset();
-  state_ = state;
+void GutSystem::take_up(const GutSystem& other) noexcept {
+  collisions_.take_up(other.collisions_);
+  state_ = other.state_;
   report_ = {};
 }
 

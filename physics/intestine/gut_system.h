@@ -56,8 +56,9 @@ class GutSystem final : public GutYield {
   void step(const GutLoads& loads) noexcept;
   /// Back to the shape at the start, at rest.
   void reset() noexcept;
-  /// On from a state of the same gut, as if what was before had not been. Allocates nothing, like the next.
-  void take_up(const GutState& state) noexcept;
+  /// On from where another system of the same gut is, whose step may have any length. Allocates nothing, like
+  /// the next.
+  void take_up(const GutSystem& other) noexcept;
   /// From where the last step ended towards `wanted`, as far as collisions let it: a step's correction by who
   /// knows better than the springs. Of the loads the obstacles count alone.
   void move_to(const GutState& wanted, const GutLoads& loads) noexcept;

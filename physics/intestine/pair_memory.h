@@ -41,6 +41,16 @@ class PairMemory {
       return {&entry, true};
     }
   }
+  /// All that another one of the same room knows, each value as `changed` makes it.
+  template <class Change>
+  void take_over(const PairMemory& other, Change changed) noexcept {
+    used_ = other.used_;
+    round_ = other.round_;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      entries_[i] = other.entries_[i];
+      if (entries_[i].round == round_) entries_[i].value = changed(entries_[i].value);
+    }
+  }
   /// The pair's value; none where it is not remembered.
   const Value* find(std::int32_t segment, std::int32_t part) const noexcept {
     for (std::size_t at = home(segment, part); entries_[at].round == round_;

@@ -1,9 +1,9 @@
 // Strain and stress of organs, measured beside the loop and only while somebody reads them.
 #include "deform_node/strain_gauges.h"
-#include "deform_node/stress_publisher.h"
 
 #include "tests/deform_node/deform_toy.h"
 #include "tests/deform_node/dynamic_beam.h"
+#include "tests/deform_node/read_stress.h"
 #include "tests/support/heap_count.h"
 
 #include <gmock/gmock.h>
@@ -23,21 +23,6 @@ using ::testing::SizeIs;
 constexpr std::int32_t kManyNodes = 1000;  // to a block
 constexpr double kRate_hz = 100;
 
-/// Keeps what is written to so many readers.
-class ReadMessages final : public transport::Writer<msg::OrganStress> {
- public:
-  bool write(const msg::OrganStress& sample) noexcept override {
-    all_.push_back(sample);
-    return true;
-  }
-  transport::EndpointStatus status() const override { return {.matched = readers}; }
-  const std::vector<msg::OrganStress>& all() const { return all_; }
-  int readers = 0;
-
- private:
-  std::vector<msg::OrganStress> all_;
-};
-
 class StressPublisherTest : public DynamicModelTest {
  protected:
   void serve(DynamicParts parts) {
@@ -51,13 +36,7 @@ class StressPublisherTest : public DynamicModelTest {
   DynamicModel& model() { return static_cast<DynamicModel&>(*organs_[0].model); }
   /// On this thread, within wake().
   StressPublisher make_publisher(std::int32_t nodes_per_block = kManyNodes) {
-    struct AtOnce final : runtime::WokenWork {
-      explicit AtOnce(std::function<void()> to_do) : work(std::move(to_do)) {}
-      void wake() noexcept override { work(); }
-      std::function<void()> work;
-    };
-    return {written_, organs_, nodes_per_block, kRate_hz,
-            [](std::function<void()> work) { return std::make_unique<AtOnce>(std::move(work)); }};
+    return {written_, organs_, nodes_per_block, kRate_hz, work_at_once};
   }
   /// What a state's gauge has to say of the model as it is.
   std::pair<std::vector<float>, std::vector<float>> measured(physics::StressLaw law) {

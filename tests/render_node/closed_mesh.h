@@ -49,7 +49,7 @@ inline int flipped_triangles(const MeshData& mesh) {
 
 inline bool all_finite(const MeshData& mesh) {
   for (const Vertex& v : mesh.vertices) {
-    const Eigen::Array3f scalars(v.openness, v.charring, v.strain);
+    const Eigen::Array3f scalars(v.openness, v.charring, v.share);
     if (!v.position.allFinite() || !v.normal.allFinite() || !v.rest.allFinite() || !scalars.allFinite())
       return false;
   }

@@ -206,9 +206,9 @@ class PanelLayout : public testing::Test {
  protected:
   PanelContext context_;
 
-  float height_of(const PanelView& view) {
+  float height_of(const PanelView& view, int frames = 3) {
     PanelActions actions;
-    for (int frame = 0; frame < 3; ++frame) {  // the size settles in the second
+    for (int frame = 0; frame < frames; ++frame) {
       ImGui::GetIO().DisplaySize = {960, 600};
       ImGui::NewFrame();
       actions = lay_out_panel(view);
@@ -322,6 +322,24 @@ TEST_F(PanelLayout, TheMapsScaleAndWhatIsNotToldTakeALineEach) {
   const float linear = height_of(view);
   view.organs[0].strained = 0.4;
   EXPECT_GT(height_of(view), linear);
+}
+
+TEST_F(PanelLayout, WhatIsNewIsInTheBoxAtOnceInTheFirstFrameToo) {
+  const auto corners = [] {
+    int count = 0;
+    for_each_corner([&](const ImDrawVert&) { ++count; });
+    return count;
+  };
+  PanelView view = busy();
+  view.faults.clear();
+  for (int change = 0; change < 2; ++change) {
+    const float at_once = height_of(view, 1);
+    const int drawn = corners();
+    EXPECT_EQ(at_once, height_of(view));
+    EXPECT_EQ(drawn, corners());
+    view.map = TissueMap::kStrain;
+    view.real_time_factor = 1;
+  }
 }
 
 TEST_F(PanelLayout, ALongSceneNameLeavesRoomForWhatStandsBesideIt) {
