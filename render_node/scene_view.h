@@ -89,8 +89,8 @@ class SceneView {
     std::unique_ptr<OrganDrawing> drawing;
     MeshId mesh{};
     std::optional<MeshId> bared{};  // made when it is first cut
-    bool mapped = false;            // its vertices have their shares of the map
     std::vector<MeshId> parts;      // as the drawing has them
+    bool mapped = false;            // its vertices have their shares of the map
   };
   struct DrawnPart {
     InstrumentPart part;
