@@ -33,6 +33,12 @@ nlohmann::json to_json(const CutAccount& cuts) {
       {"way_cm", way_cm}, {"lost_cm3", lost_cm3}, {"lost_cm3_per_cm", way_cm > 0 ? lost_cm3 / way_cm : 0}};
 }
 
+nlohmann::json to_json(const CollisionAccount& collisions) {
+  return {{"contacts", collisions.contacts},
+          {"held_back", collisions.held_back},
+          {"deepest_overlap_m", collisions.deepest_m}};
+}
+
 }  // namespace
 
 DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
@@ -203,16 +209,18 @@ void DeformLoop::publish(std::int64_t now_ns) noexcept {
 }
 
 nlohmann::json DeformLoop::report() const {
-  return {{"dds", options_.node.dds},
-          {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
-          {"states", states_},
-          {"stress_states", stress_publisher_->measured()},
-          {"steps", organs_.steps()},
-          {"removed_tetrahedra", organs_.removed_tetrahedra()},
-          {"repaired_tetrahedra", organs_.repaired_tetrahedra()},
-          {"cuts", to_json(organs_.cuts())},
-          {"real_time_factor", time_.overall()},
-          {"faults", faults_.lines()}};
+  nlohmann::json report{{"dds", options_.node.dds},
+                        {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
+                        {"states", states_},
+                        {"stress_states", stress_publisher_->measured()},
+                        {"steps", organs_.steps()},
+                        {"removed_tetrahedra", organs_.removed_tetrahedra()},
+                        {"repaired_tetrahedra", organs_.repaired_tetrahedra()},
+                        {"cuts", to_json(organs_.cuts())},
+                        {"real_time_factor", time_.overall()},
+                        {"faults", faults_.lines()}};
+  if (const auto collisions = organs_.collisions()) report["collisions"] = to_json(*collisions);
+  return report;
 }
 
 }  // namespace omentum::deform

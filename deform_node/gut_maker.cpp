@@ -3,6 +3,7 @@
 #include "deform_node/gut_model.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 
 namespace omentum::deform {
@@ -59,6 +60,26 @@ std::vector<physics::GutObstacle> obstacles_of(const scene::IntestineSpec& spec)
   return obstacles;
 }
 
+// A wall would throw out what begins in it. Rounding of a scene's numbers is no overlap.
+constexpr double kTouches_m = 1e-6;
+
+void refuse_start_in(const physics::GutObstacle& obstacle, const scene::ObstacleSpec& spec,
+                     const geometry::GutShape& gut) {
+  const physics::WallClearance least = physics::clearance(gut, obstacle);
+  if (least.free_m > -kTouches_m) return;
+  const Vec3& p = gut.positions[static_cast<std::size_t>(least.mass)];
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "starts %.4f m in the %s, near [%.3f, %.3f, %.3f]; expected it to start clear of it",
+                -least.free_m, spec.shape.c_str(), p.x(), p.y(), p.z());
+  throw std::invalid_argument(text + (spec.where.empty() ? "" : " (" + spec.where + ")"));
+}
+
+void refuse_start_in_obstacles(const geometry::GutShape& gut, const scene::IntestineSpec& spec) {
+  for (const scene::ObstacleSpec& obstacle : spec.obstacles)
+    refuse_start_in(obstacle_of(obstacle), obstacle, gut);
+}
+
 double step_of(const geometry::GutShape& gut, const physics::GutMaterial& material,
                const scene::IntestineSpec& spec) {
   if (spec.step_s) return *spec.step_s;
@@ -67,6 +88,7 @@ double step_of(const geometry::GutShape& gut, const physics::GutMaterial& materi
 }
 
 std::unique_ptr<GutModel> make(const geometry::GutShape& gut, const scene::IntestineSpec& spec) {
+  refuse_start_in_obstacles(gut, spec);
   const physics::GutMaterial material = material_of(spec.material);
   const physics::GutCollisionSettings collisions = collisions_of(spec);
   physics::GutStepSettings step;

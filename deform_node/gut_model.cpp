@@ -79,6 +79,7 @@ GutModel::GutModel(GutParts parts)
       values_(3 * system_->shape().positions.size()),
       look_(std::make_unique<Felt>(skin_, system_->shape().positions.size())),
       meeting_(std::make_unique<GutMeeting>(*felt_)) {
+  status_.collisions.emplace();
   show();
 }
 
@@ -118,12 +119,23 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
 
 void GutModel::advance() noexcept {
   const double step_s = system_->settings().step_s;
+  const std::int64_t held_back = system_->report().collisions.bound_acted;
   if (!is_felt_in_its_own_steps_) press_ahead();
   system_->step(loads());
   if (is_felt_in_its_own_steps_) impose();
   ++status_.steps;
   status_.simulated_s += step_s;
   status_.diverged = system_->report().diverged;
+  note_collisions(held_back);
+}
+
+void GutModel::note_collisions(std::int64_t held_back_before) noexcept {
+  const physics::GutCollisionReport& now = system_->report().collisions;
+  CollisionAccount& account = *status_.collisions;
+  account.contacts += static_cast<std::uint64_t>(now.contacts);
+  account.held_back +=
+      static_cast<std::uint64_t>(std::max<std::int64_t>(now.bound_acted - held_back_before, 0));
+  account.deepest_m = std::max(account.deepest_m, now.deepest_m);
 }
 
 physics::GutLoads GutModel::loads() const noexcept {

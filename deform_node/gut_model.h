@@ -43,6 +43,7 @@ class GutModel final : public OrganModel {
 
  private:
   void advance() noexcept;
+  void note_collisions(std::int64_t held_back_before) noexcept;
   std::span<const double> strengths_on(const physics::GutSystem& gut) noexcept;
   void impose() noexcept;
   void press_ahead() noexcept;

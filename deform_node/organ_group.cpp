@@ -92,6 +92,19 @@ CutAccount OrganGroup::cuts() const {
   return all;
 }
 
+std::optional<CollisionAccount> OrganGroup::collisions() const {
+  std::optional<CollisionAccount> all;
+  for (const ServedOrgan& served : organs_) {
+    const std::optional<CollisionAccount> own = served.model->status().collisions;
+    if (!own) continue;
+    if (!all) all.emplace();
+    all->contacts += own->contacts;
+    all->held_back += own->held_back;
+    all->deepest_m = std::max(all->deepest_m, own->deepest_m);
+  }
+  return all;
+}
+
 double OrganGroup::simulated_s() const {
   double slowest_s = 0;
   for (const ServedOrgan& served : organs_) {

@@ -67,6 +67,13 @@ struct CutAccount {
   double lost_m3 = 0;  // tissue that went for it: burnt, and what then hung on a node or an edge
 };
 
+/// How an organ that meets itself and walls fared.
+struct CollisionAccount {
+  std::uint64_t contacts = 0;   // that pushed, each step's counted
+  std::uint64_t held_back = 0;  // times a mass was kept from going so far that something could have crossed
+  double deepest_m = 0;         // the largest overlap that a step left
+};
+
 /// What a model says of itself. Counters count since the start, over resets, unless they say otherwise.
 struct ModelStatus {
   std::uint64_t steps = 0;
@@ -74,6 +81,7 @@ struct ModelStatus {
   std::uint32_t removed_tetrahedra = 0;   // now: a reset brings them back
   std::uint32_t repaired_tetrahedra = 0;  // removed because they hung on one node or edge; nobody cut them
   CutAccount cuts{};
+  std::optional<CollisionAccount> collisions{};  // none: it does not look for them
   bool diverged = false;     // its state is beyond help: it must be reset, and not be published
   std::string_view fault{};  // of this step, a text that lives as long as the program; empty: none
 };

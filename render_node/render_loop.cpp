@@ -96,6 +96,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
       bus_(open_bus()) {
   exposed_organ_ = loaded.scene.score.exposed_organ;
   to_expose_ = organ_to_expose(loaded.scene);
+  scored_from_s_ = loaded.scene.score.from_s;
   choices_.orbit = view_.first_camera();
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
@@ -142,7 +143,7 @@ void RenderLoop::frame(bool last) {
 void RenderLoop::watch_slowly(std::int64_t now_ns) {
   next_slow_ns_ = now_ns + kSlow_ns;
   view_.shade_ground();
-  if (to_expose_) measure_exposure();
+  if (to_expose_ && seconds_since_begin(now_ns) >= scored_from_s_) measure_exposure();
 }
 
 void RenderLoop::measure_exposure() {

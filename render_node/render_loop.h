@@ -96,6 +96,7 @@ class RenderLoop {
   std::string exposed_organ_;             // the scene's
   std::optional<std::size_t> to_expose_;  // its place among the organs
   ExposureRaster raster_{kExposureSize};
+  double scored_from_s_ = 0;
   ExposureScore exposure_;
   std::int64_t next_slow_ns_ = 0;
   msg::NodeStatus status_;

@@ -73,6 +73,7 @@ ObstacleSpec read_obstacle(TomlSection& s) {
     if (!(obstacle.half_axes_m.array() > 0).all())
       s.refuse("half_axes_m", "a length of 0 or less", "three above 0");
   }
+  obstacle.where = s.place("shape");
   s.refuse_unknown_keys();
   return obstacle;
 }

@@ -15,6 +15,7 @@ struct ObstacleSpec {
   geometry::Vec3 centre = geometry::Vec3::Zero();       // or any place on the plane, in W, m
   geometry::Vec3 normal = geometry::Vec3::UnitZ();      // of the plane, towards where the intestine is, unit
   geometry::Vec3 half_axes_m = geometry::Vec3::Zero();  // of ellipsoid and box, along W's axes
+  std::string where{};                                  // FILE:LINE of it, for what only the gut can tell
 };
 
 /// What it is made of (physics/intestine/gut_material.h); what is absent is the physics' own.

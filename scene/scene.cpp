@@ -226,6 +226,7 @@ CameraSpec read_camera(TomlSection s, bool given) {
 ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs) {
   ScoreSpec score;
   s.read("exposed_organ", score.exposed_organ, kOptional);
+  s.read("from_s", score.from_s, kOptional, kNotNegative);
   const auto is_exposed = [&](const OrganSpec& organ) { return organ.name == score.exposed_organ; };
   if (s.has("exposed_organ") && std::ranges::none_of(organs, is_exposed))
     s.refuse("exposed_organ", "\"" + score.exposed_organ + "\"", "the name of one of the [[organs]]");

@@ -139,6 +139,7 @@ struct CameraSpec {
 /// What a trainee is measured by.
 struct ScoreSpec {
   std::string exposed_organ;  // its name: the share of it that nothing hides is told; empty: none
+  double from_s = 0;  // since render_node began: what is seen earlier, while organs settle, does not count
 };
 
 struct Scene {

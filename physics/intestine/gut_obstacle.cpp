@@ -58,4 +58,16 @@ WallPlace place_at_wall(const GutObstacle& obstacle, const Vec3& p) noexcept {
   return place;
 }
 
+WallClearance clearance(const geometry::GutShape& gut, const GutObstacle& obstacle) noexcept {
+  WallClearance least{std::numeric_limits<double>::infinity()};
+  for (std::int32_t i = 0; i < gut.layout.mass_count(); ++i) {
+    const geometry::MassId m(i);
+    const double around_m = gut.layout.row(m) == 0 ? gut.tube_radius_m : gut.mesentery_thickness_m / 2;
+    const Vec3& p = gut.positions[static_cast<std::size_t>(i)];
+    const double free_m = place_at_wall(obstacle, p).depth_m - around_m;
+    if (free_m < least.free_m) least = {free_m, m};
+  }
+  return least;
+}
+
 }  // namespace omentum::physics

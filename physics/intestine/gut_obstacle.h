@@ -1,7 +1,7 @@
 // What an intestine lies on, lies in and is pushed by.
 #pragma once
 
-#include "geometry/types.h"
+#include "geometry/gut_shape.h"
 
 #include <limits>
 
@@ -39,5 +39,13 @@ struct WallPlace {
   geometry::Vec3 inward = geometry::Vec3::UnitZ();
 };
 WallPlace place_at_wall(const GutObstacle& obstacle, const geometry::Vec3& p) noexcept;
+
+/// The mass of a gut that is nearest to a wall or farthest beyond it.
+struct WallClearance {
+  double free_m = 0;  // between what is around the mass and the wall; negative: so deep in it
+  geometry::MassId mass{0};
+};
+/// Of the whole tube and sheet: the side of an obstacle is convex, so masses decide for what is between them.
+WallClearance clearance(const geometry::GutShape& gut, const GutObstacle& obstacle) noexcept;
 
 }  // namespace omentum::physics

@@ -304,6 +304,14 @@ TEST_F(RenderLoopTest, ReportsHowFarTheScenesOrganIsExposed) {
   EXPECT_EQ(close()["exposed_share"], (nlohmann::json{{"first", 1.0}, {"newest", 1.0}, {"largest", 1.0}}));
 }
 
+TEST_F(RenderLoopTest, BeforeTheScenesTimeNoExposureCounts) {
+  options_.node.scene =
+      block().scene_with("[[tools]]", "[score]\nexposed_organ = \"block\"\nfrom_s = 1000\n[[tools]]");
+  start();
+  frames(1);
+  EXPECT_EQ(close()["exposed_share"]["first"], nullptr);
+}
+
 TEST_F(RenderLoopTest, WithoutAScoreNothingIsSaidOfExposure) {
   start();
   frames(1);
