@@ -216,11 +216,12 @@ void GutModel::foresee() const noexcept {
     look_->ahead[m] = (felt_->state().x[m] - system_->state().x[m]) / felt_->settings().step_s;
 }
 
+// As its own steps move it. The longer one that is felt foresees a gut that lies on something as moving: its
+// springs answer the same pushes otherwise.
 void GutModel::look_ahead() const noexcept {
   if (std::exchange(look_->is_next_seen, true)) return;
-  foresee();
   const double step_s = felt_->settings().step_s;
-  std::ranges::transform(system_->state().x, look_->ahead, look_->wanted.begin(),
+  std::ranges::transform(system_->state().x, system_->state().v, look_->wanted.begin(),
                          [step_s](const Vec3& x, const Vec3& v) -> Vec3 { return x + step_s * v; });
   skin_.place(look_->wanted, look_->next);
 }

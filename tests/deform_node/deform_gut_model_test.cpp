@@ -41,6 +41,21 @@ TEST(GutModel, AResetIsTheStartAgainAndTheSameRun) {
   EXPECT_EQ(values_of(model), moved);
 }
 
+TEST(GutModel, WhatLiesStillIsToldToLieStill) {
+  const physics::GutObstacle plane{.centre = Vec3(0, 0, -0.2)};
+  GutModel model = gut_model({.step_s = 0.0025, .gravity_m_s2 = {0, 0, -9.81}, .obstacles = {plane}});
+  for (int tick = 0; tick < 1500; ++tick) model.step({}, kGutTick_s);
+  const std::vector<Vec3> places = skin_places(model);
+  LocalPatch patch(GutModel::kPatchNodes);
+  double fastest_m_s = 0;
+  for (std::size_t n = 0; n < places.size(); n += 60) {
+    if (!model.local_model({0, places[n], 0.02}, patch)) continue;
+    for (std::size_t i = 0; i < patch.node_count; ++i)
+      fastest_m_s = std::max(fastest_m_s, patch.velocities[i].norm());
+  }
+  EXPECT_LT(fastest_m_s, 0.005);
+}
+
 // ---- touch
 
 struct Rates {
