@@ -244,11 +244,14 @@ void RenderLoop::tell_status(std::int64_t now_ns) {
 
 nlohmann::json RenderLoop::report() const {
   const runtime::LoopRecord& record = account_.record();
+  std::int32_t removed = 0;
+  for (std::size_t i = 0; i < view_.organ_count(); ++i) removed += view_.removed_count(i);
   nlohmann::json report{{"dds", options_.node.dds},
                         {"frames", record.ticks},
                         {"frame_us", runtime::to_json(record.compute.percentiles())},
                         {"deepest_dent_m", watch_.largest_dent_m()},
                         {"unmatched_states", watch_.unmatched_states()},
+                        {"removed_tetrahedra", removed},
                         {"closed", closed_},
                         {"faults", faults_.lines()}};
   if (to_expose_) report["exposed_share"] = to_json(exposure_);

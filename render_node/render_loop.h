@@ -45,8 +45,8 @@ class RenderLoop {
   /// std::runtime_error when deform_node turns out to serve another organ.
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
-  /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h) and, where the scene
-  /// names an organ to expose, `exposed_share` (exposure_score.h).
+  /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h), `removed_tetrahedra` of the newest
+  /// picture and, where the scene names an organ to expose, `exposed_share` (exposure_score.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.

@@ -2,6 +2,7 @@
 #include "tests/system/session_on_trial.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -128,14 +129,23 @@ TEST_P(CutSurvivalTest, AHandsNodeAPictureOrADeviceThatIsKilledWhileItCutsLeaves
   }
   observer_.forget();
   EXPECT_TRUE(comes_true([&] { return observer_.forces().size() > 500; })) << "the new node does not answer";
-  EXPECT_TRUE(comes_true([&] { return observer_.status(msg::NODE_RENDER).has_value(); }))
+  EXPECT_TRUE(comes_true([&] {
+    const auto status = observer_.status(msg::NODE_RENDER);
+    return status && !status->echoes.empty();
+  })) << "no state was drawn: "
       << session_["render_node"].messages();
+  ASSERT_EQ(session_["render_node"].terminate(), 0) << session_["render_node"].messages();
+  int newest = removed(*before);
   for (const msg::Topology& heard : seen_.take()) {
     EXPECT_GE(heard.version, before->version);
     EXPECT_TRUE(holds_all(heard, *before));
+    newest = removed(heard);
   }
+  const auto picture = nlohmann::json::parse(read_text(session_.report_of("render_node")));
+  EXPECT_GE(picture["removed_tetrahedra"], removed(*before)) << "the new picture is of another organ";
+  EXPECT_LE(picture["removed_tetrahedra"], newest);
   EXPECT_TRUE(session_["deform_node"].running());
-  for (const std::string name : {"haptic_node", "render_node", "virtual_device"})
+  for (const std::string name : {"haptic_node", "virtual_device"})
     EXPECT_TRUE(session_[name].running()) << session_[name].messages();
 }
 

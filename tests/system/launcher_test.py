@@ -48,7 +48,7 @@ SHAPE = {
                         "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
                         "real_time_factor": float, "faults": list},
         "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
-                        "unmatched_states": int, "closed": bool, "faults": list},
+                        "unmatched_states": int, "removed_tetrahedra": int, "closed": bool, "faults": list},
         "virtual_device": {"dds": str, "exit": int, "round_trip_us": TIMES, "sent": int, "lost": int, "energy_j": float,
                            "faults": list},
     },
