@@ -4,6 +4,7 @@
 
 #include "tests/deform_node/deform_toy.h"
 #include "tests/deform_node/dynamic_beam.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/heap_count.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,6 @@ using ::testing::Pointwise;
 using ::testing::SizeIs;
 
 constexpr std::int32_t kManyNodes = 1000;  // to a block
-constexpr double kRate_hz = 100;
 
 /// Keeps what is written to so many readers.
 class ReadMessages final : public transport::Writer<msg::OrganStress> {
