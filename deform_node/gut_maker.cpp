@@ -17,7 +17,7 @@ constexpr double kProjectiveStep_s = 0.0025;
 // A hand goes by a local model until the next one comes, a tick later.
 constexpr double kFeltStep_s = 0.01;
 // Of the largest step that is stable: contacts come between.
-constexpr double kShareOfStable = 0.5;
+constexpr double kShareOfGutStable = 0.5;
 
 physics::GutMaterial material_of(const scene::GutMaterialSpec& spec) {
   physics::GutMaterial material;
@@ -84,7 +84,7 @@ double step_of(const geometry::GutShape& gut, const physics::GutMaterial& materi
                const scene::IntestineSpec& spec) {
   if (spec.step_s) return *spec.step_s;
   if (spec.method == "projective") return kProjectiveStep_s;
-  return kShareOfStable * physics::stable_step_s(physics::GutSprings(gut, material));
+  return kShareOfGutStable * physics::stable_step_s(physics::GutSprings(gut, material));
 }
 
 std::unique_ptr<GutModel> make(const geometry::GutShape& gut, const scene::IntestineSpec& spec) {

@@ -14,7 +14,7 @@ using geometry::MassId;
 namespace {
 
 // A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
-constexpr double kRounding = 1e-9;
+constexpr double kStepRounding = 1e-9;
 // A press that is as strong as its hand says, to this share, leaves the step as it is.
 constexpr double kAsSaid = 1e-6;
 // Below this a triangle of the skin is folded up, where the gut bends sharply, and no place to touch, m^2.
@@ -105,7 +105,7 @@ ModelSizes GutModel::sizes() const {
 void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
   const double step_s = system_->settings().step_s;
   ahead_s_ += dt_s;
-  const auto steps = static_cast<int>(ahead_s_ / step_s + kRounding);
+  const auto steps = static_cast<int>(ahead_s_ / step_s + kStepRounding);
   ahead_s_ -= steps * step_s;
   if (steps == 0) return;
   look();

@@ -3,6 +3,7 @@
 
 #include "files/whole_file.h"
 #include "geometry/mesh_editor.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/block_scene.h"
 #include "tests/support/fake_bus.h"
 #include "tests/support/process.h"
@@ -17,8 +18,6 @@ namespace {
 
 using ::testing::Each;
 using ::testing::HasSubstr;
-
-constexpr double kRate_hz = 100;
 
 class CutLoopTest : public testing::Test {
  protected:

@@ -3,6 +3,7 @@
 #include "organ/build_organ.h"
 #include "tests/deform_node/deform_fixtures.h"
 #include "tests/deform_node/deform_toy.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
@@ -20,7 +21,6 @@ using deform_test::HangingMass;
 using deform_test::kNs_per_s;
 using ::testing::HasSubstr;
 
-constexpr double kTick_s = 0.01;
 // Brings a mass 0.495 m far in a tick, of which its damping takes a fifth.
 constexpr double kMeeting_m_s =
     0.495 / kTick_s / (1 - HangingMass::kDamping_n_s_m * kTick_s / HangingMass::kMass_kg);

@@ -3,6 +3,7 @@
 
 #include "tests/deform_node/deform_toy.h"
 #include "tests/deform_node/dynamic_beam.h"
+#include "tests/deform_node/rates.h"
 #include "tests/deform_node/read_stress.h"
 #include "tests/support/heap_count.h"
 
@@ -21,7 +22,6 @@ using ::testing::Pointwise;
 using ::testing::SizeIs;
 
 constexpr std::int32_t kManyNodes = 1000;  // to a block
-constexpr double kRate_hz = 100;
 
 class StressPublisherTest : public DynamicModelTest {
  protected:

@@ -1,6 +1,7 @@
 #include "physics/dynamics/warped_step.h"
 
 #include "physics/dynamics/implicit_step.h"
+#include "tests/physics/dynamics/law_tissue.h"
 #include "tests/physics/dynamics/motions.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
@@ -14,10 +15,8 @@ namespace {
 
 using namespace omentum::test;
 
-const Material kTissue{5000, 0.4, 1000};
-constexpr double kEdge = 0.01;   // m, of the boxes' cubes
-constexpr double kStep = 0.01;   // s
-constexpr double kFloat = 1e-5;  // the factor's arithmetic, with what its condition makes of it
+constexpr double kTick_s = 0.01;  // s
+constexpr double kFloat = 1e-5;   // the factor's arithmetic, with what its condition makes of it
 
 enum class Held { kNowhere, kAtOneEnd };
 
@@ -36,7 +35,7 @@ class WarpedStepTest : public testing::Test {
   }
 
   WarpedStep stepper(const Inertia& body, double tolerance = 1e-6) const {
-    return {mesh, kTissue, body, Corotational(mesh, kTissue), {.step_s = kStep, .tolerance = tolerance}};
+    return {mesh, kTissue, body, Corotational(mesh, kTissue), {.step_s = kTick_s, .tolerance = tolerance}};
   }
 
   BodyState moving(const Vector& u, const Vector& v) const { return {values_of(u), values_of(v)}; }
@@ -53,7 +52,7 @@ TEST_F(WarpedStepTest, IsTheLinearStepWhereNothingTurns) {
   Inertia body = inertia(Held::kAtOneEnd);
   body.stiffness_damping_s = 0.003;
   WarpedStep warped = stepper(body, 1e-9);
-  ImplicitStep linear(mesh, kTissue, body, {.step_s = kStep});
+  ImplicitStep linear(mesh, kTissue, body, {.step_s = kTick_s});
   BodyState a = state_at_rest(mesh.positions.size()), b = a;
   const Vector force = weight(body, 1e-6);
   for (int i = 0; i < 20; ++i) {
