@@ -1,5 +1,7 @@
 #include "scene/intestine_keys.h"
 
+#include <limits>
+
 namespace omentum::scene {
 namespace {
 

@@ -95,6 +95,25 @@ void GutBand::factorize(const GutSprings& springs, double step_s) {
   }
 }
 
+// A^-1 within the band, from its last row on: A^-1 = D^-1 L^-1 + (1 - L^T) A^-1.
+std::vector<double> GutBand::diagonal_of_inverse() const {
+  const std::size_t row = width_ + 1;
+  std::vector<double> band(size() * row), diagonal(size());
+  const auto at = [&](std::size_t i, std::size_t j) -> double& {
+    return band[std::min(i, j) * row + (std::max(i, j) - std::min(i, j))];
+  };
+  for (std::size_t i = size(); i-- > 0;) {
+    const std::size_t last = std::min(i + width_, size() - 1);
+    for (std::size_t j = last + 1; j-- > i;) {
+      double sum = i == j ? diagonal_[i] : 0;
+      for (std::size_t k = i + 1; k <= last; ++k) sum -= upper_[i * width_ + (k - i - 1)] * at(k, j);
+      at(i, j) = sum;
+    }
+    diagonal[i] = at(i, i);
+  }
+  return diagonal;
+}
+
 void GutBand::solve(Node* b) const noexcept {
   kernels::solve_band(size(), width_, lower_.data(), upper_.data(), diagonal_.data(), b);
 }

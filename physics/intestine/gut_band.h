@@ -26,6 +26,8 @@ class GutBand {
 
   /// b becomes A^-1 b: m from N. [size]. Allocates nothing.
   void solve(Node* b) const noexcept;
+  /// The diagonal of A^-1, [size], m/N, from the factor's own entries alone (Takahashi et al. 1973).
+  std::vector<double> diagonal_of_inverse() const;
 
  private:
   void factorize(const GutSprings& springs, double step_s);

@@ -24,19 +24,13 @@ GutStepSettings checked(const GutStepSettings& settings) {
   return settings;
 }
 
-// The diagonal of A^-1 for all masses, four at a time in the lanes of a node.
-std::vector<double> diagonal_of_inverse(const GutBand& band, std::size_t masses) {
-  std::vector<double> diagonal(masses, 0.0);
-  std::vector<GutBand::Node> column(band.size());
-  for (std::size_t first = 0; first < band.size(); first += 4) {
-    const std::size_t lanes = std::min<std::size_t>(4, band.size() - first);
-    std::ranges::fill(column, GutBand::Node{});
-    for (std::size_t k = 0; k < lanes; ++k) column[first + k].v[k] = 1;
-    band.solve(column.data());
-    for (std::size_t k = 0; k < lanes; ++k)
-      diagonal[static_cast<std::size_t>(band.mass(first + k))] = column[first + k].v[k];
-  }
-  return diagonal;
+// The diagonal of A^-1 for all masses; 0 where held.
+std::vector<double> own_yields(const GutBand& band, std::size_t masses) {
+  const std::vector<double> of_free = band.diagonal_of_inverse();
+  std::vector<double> yields(masses, 0.0);
+  for (std::size_t place = 0; place < of_free.size(); ++place)
+    yields[static_cast<std::size_t>(band.mass(place))] = of_free[place];
+  return yields;
 }
 
 }  // namespace
@@ -49,7 +43,7 @@ GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& materia
       band_(springs_, step.step_s),
       collisions_(shape, springs_.mass(), step.step_s, collisions),
       energies_(springs_),
-      own_yields_(diagonal_of_inverse(band_, springs_.mass().size())),
+      own_yields_(own_yields(band_, springs_.mass().size())),
       x_(springs_.mass().size()),
       forces_(springs_.mass().size()),
       yield_(band_.size()) {

@@ -53,6 +53,9 @@ TEST(GutBand, SolvesWhatADenseFactorSolves) {
       for (int k = 0; k < 4; ++k) x[static_cast<std::size_t>(i)].v[k] = b(i, k);
     }
     band.solve(x.data());
+    const std::vector<double> own = band.diagonal_of_inverse();
+    const Eigen::VectorXd inverse = free.inverse().diagonal();
+    EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(own.data(), n) - inverse).norm(), 1e-12 * inverse.norm());
     const Eigen::MatrixXd expected = free.llt().solve(b);
     for (Eigen::Index i = 0; i < n; ++i) {
       for (int k = 0; k < 4; ++k) {
