@@ -1,5 +1,6 @@
 #include "render_node/panel.h"
 
+#include "render_node/panel_lines.h"
 #include "render_node/scene_view.h"
 
 #include <imgui.h>
@@ -15,54 +16,6 @@ constexpr float kAxisWidth = 40;                            // pixels: "100 N"
 constexpr double kKeepsUp = 0.98;  // of real time: what is less is seen as slow motion
 const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
 const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
-
-ImVec4 display(const Vec3f& linear) {
-  return {std::sqrt(linear.x()), std::sqrt(linear.y()), std::sqrt(linear.z()), 1};  // as the film does
-}
-
-void right_aligned(const char* text, const ImVec4* colour = nullptr) {
-  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
-  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, space));
-  if (colour) {
-    ImGui::TextColored(*colour, "%s", text);
-  } else {
-    ImGui::TextUnformatted(text);
-  }
-}
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), pattern, args...);
-  return text.data();
-}
-
-// Three digits, so that a line's length is known.
-std::string duration(double us) {
-  if (us < 1000) return format("%.0f us", us);
-  if (us < 100e3) return format("%.1f ms", us / 1000);
-  return us < 1e6 ? format("%.0f ms", us / 1000) : format("%.1f s", us / 1e6);
-}
-
-std::string pressure(double pa) {
-  return pa < 1000 ? format("%.0f Pa", pa) : format("%.1f kPa", pa / 1000);
-}
-
-// The text, or as much of it as fits beside what stands at the right.
-std::string beside(const std::string& right, std::string text) {
-  const float space = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x -
-                      ImGui::CalcTextSize(right.c_str()).x;
-  if (ImGui::CalcTextSize(text.c_str()).x <= space) return text;
-  constexpr const char* kCut = "...";
-  while (!text.empty() && ImGui::CalcTextSize((text + kCut).c_str()).x > space) text.pop_back();
-  return text + kCut;
-}
-
-void figure(const std::string& of, const std::string& value, const ImVec4* colour = nullptr) {
-  ImGui::TextUnformatted(beside(value, of).c_str());
-  ImGui::SameLine();
-  right_aligned(value.c_str(), colour);
-}
 
 void header(const PanelView& view) {
   const std::string right = view.paused ? "paused" : format("%.1f s", view.time_s);
@@ -118,7 +71,7 @@ void latency(const char* name, double p50_us, double p99_us) {
 // One line for each stretch without a gap.
 void draw_curve(const ToolRow& tool, double now_s, double top_n, const ImVec2& corner, const ImVec2& size) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImU32 colour = ImGui::GetColorU32(display(tool.colour));
+  const ImU32 colour = ImGui::GetColorU32(shown(tool.colour));
   std::vector<ImVec2> line;
   const auto finish_line = [&] {
     draw.AddPolyline(line.data(), static_cast<int>(line.size()), colour, 0, kCurveThickness);
@@ -171,7 +124,7 @@ void swatch(const Vec3f& colour) {
   const float side = 0.62f * ImGui::GetFontSize();
   const float top = at.y + 0.25f * ImGui::GetFontSize();
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side},
-                                            ImGui::GetColorU32(display(colour)), 2);
+                                            ImGui::GetColorU32(shown(colour)), 2);
   ImGui::Dummy({side, ImGui::GetFontSize()});
   ImGui::SameLine();
 }
@@ -251,8 +204,8 @@ void map_scale(const PanelView& view) {
   const float step = width / static_cast<float>(kMapColourCount - 1);
   for (std::size_t i = 0; i + 1 < kMapColourCount; ++i) {
     const float left = at.x + step * static_cast<float>(i);
-    const ImU32 from = ImGui::GetColorU32(display(map_colours()[i]));
-    const ImU32 to = ImGui::GetColorU32(display(map_colours()[i + 1]));
+    const ImU32 from = ImGui::GetColorU32(shown(map_colours()[i]));
+    const ImU32 to = ImGui::GetColorU32(shown(map_colours()[i + 1]));
     ImGui::GetWindowDrawList()->AddRectFilledMultiColor({left, at.y}, {left + step, at.y + height}, from, to,
                                                         to, from);
   }

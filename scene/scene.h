@@ -32,6 +32,7 @@ enum class Feel : std::uint8_t {
 enum class Trusted : std::uint8_t {
   kSmallDisplacements,  // beside the organ's size: the law is linear in them
   kSmallStrains,        // however far tissue is moved and turned
+  kAlways,              // its springs are what they are at any length: there is no law to leave
 };
 
 /// A model that a scene may choose for an organ, the kind of organ that it moves, and how that is felt.
@@ -46,7 +47,7 @@ inline constexpr std::array kOrganModels{
     OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
     OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
-    OrganModelWord{"intestine", OrganKind::kTube, Feel::kLocalModels, Trusted::kSmallStrains},
+    OrganModelWord{"intestine", OrganKind::kTube, Feel::kLocalModels, Trusted::kAlways},
 };
 
 /// A part of an organ that is of another material: at one of label, box and ball; what is absent of the
