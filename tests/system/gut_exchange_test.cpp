@@ -24,9 +24,9 @@ class GutExchange : public testing::Test {
   test::ExchangeScene scene(const std::string& keys = "") {
     const std::filesystem::path file = folder_ / "scene.toml";
     std::ofstream(file)
-        << "name = \"gut\"\n[[organs]]\nname = \"gut\"\nmodel = \"intestine\"\norigin = [0, 0, -0.3]\nlegs = 7\n"
+        << "name = \"gut\"\n[[organs]]\nname = \"gut\"\nmodel = \"intestine\"\norigin = [0, 0, -0.3]\n"
         << keys
-        << "\n[[obstacles]]\nshape = \"plane\"\ncentre = [0, 0, -0.38]\nnormal = [0, 0, 1]\n"
+        << "\n[[obstacles]]\nshape = \"plane\"\ncentre = [0, 0, -0.43]\nnormal = [0, 0, 1]\n"
            "[[tools]]\nid = 0\nname = \"grasper\"\nshape = \"grasper\"\n"
            "points = [[0,0,0], [0.003,0,0.001]]\n[haptics]\nfriction = 0.5\n";
     return {.file = file, .felt = scene::kOrganModels, .moved = deform::model_table()};
@@ -64,7 +64,6 @@ class GutExchange : public testing::Test {
   static geometry::GutAnatomy anatomy() {
     geometry::GutAnatomy anatomy;
     anatomy.origin = {0, 0, -0.3};
-    anatomy.legs = 7;
     return anatomy;
   }
 
