@@ -24,7 +24,8 @@ void interleave(const std::vector<float>& tiled, std::int32_t mobile_count, std:
 }  // namespace
 
 QuasiStaticModel::QuasiStaticModel(const physics::SurfaceCompliance& compliance,
-                                   const geometry::Surface& surface, const std::vector<Vec3>& rest, geometry::SphereCover cover)
+                                   const geometry::Surface& surface, const std::vector<Vec3>& rest,
+                                   geometry::SphereCover cover)
     : compliance_(compliance),
       surface_(surface),
       rest_(rest),
