@@ -25,7 +25,7 @@ GutStepSettings checked(const GutStepSettings& settings) {
 }
 
 // The diagonal of A^-1 for all masses; 0 where held.
-std::vector<double> own_yields(const GutBand& band, std::size_t masses) {
+std::vector<double> inverse_diagonal(const GutBand& band, std::size_t masses) {
   const std::vector<double> of_free = band.diagonal_of_inverse();
   std::vector<double> yields(masses, 0.0);
   for (std::size_t place = 0; place < of_free.size(); ++place)
@@ -43,7 +43,7 @@ GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& materia
       band_(springs_, step.step_s),
       collisions_(shape, springs_.mass(), step.step_s, collisions),
       energies_(springs_),
-      own_yields_(own_yields(band_, springs_.mass().size())),
+      own_yields_(inverse_diagonal(band_, springs_.mass().size())),
       x_(springs_.mass().size()),
       forces_(springs_.mass().size()),
       yield_(band_.size()) {
