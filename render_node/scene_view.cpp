@@ -90,7 +90,7 @@ SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<Orga
     const MeshId mesh = renderer.add_mesh(drawing->mesh());
     std::vector<MeshId> parts;
     for (const OrganPart& part : drawing->parts()) parts.push_back(renderer.add_mesh(*part.mesh));
-    organs_.push_back({std::move(drawing), mesh, {}, false, std::move(parts)});
+    organs_.push_back({std::move(drawing), mesh, {}, std::move(parts)});
   }
   const Outline all = outline();
   ball_ = ball_around(all.points);
