@@ -51,8 +51,8 @@ class GutExchange : public testing::Test {
     return *std::ranges::max_element(places, {}, [](const Vec3& p) { return p.z(); });
   }
   /// Comes down onto its highest place, once the gut lies still, and stays there.
-  Vec3 press(Session& session) {
-    session.move_to(test::kAbove, kSettles_s);
+  Vec3 press(Session& session, double settles_s = kSettles_s) {
+    session.move_to(test::kAbove, settles_s);
     top_ = highest(session);
     session.move_to(above(), 0.5);
     session.move_to(pressed(), 0.5);
@@ -73,12 +73,15 @@ class GutExchange : public testing::Test {
   Vec3 top_ = Vec3::Zero();
 };
 
+// Of a gut that has one place to be: stiff and without weight. How soft folds come to lie hangs on the way
+// there.
 TEST_F(GutExchange, AHeldPressDoesNotDependOnTheHandsRate) {
-  Session fast(1000, 100, scene()), slow(300, 100, scene());
-  const double expected = press(fast).norm();
-  EXPECT_GT(expected, 0.1);
+  const std::string stiff = "gravity_m_s2 = [0, 0, 0]\ngut_bending_n_m2 = 2\nmesentery_stretch_n_m = 5000";
+  Session fast(1000, 100, scene(stiff)), slow(300, 100, scene(stiff));
+  const double expected = press(fast, 1).norm();
+  EXPECT_GT(expected, 0.02);
   EXPECT_LT(expected, 3 * kDeep_m * 300) << "the wall of three nodes in front of a gut that does not move";
-  EXPECT_NEAR(press(slow).norm(), expected, 0.03 * expected);
+  EXPECT_NEAR(press(slow, 1).norm(), expected, 0.03 * expected);
   for (Session* session : {&fast, &slow}) {
     const auto hand = session->hand_report(), organ = session->organ_report();
     EXPECT_EQ(hand["faults"].size(), 0u) << hand["faults"];
