@@ -25,7 +25,7 @@ struct OrganContact {
   double depth_m = 0;                                // of the overlap; negative: the gap
   geometry::Vec3 velocity = geometry::Vec3::Zero();  // of the other sphere, in W, m/s
   // How much of the correction this organ makes: m_other / (m_other + m_own), so that momentum stays, times
-  // what OrganCollision found to be good for all contacts together.
+  // what OrganCollision found to be good for all contacts of the two organs.
   double share = 1;
   double push_m_s = 0;  // how much faster both are to part; below 0: less, where they were pushed too much
 };

@@ -194,6 +194,28 @@ TEST_F(OrganGroupTest, ResetBringsAllToRestAndKeepsTheCounts) {
   EXPECT_EQ(group_.steps(), 2u);
 }
 
+TEST(OrganGroup, ARunAfterAResetIsTheSameRunAlsoWhereOrgansTouch) {
+  std::vector<ServedOrgan> organs;
+  organs.push_back(deform_test::hanging_organ("left"));
+  organs.push_back(deform_test::hanging_organ("right", Vec3(1.5 * HangingMass::kRadius_m, 0, 0)));
+  runtime::FaultList faults;
+  OrganGroup group(std::move(organs), faults);
+  const OrganNumbers numbers = deform_test::odd_numbers(1, 0);
+  ContactBook book({numbers, numbers}, {.tools = 1, .max_force_n = 10}, faults);
+  const auto run = [&] {
+    std::vector<Vec3> seen;
+    for (int tick = 0; tick < 20; ++tick) {
+      group.step(book, kTick_s);
+      seen.push_back(static_cast<HangingMass&>(*group.organs()[1].model).velocity());
+    }
+    return seen;
+  };
+  const std::vector<Vec3> first = run();
+  EXPECT_GT(first[0].x(), 0) << "they touch";
+  group.reset(book);
+  EXPECT_EQ(run(), first);
+}
+
 TEST_F(OrganGroupTest, AStepTakesNoMemoryAlsoWhereOrgansMeetAndFail) {
   press(0, {20, 0, 0});
   mass(1).push(Vec3(-2 * kMeeting_m_s, 0, 0));
