@@ -199,6 +199,7 @@ bool OrganCollision::answered(const Couple& couple) noexcept {
 // any, and with a step that grows again what rests would shake each time that it is too long.
 void OrganCollision::learn(Couple& couple, double before) noexcept {
   Learnt& learnt = couple.learnt;
+  learnt.scale = std::min(learnt.scale, kCaution * couple.most_scale);
   // until then they did not look ahead: what changed is not the push's doing alone
   if (std::exchange(learnt.is_first, false) || !(before > 0)) return;
   double after = 0;
