@@ -44,7 +44,9 @@ OrganCollision::OrganCollision(const std::vector<OrganModel*>& models) : bodies_
   pairs_.reserve(pairs / 2);
   couples_.reserve(bodies_.size() * bodies_.size() / 2);
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) couples_.emplace_back(&bodies_[i], &bodies_[j]);
+    for (std::size_t j = 0; j < i; ++j)
+      couples_.emplace_back(&bodies_[i], &bodies_[j],
+                            std::min(models[i]->sizes().most_scale, models[j]->sizes().most_scale));
 }
 
 bool OrganCollision::run() noexcept {
@@ -197,6 +199,7 @@ bool OrganCollision::answered(const Couple& couple) noexcept {
 // any, and with a step that grows again what rests would shake each time that it is too long.
 void OrganCollision::learn(Couple& couple, double before) noexcept {
   Learnt& learnt = couple.learnt;
+  learnt.scale = std::min(learnt.scale, kCaution * couple.most_scale);
   // until then they did not look ahead: what changed is not the push's doing alone
   if (std::exchange(learnt.is_first, false) || !(before > 0)) return;
   double after = 0;
@@ -204,7 +207,8 @@ void OrganCollision::learn(Couple& couple, double before) noexcept {
     after += couple.pairs[i].weight_kg * couple.pairs[i].push_m_s * lacking(couple, i);
   const double done = 1 - after / before;
   if (!(done > 0)) return;
-  learnt.steepest = std::clamp(learnt.scale / done, 1 / kMostScale, learnt.steepest);
+  const double most = couple.most_scale;
+  learnt.steepest = std::clamp(learnt.scale / done, 1 / most, std::min(most, learnt.steepest));
   learnt.scale = kCaution * learnt.steepest;
 }
 

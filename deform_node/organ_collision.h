@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <vector>
 
 namespace omentum::deform {
@@ -27,9 +28,6 @@ class OrganCollision {
   void reset(std::size_t organ) noexcept;
 
  private:
-  // A push through all of an organ; as much less where many spheres hang on few nodes.
-  static constexpr double kMostScale = 200;
-
   struct Body {
     OrganModel* model = nullptr;
     std::span<const CollisionSphere> spheres;
@@ -53,14 +51,15 @@ class OrganCollision {
 
   /// How two organs answer, since they met.
   struct Learnt {
-    double scale = 1;              // of their shares: what a push has to move, in masses of its sphere
-    double steepest = kMostScale;  // what it may be
-    bool is_first = true;          // nothing was asked of them yet
+    double scale = 1;  // of their shares: what a push has to move, in masses of its sphere
+    double steepest = std::numeric_limits<double>::infinity();  // what it may be
+    bool is_first = true;                                       // nothing was asked of them yet
   };
 
   /// Two organs. What they meet of each other in this tick has one place in all three lists.
   struct Couple {
     Body *one, *other;
+    double most_scale;  // as both foresee pushes
     std::span<Pair> pairs;
     std::span<OrganContact> of_one, of_other;
     bool answers = false;  // in this tick

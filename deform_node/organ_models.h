@@ -92,7 +92,10 @@ struct ModelSizes {
   std::size_t removed_bytes = 0;  // of OrganView
   std::size_t local_nodes = 0;    // of a LocalPatch; 0: it offers none
   std::size_t spheres = 0;        // that other organs can meet
-  std::size_t body = 0;           // of OrganView::body_u; its surface is as large as a third of `values`
+  // How many times more or less than a sphere's own mass a push may have to move, as far as it is foreseen
+  // what the push does: on more of an organ, or on as much for many spheres.
+  double most_scale = 200;
+  std::size_t body = 0;  // of OrganView::body_u; its surface is as large as a third of `values`
 };
 
 /// One organ's deformation. The quasi-static, tensor-mass, hybrid and intestine models each are one of
