@@ -50,8 +50,11 @@ TEST_F(GutGaugeTest, ARigidMotionHasNone) {
 
 TEST_F(GutGaugeTest, WhatGrowsEverywhereIsLongerEverywhere) {
   const std::vector<float> strain = strain_of([](const Vec3& x) { return 1.2 * x; });
-  for (std::size_t m = 0; m < strain.size(); ++m)
-    if (!is_end(m)) EXPECT_NEAR(strain[m], 0.2, kFloat) << "mass " << m;
+  for (std::size_t m = 0; m < strain.size(); ++m) {
+    if (!is_end(m)) {
+      EXPECT_NEAR(strain[m], 0.2, kFloat) << "mass " << m;
+    }
+  }
 }
 
 TEST_F(GutGaugeTest, TheEndsWithoutAreaTellNothingThatIsNotThere) {
