@@ -62,8 +62,8 @@ class GutCollisions {
   const GutParts& parts() const noexcept { return parts_; }
   /// Forgets all that was.
   void reset() noexcept;
-  /// The same, but for how hard contacts of `other` push, a gut of the same shape and settings in steps of any
-  /// length: what lies still goes on lying still.
+  /// The same, but for how hard contacts of `other` push, a gut of the same shape and settings in steps of
+  /// any length: what lies still goes on lying still.
   void take_up(const GutCollisions& other) noexcept;
 
  private:
