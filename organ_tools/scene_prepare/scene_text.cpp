@@ -71,6 +71,9 @@ void write_organ(const scene::OrganSpec& organ, toml::table& table) {
   if (!regions.empty()) table.insert("regions", std::move(regions));
   if (!organ.mesh.starts_with("phantom:"))
     table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
+  // a file that took a mesh's place has its own
+  if (scene::is_organ_file(organ.mesh))
+    for (const char* key : {"metres_per_unit", "fixed"}) table.erase(key);
   if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
 }
 

@@ -508,7 +508,8 @@ class Parts(unittest.TestCase):
         self.assertNotEqual(self.build("plane:y>0"), first)
 
     def test_a_users_organ_takes_the_place_of_the_first_alone(self):
-        specs = [{"file": "", "mesh": f"phantom:{kind}", "name": name, "metres_per_unit": 1, "fixed": "plane:y>0"}
+        specs = [{"has_file": True, "file": "", "mesh": f"phantom:{kind}", "name": name, "metres_per_unit": 1,
+                  "fixed": "plane:y>0"}
                  for kind, name in (("paper", "liver"), ("gallbladder", "sac"))]
         made = []
 
