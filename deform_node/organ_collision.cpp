@@ -45,8 +45,14 @@ OrganCollision::OrganCollision(const std::vector<OrganModel*>& models) : bodies_
   couples_.reserve(bodies_.size() * bodies_.size() / 2);
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      couples_.emplace_back(&bodies_[i], &bodies_[j],
-                            std::min(models[i]->sizes().most_scale, models[j]->sizes().most_scale));
+      couples_.push_back(
+          {.one = &bodies_[i],
+           .other = &bodies_[j],
+           .most_scale = std::min(models[i]->sizes().most_scale, models[j]->sizes().most_scale),
+           .pairs = {},
+           .of_one = {},
+           .of_other = {},
+           .learnt = {}});
 }
 
 bool OrganCollision::run() noexcept {

@@ -55,8 +55,8 @@ class PatchChoice {
     near_.clear();
     for (std::size_t f = 0; f < faces.count(); ++f) {
       const Corners corners = faces.corners(f);
-      const geometry::Vec3 a = faces.place(corners[0]), b = faces.place(corners[1]),
-                           c = faces.place(corners[2]);
+      const geometry::Vec3 &a = faces.place(corners[0]), &b = faces.place(corners[1]),
+                           &c = faces.place(corners[2]);
       const geometry::Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
       if (!((low - place.centre).array() <= place.radius_m).all()) continue;
       if (!((place.centre - high).array() <= place.radius_m).all()) continue;
