@@ -44,12 +44,12 @@ class GutGaugeTest : public testing::Test {
 
 TEST_F(GutGaugeTest, ARigidMotionHasNone) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(2.3, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
-  EXPECT_THAT(strain_of([&](const Vec3& x) { return R * x + Vec3(0.1, 0.2, -0.1); }),
+  EXPECT_THAT(strain_of([&](const Vec3& x) -> Vec3 { return R * x + Vec3(0.1, 0.2, -0.1); }),
               Each(FloatNear(0, kFloat)));
 }
 
 TEST_F(GutGaugeTest, WhatGrowsEverywhereIsLongerEverywhere) {
-  const std::vector<float> strain = strain_of([](const Vec3& x) { return 1.2 * x; });
+  const std::vector<float> strain = strain_of([](const Vec3& x) -> Vec3 { return 1.2 * x; });
   for (std::size_t m = 0; m < strain.size(); ++m) {
     if (!is_end(m)) {
       EXPECT_NEAR(strain[m], 0.2, kFloat) << "mass " << m;
@@ -58,7 +58,7 @@ TEST_F(GutGaugeTest, WhatGrowsEverywhereIsLongerEverywhere) {
 }
 
 TEST_F(GutGaugeTest, TheEndsWithoutAreaTellNothingThatIsNotThere) {
-  const std::vector<float> strain = strain_of([](const Vec3& x) { return 0.8 * x; });
+  const std::vector<float> strain = strain_of([](const Vec3& x) -> Vec3 { return 0.8 * x; });
   for (std::size_t m = 0; m < strain.size(); ++m) {
     EXPECT_GE(strain[m], -0.2F - kFloat) << "mass " << m;
     EXPECT_LE(strain[m], kFloat) << "mass " << m;
@@ -69,9 +69,9 @@ TEST_F(GutGaugeTest, AGutThatIsPulledAlongItselfIsStretchedThere) {
   // one segment twice as long: half of it counts at both of its masses; the mesentery is stretched less
   const MassId from = rest_.layout.mass(0, 19), to = rest_.layout.mass(0, 20);
   const Vec3 along = rest_.positions[to] - rest_.positions[from];
-  const std::vector<float> before = strain_of([](const Vec3& x) { return x; });
+  const std::vector<float> before = strain_of([](const Vec3& x) -> Vec3 { return x; });
   const std::vector<float> strain =
-      strain_of([&](const Vec3& x) { return x == rest_.positions[to] ? Vec3(x + along) : x; });
+      strain_of([&](const Vec3& x) -> Vec3 { return x == rest_.positions[to] ? Vec3(x + along) : x; });
   const auto length = [&](int i) {
     const auto [a, b] = rest_.layout.segment(i);
     return (rest_.positions[b] - rest_.positions[a]).norm();
@@ -87,7 +87,7 @@ TEST_F(GutGaugeTest, AMesenteryThatIsPulledTellsItsOwnStrain) {
   const geometry::GutLayout& layout = rest_.layout;
   const MassId axis = layout.mass(0, 20), below = layout.mass(1, 20), above_vessel = layout.mass(2, 20);
   const Vec3 away = rest_.positions[axis] - rest_.positions[below];
-  const std::vector<float> strain = strain_of([&](const Vec3& x) {
+  const std::vector<float> strain = strain_of([&](const Vec3& x) -> Vec3 {
     const bool is_axis = std::ranges::find(rest_.positions, x) - rest_.positions.begin() < layout.columns;
     return is_axis ? Vec3(x + 0.5 * away) : x;
   });
