@@ -1,5 +1,6 @@
 #include "render_node/exposure_raster.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -25,8 +26,8 @@ struct Run {
 Run centres(float low, float high, int size) {
   const auto most = static_cast<float>(size);
   // rounded by cutting off: a call of ceil() would be half of all the time
-  return {static_cast<int>(std::clamp(low, 0.0f, most) + 0.5f),
-          static_cast<int>(std::clamp(high, 0.0f, most) + 0.5f) - 1};
+  const float first = std::clamp(low, 0.0f, most) + 0.5f, end = std::clamp(high, 0.0f, most) + 0.5f;
+  return {static_cast<int>(first), static_cast<int>(end) - 1};
 }
 
 bool in_front(const Eigen::Vector4f& corner) {
@@ -46,7 +47,7 @@ ExposureRaster::ExposureRaster(Size size) : size_(size) {
 }
 
 void ExposureRaster::look(const View& view) {
-  clip_from_W_ = view.clip_from_eye * view.eye_from_W;
+  clip_from_scene_ = view.clip_from_eye * view.eye_from_W;
   const auto pixels = static_cast<std::size_t>(size_.width * size_.height);
   depth_.assign(pixels, kFar);
   hidden_.assign(pixels, 0);
@@ -61,7 +62,7 @@ void ExposureRaster::add_cover(const MeshData& mesh, const Mat4f& W_from_mesh) {
 }
 
 void ExposureRaster::add(const MeshData& mesh, const Mat4f& W_from_mesh, bool covers) {
-  const Mat4f clip_from_mesh = clip_from_W_ * W_from_mesh;
+  const Mat4f clip_from_mesh = clip_from_scene_ * W_from_mesh;
   corners_.clear();
   pixels_.clear();
   for (const Vertex& vertex : mesh.vertices) {

@@ -32,7 +32,7 @@ class ExposureRaster {
   void see(std::size_t pixel, float depth, bool covers);
 
   Size size_;
-  Mat4f clip_from_W_ = Mat4f::Identity();
+  Mat4f clip_from_scene_ = Mat4f::Identity();
   std::vector<Vec3f> pixels_;         // of a mesh's vertices: place in the picture, and depth
   std::vector<Corner> corners_;       // of a mesh's vertices
   std::vector<float> depth_;          // of the thing, per pixel; kFar where it is not

@@ -24,7 +24,7 @@ constexpr int kShadeAround = TubeSkin::kAround / 2;
 
 // Cosine and sine of each vertex of a section.
 const std::array<Eigen::Vector2f, TubeSkin::kAround>& circle() {
-  static const auto kCircle = [] {
+  static const auto points_around = [] {
     std::array<Eigen::Vector2f, TubeSkin::kAround> points;
     for (std::size_t a = 0; a < points.size(); ++a) {
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(a) / TubeSkin::kAround;
@@ -32,7 +32,7 @@ const std::array<Eigen::Vector2f, TubeSkin::kAround>& circle() {
     }
     return points;
   }();
-  return kCircle;
+  return points_around;
 }
 
 std::vector<double> lengths_along(std::span<const geometry::Vec3> masses) {
