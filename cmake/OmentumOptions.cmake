@@ -50,6 +50,18 @@ omentum_precompiled(omentum_precompiled_common ${OMENTUM_COMMON_HEADERS})
 target_link_libraries(omentum_precompiled_common PRIVATE Eigen3::Eigen)
 set(OMENTUM_PRECOMPILED omentum_precompiled_common)  # for the folder's libraries and programs
 
+# omentum_unity(TARGET): under the address sanitizer, where compiling is most of the time, TARGET's sources are compiled
+# eight at a time: headers are read and templates instantiated once for them. Their unnamed namespaces must not name
+# two things alike. What is defined once for a whole program, or compiled in its own way, stays alone.
+function(omentum_unity target)
+  if(OMENTUM_SANITIZE STREQUAL "address")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_source_files_properties(
+      ${PROJECT_SOURCE_DIR}/transport/fast/asan_options.cpp ${PROJECT_SOURCE_DIR}/tests/support/heap_count.cpp PROPERTIES
+      SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
 # omentum_library(NAME sources...): a library target omentum_NAME, alias Omentum::NAME.
 function(omentum_library name)
   add_library(omentum_${name} STATIC ${ARGN})

@@ -29,7 +29,10 @@ BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap
 }
 
 physics::Press BodyLoads::HeldPress::press() const noexcept {
-  return {{nodes.data(), count}, {displacements.data(), count}, {forces.data(), count}};
+  return {.nodes = {nodes.data(), count},
+          .displacements = {displacements.data(), count},
+          .forces = {forces.data(), count},
+          .most_strength = gain * physics::Press::kMostStrength};
 }
 
 void BodyLoads::weigh(NodeId n) noexcept {
@@ -52,6 +55,7 @@ void BodyLoads::press(std::span<const ToolLoad> presses, const MeshEditor& edito
     if (held_.size() == kMaxTools) break;
     HeldPress& held = held_.emplace_back();
     held.tool = load.tool;
+    held.gain = load.gain;
     held.count = std::min<std::size_t>(load.nodes.size(), kMaxNodesPerTool);
     std::copy_n(load.nodes.begin(), held.count, held.nodes.begin());
     std::copy_n(load.displacements.begin(), held.count, held.displacements.begin());
@@ -72,6 +76,18 @@ void BodyLoads::act(std::span<const double> strengths) noexcept {
     }
     held.strength = strengths[p];
   }
+}
+
+void BodyLoads::carry(std::span<const double> forces, const MeshEditor& editor) noexcept {
+  for (std::size_t c = 0; c < forces.size(); ++c) {
+    if (editor.uses(NodeId(c / 3)) == 0) continue;
+    weights_[c] += forces[c];
+    external_[c] += forces[c];
+  }
+}
+
+void BodyLoads::put_down() noexcept {
+  for (std::size_t n = 0; n < carried_kg_.size(); ++n) weigh(NodeId(n));
 }
 
 void BodyLoads::forget_presses() noexcept {

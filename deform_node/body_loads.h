@@ -21,11 +21,14 @@ class BodyLoads {
   std::span<const physics::Press> presses() const noexcept { return presses_; }
   /// How strong each of presses() really is, as a share of what its hand said.
   void act(std::span<const double> strengths) noexcept;
+  /// What other organs push, [3N], N, on nodes that something is left around; until it is put down.
+  void carry(std::span<const double> forces, const geometry::MeshEditor& editor) noexcept;
+  void put_down() noexcept;
   /// What is left in `editor` after these went, or after all came back.
   void lighten(std::span<const geometry::TetId> gone, const geometry::MeshEditor& editor) noexcept;
   void restore() noexcept;
 
-  /// Weights alone / with the tools' forces as they act, [3N], N.
+  /// Weights and what is carried / with the tools' forces as they act, [3N], N.
   std::span<const double> weights() const noexcept { return weights_; }
   std::span<const double> external() const noexcept { return external_; }
   /// One tool's share at a node, N.
@@ -35,7 +38,7 @@ class BodyLoads {
   /// One tool's, without nodes that nothing is left around.
   struct HeldPress {
     std::uint32_t tool = 0;
-    double strength = 1;
+    double strength = 1, gain = 1;
     std::size_t count = 0;
     std::array<NodeId, kMaxNodesPerTool> nodes;
     std::array<Vec3, kMaxNodesPerTool> displacements, forces;

@@ -58,6 +58,9 @@ class LargeStepper final : public BodyStepper {
                std::span<double> u) noexcept override {
     large_->foresee(state, external, u);
   }
+  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override {
+    large_->yield_to(forces, yield);
+  }
 
  private:
   std::unique_ptr<physics::LargeStep> large_;
@@ -108,6 +111,9 @@ class ExplicitStepper final : public BodyStepper {
   void foresee(const BodyState& state, std::span<const double> external,
                std::span<double> u) noexcept override {
     felt_.foresee(state, *law_, external, u);
+  }
+  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override {
+    felt_.yield_to(forces, yield);
   }
 
  private:

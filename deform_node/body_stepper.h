@@ -46,7 +46,7 @@ class BodyStepper {
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore(std::span<const geometry::TetId> removed) noexcept = 0;
 
-  /// False: no hand feels it, and nothing of the three below is asked for.
+  /// False: no hand feels it, and compliance() is not asked for.
   virtual bool is_felt() const { return true; }
   /// What a hand feels within so long, s: displacement of `nodes` per force held, [3n x 3n], m/N, symmetric;
   /// and where the body will be if all forces stay as they are, [3N].
@@ -54,6 +54,8 @@ class BodyStepper {
   virtual void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept = 0;
   virtual void foresee(const physics::BodyState& state, std::span<const double> external,
                        std::span<double> u) noexcept = 0;
+  /// Displacement of all nodes after that time per forces held over it, [3N], m.
+  virtual void yield_to(std::span<const double> forces, std::span<double> yield) noexcept = 0;
 };
 
 /// Backward Euler for linear elasticity; presses are imposed (physics/dynamics/imposed_press.h). Throws as

@@ -192,7 +192,8 @@ std::span<const ToolLoad> ContactBook::loads(std::uint32_t organ) noexcept {
     pages.loads[count++] = {.tool = tool,
                             .nodes = {held.nodes.data(), size},
                             .displacements = {held.displacements.data(), size},
-                            .forces = {page.faded_forces.data(), size}};
+                            .forces = {page.faded_forces.data(), size},
+                            .gain = page.gain};
   }
   return {pages.loads.data(), count};
 }

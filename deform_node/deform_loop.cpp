@@ -33,6 +33,12 @@ nlohmann::json to_json(const CutAccount& cuts) {
       {"way_cm", way_cm}, {"lost_cm3", lost_cm3}, {"lost_cm3_per_cm", way_cm > 0 ? lost_cm3 / way_cm : 0}};
 }
 
+nlohmann::json to_json(const CollisionAccount& collisions) {
+  return {{"contacts", collisions.contacts},
+          {"held_back", collisions.held_back},
+          {"deepest_overlap_m", collisions.deepest_m}};
+}
+
 }  // namespace
 
 DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& open_bus, runtime::Pace& loop)
@@ -72,10 +78,13 @@ void DeformLoop::open_writers() {
   topology_writer_ = bus_->writer<msg::Topology>();
   state_writer_ = bus_->writer<msg::OrganState>();
   status_writer_ = bus_->writer<msg::NodeStatus>();
+  stress_writer_ = bus_->writer<msg::OrganStress>();
   publisher_ = std::make_unique<StatePublisher>(
       StateWriters{*scene_writer_, *topology_writer_, *state_writer_, *status_writer_, journal_.get()},
       organs_.organs(), nodes_per_block(profile), node::to_message(loaded_, scene_.name), own_, faults_,
       on_wake);
+  stress_publisher_ = std::make_unique<StressPublisher>(*stress_writer_, organs_.organs(),
+                                                        nodes_per_block(profile), options_.rate_hz, on_wake);
   if (offers_local_models(organs_.organs())) {
     local_writer_ = bus_->writer<msg::LocalModel>();
     local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(),
@@ -123,6 +132,7 @@ void DeformLoop::take_up() {
     if (journal_) organs_.take_up(journal_->read(), book_);  // the other one may have cut on
   }
   time_.note(loop_.now_ns(), organs_.simulated_s(), true);
+  owed_.forgive(loop_.record().missed);
   book_.forget_cuts(loop_.now_ns());
   role_ = Role::kServing;
 }
@@ -148,11 +158,21 @@ void DeformLoop::tick() noexcept {
   obey();
   const std::int64_t now_ns = loop_.now_ns();
   book_.advance(now_ns);
-  if (!orders_.paused()) organs_.step(book_, 1 / options_.rate_hz);
+  live_on();
   if (local_publisher_) local_publisher_->offer(tool_places_->find(now_ns), book_.echoes(), now_ns);
   const auto ticks_per_status = std::max<std::uint64_t>(1, std::lround(options_.rate_hz / kStatusRate_hz));
   if (ticks_++ % ticks_per_status == 0) take_figures();
   publish(now_ns);
+  in_time_ = static_cast<double>(loop_.now_ns() - now_ns) < 1e9 / options_.rate_hz;
+}
+
+void DeformLoop::live_on() noexcept {
+  const std::uint64_t missed = loop_.record().missed;
+  if (orders_.paused()) {
+    owed_.forgive(missed);
+  } else {
+    organs_.step(book_, owed_.take(missed, in_time_) / options_.rate_hz);
+  }
 }
 
 void DeformLoop::obey() noexcept {
@@ -185,18 +205,22 @@ void DeformLoop::publish(std::int64_t now_ns) noexcept {
   for (std::size_t i = 0; i < tick.organs.size(); ++i) tick.organs[i].take(organs_.organs()[i].model->view());
   tick.figures = figures_;
   publisher_->publish();
+  stress_publisher_->offer({.seq = states_, .stamp_ns = now_ns});
 }
 
 nlohmann::json DeformLoop::report() const {
-  return {{"dds", options_.node.dds},
-          {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
-          {"states", states_},
-          {"steps", organs_.steps()},
-          {"removed_tetrahedra", organs_.removed_tetrahedra()},
-          {"repaired_tetrahedra", organs_.repaired_tetrahedra()},
-          {"cuts", to_json(organs_.cuts())},
-          {"real_time_factor", time_.overall()},
-          {"faults", faults_.lines()}};
+  nlohmann::json report{{"dds", options_.node.dds},
+                        {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
+                        {"states", states_},
+                        {"stress_states", stress_publisher_->measured()},
+                        {"steps", organs_.steps()},
+                        {"removed_tetrahedra", organs_.removed_tetrahedra()},
+                        {"repaired_tetrahedra", organs_.repaired_tetrahedra()},
+                        {"cuts", to_json(organs_.cuts())},
+                        {"real_time_factor", time_.overall()},
+                        {"faults", faults_.lines()}};
+  if (const auto collisions = organs_.collisions()) report["collisions"] = to_json(*collisions);
+  return report;
 }
 
 }  // namespace omentum::deform

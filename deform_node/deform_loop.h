@@ -3,8 +3,10 @@
 
 #include "deform_node/local_publisher.h"
 #include "deform_node/organ_group.h"
+#include "deform_node/owed_time.h"
 #include "deform_node/standby.h"
 #include "deform_node/state_publisher.h"
+#include "deform_node/stress_publisher.h"
 #include "deform_node/time_account.h"
 #include "node_common/loaded_scene.h"
 #include "node_common/refusal.h"
@@ -25,10 +27,11 @@ struct DeformOptions {
   std::span<const ModelEntry> models = model_table();
 };
 
-/// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo and
-/// NodeStatus. Listens first: who finds a scene with other organs does not join it, and who finds one that is
-/// served stands by, silent but for Contact, until it is not. Another scene that appears after
-/// node::kSettled_s is the newcomer's fault, and is ignored.
+/// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo,
+/// NodeStatus, LocalModel where organs offer any, and OrganStress while somebody reads it. Listens first: who
+/// finds a scene with other organs does not join it, and who finds one that is served stands by, silent but
+/// for Contact, until it is not. Another scene that appears after node::kSettled_s is the newcomer's fault,
+/// and is ignored.
 class DeformLoop {
  public:
   /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace, tells the time and
@@ -52,6 +55,7 @@ class DeformLoop {
   void stand_by();
   void hear(const msg::SceneInfo& other);
   void tick() noexcept;
+  void live_on() noexcept;
   void obey() noexcept;
   void take_figures() noexcept;
   void publish(std::int64_t now_ns) noexcept;
@@ -76,6 +80,8 @@ class DeformLoop {
   msg::NodeStatus own_;  // who this is; what of it changes is the publisher's, but for the ticks
   LoopFigures figures_;
   TimeAccount time_;
+  OwedTime owed_;
+  bool in_time_ = true;  // the last tick ended within its period
   Standby standby_;
 
   // declared last: callbacks end before what they touch
@@ -85,7 +91,9 @@ class DeformLoop {
   std::unique_ptr<transport::Writer<msg::OrganState>> state_writer_;
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
   std::unique_ptr<transport::Writer<msg::LocalModel>> local_writer_;  // none where no organ offers any
+  std::unique_ptr<transport::Writer<msg::OrganStress>> stress_writer_;
   std::unique_ptr<StatePublisher> publisher_;
+  std::unique_ptr<StressPublisher> stress_publisher_;
   std::unique_ptr<LocalPublisher> local_publisher_;
   std::unique_ptr<ToolPlaces> tool_places_;  // where some organ offers local models
   std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;

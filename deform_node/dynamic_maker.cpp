@@ -14,6 +14,8 @@ namespace omentum::deform {
 
 namespace {
 
+using physics::StressLaw;
+
 // One in each tick at deform_node's own rate: a hand goes by a local model until the next one comes, and that
 // is good for one step. With two in a tick it met a plate of 1 cm too stiff, and was fed energy.
 constexpr double kImplicitStep_s = 0.01;
@@ -56,9 +58,10 @@ Stepping step_explicitly(const SteppedBody& body, const scene::DynamicsSpec& dyn
   throw std::runtime_error(dynamics.where + line);
 }
 
-// `step`: of a body, by what its scene says.
+// `step`: of a body, by what its scene says; `stress`: what that body's law says.
 template <class Step>
-std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec, Step&& step) {
+std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
+                                 physics::StressLaw stress, Step&& step) {
   const organ::Organ& organ = source.organ;
   const scene::DynamicsSpec& dynamics = *spec.dynamics;
   DynamicParts parts{.body = {organ.mesh, organ.material, inertia_of(organ, dynamics)},
@@ -71,6 +74,7 @@ std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::O
   parts.cut_delay_s = dynamics.cut_delay_s;
   parts.cut_rate_per_s = dynamics.cut_rate_per_s;
   parts.smallest_piece_m3 = dynamics.smallest_piece_m3;
+  parts.stress = stress;
   return std::make_unique<DynamicModel>(std::move(parts));
 }
 
@@ -82,26 +86,29 @@ std::unique_ptr<physics::ForceLaw> law_of(const SteppedBody& body) {
 }  // namespace
 
 std::unique_ptr<OrganModel> make_tensor_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
-  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
-    if (const auto scheme = scheme_of(dynamics.integrator))
-      return step_explicitly(body, dynamics, *scheme, law_of<physics::TensorMass>(body));
-    return {make_implicit_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
-  });
+  return make(source, spec, StressLaw::kLinear,
+              [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
+                if (const auto scheme = scheme_of(dynamics.integrator))
+                  return step_explicitly(body, dynamics, *scheme, law_of<physics::TensorMass>(body));
+                return {make_implicit_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
+              });
 }
 
 std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, const scene::OrganSpec& spec) {
-  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
-    if (const auto scheme = scheme_of(dynamics.integrator))
-      return step_explicitly(body, dynamics, *scheme, law_of<physics::Corotational>(body));
-    return {make_warped_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
-  });
+  return make(source, spec, StressLaw::kTurned,
+              [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) -> Stepping {
+                if (const auto scheme = scheme_of(dynamics.integrator))
+                  return step_explicitly(body, dynamics, *scheme, law_of<physics::Corotational>(body));
+                return {make_warped_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
+              });
 }
 
 std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
-  return make(source, spec, [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
-    return step_explicitly(body, dynamics, scheme_of(dynamics.integrator).value(),
-                           law_of<physics::SpringMesh>(body), false);
-  });
+  return make(source, spec, StressLaw::kNone,
+              [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
+                return step_explicitly(body, dynamics, scheme_of(dynamics.integrator).value(),
+                                       law_of<physics::SpringMesh>(body), false);
+              });
 }
 
 }  // namespace omentum::deform

@@ -1,5 +1,6 @@
 #include "deform_node/dynamic_model.h"
 
+#include "deform_node/strain_gauges.h"
 #include "node_common/organ_reach.h"
 
 #include <algorithm>
@@ -44,6 +45,8 @@ void stiffen_supports(std::span<float> compliance, std::size_t rows) {
 
 DynamicModel::DynamicModel(DynamicParts parts)
     : mesh_(parts.body.mesh),
+      material_(parts.body.material),
+      stress_(parts.stress),
       inertia_(std::move(parts.body.inertia)),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
       loads_(mesh_, parts.body.material, parts.gravity_m_s2),
@@ -58,7 +61,8 @@ DynamicModel::DynamicModel(DynamicParts parts)
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
-      felt_(std::make_unique<Felt>()) {
+      felt_(std::make_unique<Felt>()),
+      meeting_(std::make_unique<BodyMeeting>(mesh_, inertia_)) {
   felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
   felt_->u.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
@@ -69,7 +73,8 @@ ModelSizes DynamicModel::sizes() const {
   return {.values = values_.size(),
           .removed_bytes = burnt_.size(),
           .local_nodes = stepper_->is_felt() ? kPatchNodes : 0,
-          .spheres = 0};
+          .spheres = meeting_->most_spheres(),
+          .body = values_.size()};
 }
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -139,6 +144,7 @@ void DynamicModel::forgo_gone() noexcept {
 }
 
 void DynamicModel::advance(int steps) noexcept {
+  meeting_->act(steps * stepper_->step_s(), editor_, loads_);
   std::ranges::copy(state_.u, before_.u.begin());
   std::ranges::copy(state_.v, before_.v.begin());
   const physics::EnergyWatch watch = watch_;
@@ -150,6 +156,7 @@ void DynamicModel::advance(int steps) noexcept {
     status_.diverged = !run(steps, &BodyStepper::step_shorter);
     if (!status_.diverged) status_.fault = "would diverge, goes on in shorter steps";
   }
+  loads_.put_down();
   status_.simulated_s += steps * stepper_->step_s();
   status_.steps += static_cast<std::uint64_t>(steps);
 }
@@ -179,6 +186,7 @@ void DynamicModel::reset() noexcept {
   burning_.clear();
   std::ranges::fill(burnt_, std::uint8_t{0});
   watch_.restart(0);
+  meeting_->reset();
   std::ranges::fill(state_.u, 0.0);
   std::ranges::fill(state_.v, 0.0);
   ahead_s_ = until_check_s_ = 0;
@@ -205,12 +213,26 @@ void DynamicModel::show() noexcept {
     for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(state_.u[3 * n + axis]);
 }
 
+std::span<const CollisionSphere> DynamicModel::collidable() const noexcept {
+  return meeting_->collidable({editor_, version_}, state_, *stepper_, loads_.external());
+}
+
+void DynamicModel::respond(std::span<const OrganContact> contacts) noexcept {
+  meeting_->respond(contacts, state_, *stepper_, loads_.external());
+}
+
 OrganView DynamicModel::view() const noexcept {
   return {.kind = StateKind::kSurface,
           .topology_version = version_,
           .values = std::span(values_).first(3 * editor_.surface_nodes().size()),
           .removed_bits = editor_.removed_bits(),
-          .burnt_bits = burnt_};
+          .burnt_bits = burnt_,
+          .body_u = state_.u,
+          .surface = editor_.surface_nodes()};
+}
+
+std::unique_ptr<StrainGauge> DynamicModel::strain_gauge() const {
+  return std::make_unique<BodyGauge>(mesh_, material_, stress_);
 }
 
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {

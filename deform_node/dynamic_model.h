@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/body_loads.h"
+#include "deform_node/body_meeting.h"
 #include "deform_node/body_stepper.h"
 #include "deform_node/cut_queue.h"
 #include "deform_node/organ_models.h"
@@ -9,12 +10,13 @@
 #include "physics/dynamics/energy_watch.h"
 #include "physics/dynamics/swept_cut.h"
 #include "physics/dynamics/tearing.h"
+#include "physics/nodal_stress.h"
 
 namespace omentum::deform {
 
 /// What a dynamic organ consists of.
 struct DynamicParts {
-  SteppedBody body;                        // its mesh outlives the model
+  SteppedBody body;                        // its mesh and material outlive the model
   std::span<const NodeId> uncut_surface;   // in the organ file's order; read at construction alone
   std::unique_ptr<BodyStepper> stepper{};  // of the same body
   double energy_margin = 2;                // of a sound integration by it (physics/dynamics/energy_watch.h)
@@ -22,6 +24,7 @@ struct DynamicParts {
   std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
+  physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
 };
 
 /// Steps of its own fixed length as the clock goes on; strokes burn through, what is loaded too much tears, a
@@ -40,6 +43,9 @@ class DynamicModel final : public OrganModel {
   OrganView view() const noexcept override;
   ModelStatus status() const noexcept override { return status_; }
   bool local_model(const PatchPlace& place, LocalPatch& patch) const noexcept override;
+  std::unique_ptr<StrainGauge> strain_gauge() const override;
+  std::span<const CollisionSphere> collidable() const noexcept override;
+  void respond(std::span<const OrganContact> contacts) noexcept override;
 
  private:
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
@@ -57,6 +63,8 @@ class DynamicModel final : public OrganModel {
   void show() noexcept;
 
   const geometry::TetraMesh& mesh_;
+  const physics::MaterialMap& material_;
+  physics::StressLaw stress_;
   physics::Inertia inertia_;
   geometry::MeshEditor editor_;
   BodyLoads loads_;
@@ -82,6 +90,7 @@ class DynamicModel final : public OrganModel {
   };
   std::unique_ptr<PatchGatherer> gatherer_;
   std::unique_ptr<Felt> felt_;
+  std::unique_ptr<BodyMeeting> meeting_;  // as other organs ask for it: alone in a scene, none does
 };
 
 }  // namespace omentum::deform

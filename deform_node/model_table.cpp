@@ -1,6 +1,7 @@
 #include "deform_node/model_table.h"
 
 #include "deform_node/dynamic_maker.h"
+#include "deform_node/gut_maker.h"
 #include "deform_node/quasi_static_model.h"
 
 #include <algorithm>
@@ -11,7 +12,9 @@ namespace omentum::deform {
 namespace {
 
 std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, const scene::OrganSpec&) {
-  return std::make_unique<QuasiStaticModel>(*source.organ.compliance, source.organ.surface);
+  const organ::Organ& organ = source.organ;
+  return std::make_unique<QuasiStaticModel>(*organ.compliance, organ.surface, source.rest,
+                                            geometry::cover_with_spheres(organ.mesh, organ.surface));
 }
 
 constexpr std::array kTable{
@@ -19,6 +22,7 @@ constexpr std::array kTable{
     ModelEntry{"tensor-mass", organ::Load::kMeshOnly, make_tensor_mass},
     ModelEntry{"corotational", organ::Load::kMeshOnly, make_corotational},
     ModelEntry{"spring-mass", organ::Load::kMeshOnly, make_spring_mass},
+    ModelEntry{"intestine", organ::Load::kMeshOnly, make_intestine},
 };
 
 }  // namespace

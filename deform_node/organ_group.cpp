@@ -36,6 +36,7 @@ void OrganGroup::reset(ContactBook& book) noexcept {
 void OrganGroup::reset(std::uint32_t organ, ContactBook& book) noexcept {
   OrganModel& model = *organs_[organ].model;
   model.reset();
+  collision_.reset(organ);
   book.begins_at(organ, model.view().topology_version);
 }
 
@@ -48,6 +49,7 @@ void OrganGroup::take_up(const std::vector<OrganCuts>& cuts, ContactBook& book) 
     if (cuts[i].version == 0 || is_there) continue;
     const std::uint64_t version = std::max(cuts[i].version, now.topology_version + 1);
     model.take_up(cuts[i].removed_bits, cuts[i].burnt_bits, version);
+    collision_.reset(i);
     book.begins_at(i, model.view().topology_version);
   }
 }
@@ -88,6 +90,19 @@ CutAccount OrganGroup::cuts() const {
     const CutAccount own = served.model->status().cuts;
     all.way_m += own.way_m;
     all.lost_m3 += own.lost_m3;
+  }
+  return all;
+}
+
+std::optional<CollisionAccount> OrganGroup::collisions() const {
+  std::optional<CollisionAccount> all;
+  for (const ServedOrgan& served : organs_) {
+    const std::optional<CollisionAccount> own = served.model->status().collisions;
+    if (!own) continue;
+    if (!all) all.emplace();
+    all->contacts += own->contacts;
+    all->held_back += own->held_back;
+    all->deepest_m = std::max(all->deepest_m, own->deepest_m);
   }
   return all;
 }

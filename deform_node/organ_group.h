@@ -32,6 +32,7 @@ class OrganGroup {
   std::uint32_t removed_tetrahedra() const;
   std::uint32_t repaired_tetrahedra() const;
   CutAccount cuts() const;
+  std::optional<CollisionAccount> collisions() const;  // of those that look for them
   /// What the slowest organ lived through, s; 0 where none has a time of its own.
   double simulated_s() const;
 

@@ -7,10 +7,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
 namespace omentum::deform {
+
+class StrainGauge;
 
 using geometry::NodeId;
 using geometry::SurfaceId;
@@ -23,7 +27,8 @@ struct ToolLoad {
   std::uint32_t tool = 0;
   std::span<const NodeId> nodes;
   std::span<const Vec3> displacements;  // imposed u of each node, in W, m
-  std::span<const Vec3> forces;         // on the tissue, in W, N
+  std::span<const Vec3> forces;         // on the tissue, in W, N, times `gain`
+  double gain = 1;                      // below 1: its hand fell silent, and lets go
 };
 
 /// What a tool's cutting edge swept since the last tick: the two ruled triangles between both places.
@@ -52,12 +57,22 @@ struct OrganView {
   std::span<const float> values;       // x y z, one after the other: [3 n]
   std::span<const std::uint8_t> removed_bits{};  // bit t % 8 of byte t / 8: tetrahedron t; empty: none is
   std::span<const std::uint8_t> burnt_bits{};    // those of them that an edge burnt away, likewise
+  // Of a body that has more than its surface, whose values above are of it; else empty.
+  std::span<const double> body_u{};   // displacements of all nodes of the mesh, [3N], m
+  std::span<const NodeId> surface{};  // whose the state's values are, in its order
 };
 
 /// What cutting edges did to an organ.
 struct CutAccount {
   double way_m = 0;    // of their middles, through the organ as it was before any cut
   double lost_m3 = 0;  // tissue that went for it: burnt, and what then hung on a node or an edge
+};
+
+/// How an organ that meets itself and walls fared.
+struct CollisionAccount {
+  std::uint64_t contacts = 0;   // that pushed, each step's counted
+  std::uint64_t held_back = 0;  // times a mass was kept from going so far that something could have crossed
+  double deepest_m = 0;         // the largest overlap that a step left
 };
 
 /// What a model says of itself. Counters count since the start, over resets, unless they say otherwise.
@@ -67,6 +82,7 @@ struct ModelStatus {
   std::uint32_t removed_tetrahedra = 0;   // now: a reset brings them back
   std::uint32_t repaired_tetrahedra = 0;  // removed because they hung on one node or edge; nobody cut them
   CutAccount cuts{};
+  std::optional<CollisionAccount> collisions{};  // none: it does not look for them
   bool diverged = false;     // its state is beyond help: it must be reset, and not be published
   std::string_view fault{};  // of this step, a text that lives as long as the program; empty: none
 };
@@ -77,6 +93,10 @@ struct ModelSizes {
   std::size_t removed_bytes = 0;  // of OrganView
   std::size_t local_nodes = 0;    // of a LocalPatch; 0: it offers none
   std::size_t spheres = 0;        // that other organs can meet
+  // How many times more or less than a sphere's own mass a push may have to move, as far as it is foreseen
+  // what the push does: on more of an organ, or on as much for many spheres.
+  double most_scale = 200;
+  std::size_t body = 0;  // of OrganView::body_u; its surface is as large as a third of `values`
 };
 
 /// One organ's deformation. The quasi-static, tensor-mass, hybrid and intestine models each are one of
@@ -108,9 +128,14 @@ class OrganModel {
     return false;
   }
 
+  /// What measures its strain and stress from its views, on a thread of its own (strain_gauge.h), while this
+  /// lives; null: nobody does.
+  virtual std::unique_ptr<StrainGauge> strain_gauge() const;
+
   /// What other organs may meet, at this moment; valid as a view is.
   virtual std::span<const CollisionSphere> collidable() const noexcept { return {}; }
-  /// What they met, after all organs' steps; empty in most ticks, and then not called.
+  /// What they met, after all organs' steps; empty in most ticks, and then not called. Otherwise some times
+  /// in a tick, with what the calls before left to do: each asks collidable() how fast the spheres are now.
   virtual void respond(std::span<const OrganContact> /*contacts*/) noexcept {}
 };
 

@@ -1,6 +1,7 @@
 #include "deform_node/served_organ.h"
 
 #include "deform_node/contact_reach.h"
+#include "geometry/gut_skin.h"
 #include "node_common/organ_reach.h"
 #include "transport/messages.h"
 
@@ -33,7 +34,24 @@ std::vector<ServedOrgan> load_organs(const scene::Scene& scene, std::span<const 
   return organs;
 }
 
+namespace {
+
+// A hand numbers the nodes of the skin.
+OrganNumbers numbers_of(const geometry::GutShape& gut) {
+  const geometry::GutSkin skin(gut);
+  OrganNumbers numbers{.node_of_file = {}, .surface_of_node = {}, .pinned = {}};
+  for (std::size_t n = 0; n < skin.node_count(); ++n) {
+    numbers.node_of_file.emplace_back(n);
+    numbers.pinned.push_back(skin.is_held(NodeId(n)));
+  }
+  numbers.reach_m = node::reach_m(gut.positions);
+  return numbers;
+}
+
+}  // namespace
+
 OrganNumbers numbers_of(const node::OrganSource& source) {
+  if (source.gut) return numbers_of(*source.gut);
   const organ::Organ& organ = source.organ;
   return {.node_of_file = organ.mesh.nodes_of_file(),
           .surface_of_node = organ.surface.of_node,

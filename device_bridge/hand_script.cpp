@@ -1,5 +1,7 @@
 #include "device_bridge/hand_script.h"
 
+#include "device_bridge/hand_way.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,12 +55,14 @@ double minimum_jerk_rate(double s) noexcept {
 }
 
 double script_period_s(const scene::HandSpec& hand) {
+  if (!hand.way.empty()) return way_period_s(hand);
   double period_s = 0;
   for (const PhasePlan& phase : plan_of(hand)) period_s += phase.duration_s;
   return period_s;
 }
 
 ScriptPoint script_at(const scene::HandSpec& hand, double t_s) noexcept {
+  if (!hand.way.empty()) return way_at(hand, t_s);
   double left_s = std::fmod(t_s, script_period_s(hand));
   const auto plan = plan_of(hand);
   // rounding may leave a hair more than all phases take: that is the end of the last one
@@ -77,6 +81,7 @@ ScriptPoint script_at(const scene::HandSpec& hand, double t_s) noexcept {
 }
 
 Motion target_of(const scene::HandSpec& hand, const ScriptPoint& point) noexcept {
+  if (!hand.way.empty()) return point.on_way;
   const Vec3 press_point(hand.press_point.data()), normal(hand.press_normal.data()),
       slide(hand.slide_direction.data());
   return {press_point + normal * point.height_m + slide * point.slide_m,

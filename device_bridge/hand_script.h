@@ -8,12 +8,15 @@ namespace omentum::device {
 
 enum class Phase { kStart, kApproach, kPress, kHold, kSlide, kRelease };
 
-/// The target at one time: over the press point along its normal, and along the slide direction.
+/// The target at one time: over the press point along its normal, and along the slide direction; or on its
+/// way from waypoint to waypoint (hand_way.h).
 struct ScriptPoint {
   Phase phase = Phase::kStart;
   double phase_share = 0;                    // [0, 1) of the phase that has passed
   double height_m = 0, height_rate_m_s = 0;  // above the rest surface; below zero while pressing
   double slide_m = 0, slide_rate_m_s = 0;
+  Motion on_way{};      // of a hand with waypoints instead of both
+  double grip_rad = 0;  // how far the jaws are open
 };
 
 /// Duration of one round, s; then it begins again.

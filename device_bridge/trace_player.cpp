@@ -9,9 +9,9 @@ namespace omentum::device {
 namespace {
 
 // What the recorded hand would have accepted is unknown: limits that leave the scene's own ones in force.
-constexpr double kMaxForce_n = 50;
-constexpr double kMaxTorque_nm = 5;
-constexpr double kMaxStiffness_n_m = 10'000;
+constexpr double kMaxTraceForce_n = 50;
+constexpr double kMaxTraceTorque_nm = 5;
+constexpr double kMaxTraceStiffness_n_m = 10'000;
 
 }  // namespace
 
@@ -27,9 +27,9 @@ msg::DeviceInfo TracePlayer::info() const {
   msg::DeviceInfo info;
   info.tool = tool_;
   info.name = "trace";
-  info.max_force_n = kMaxForce_n;
-  info.max_torque_nm = kMaxTorque_nm;
-  info.max_stiffness_n_m = kMaxStiffness_n_m;
+  info.max_force_n = kMaxTraceForce_n;
+  info.max_torque_nm = kMaxTraceTorque_nm;
+  info.max_stiffness_n_m = kMaxTraceStiffness_n_m;
   info.workspace_min = to_message(low);
   info.workspace_max = to_message(high);
   info.sensed_axes = msg::AXIS_X | msg::AXIS_Y | msg::AXIS_Z | msg::AXIS_PITCH | msg::AXIS_YAW |

@@ -16,9 +16,9 @@ constexpr double kPaceChange_s =
 constexpr double kReturn_s = 1.0;  // to glide back to the start: below 0.1 m/s for a path of 5 cm
 
 // Limits of a common table-top device; the stiffness is what such devices render at 1 kHz.
-constexpr double kMaxForce_n = 20;
-constexpr double kMaxTorque_nm = 1;
-constexpr double kMaxStiffness_n_m = 3000;
+constexpr double kMaxHandForce_n = 20;
+constexpr double kMaxHandTorque_nm = 1;
+constexpr double kMaxHandStiffness_n_m = 3000;
 constexpr double kReach_m = 0.5;
 
 }  // namespace
@@ -39,9 +39,9 @@ msg::DeviceInfo VirtualHand::info() const {
   msg::DeviceInfo info;
   info.tool = hand_.tool;
   info.name = "virtual hand";
-  info.max_force_n = kMaxForce_n;
-  info.max_torque_nm = kMaxTorque_nm;
-  info.max_stiffness_n_m = kMaxStiffness_n_m;
+  info.max_force_n = kMaxHandForce_n;
+  info.max_torque_nm = kMaxHandTorque_nm;
+  info.max_stiffness_n_m = kMaxHandStiffness_n_m;
   info.damping_n_s_m = hand_.damping_n_s_m;
   info.workspace_min = to_message(middle - Vec3::Constant(kReach_m));
   info.workspace_max = to_message(middle + Vec3::Constant(kReach_m));
@@ -65,7 +65,7 @@ Measurement VirtualHand::measure(std::int64_t now_ns) noexcept {
           .orientation = orientation_,
           .linear_velocity = tip_.velocity,
           .angular_velocity = angular_velocity(before, orientation_, period_s_),
-          .grip = 0,
+          .grip = script_.grip_rad,
           .buttons = hand_.cut && script_.phase == Phase::kSlide ? msg::BUTTON_CUT : 0};
 }
 

@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_setup.h"
 
+#include "geometry/gut_skin.h"
 #include "node_common/organ_reach.h"
 #include "node_common/organ_source.h"
 #include "runtime/memory_limit.h"
@@ -51,7 +52,18 @@ ElasticSurface make_surface(node::OrganSource&& source) {
           std::move(file_node)};
 }
 
+LocalOrgan local_organ(const geometry::GutShape& gut, std::uint32_t organ) {
+  const geometry::GutSkin skin(gut);
+  LocalOrgan local{.organ = organ,
+                   .rest_of_file_node = std::vector<Vec3>(skin.node_count()),
+                   .reach_m = node::reach_m(gut.positions),
+                   .bends_freely = true};
+  skin.place(gut.positions, local.rest_of_file_node);
+  return local;
+}
+
 LocalOrgan local_organ(const node::OrganSource& source, std::uint32_t organ) {
+  if (source.gut) return local_organ(*source.gut, organ);
   const geometry::TetraMesh& mesh = source.organ.mesh;
   LocalOrgan local{.organ = organ, .rest_of_file_node = {}, .reach_m = 0};
   const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());

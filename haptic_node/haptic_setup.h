@@ -13,9 +13,11 @@ namespace omentum::haptic {
 
 /// An organ that is felt by local models: how they name its nodes, and where these may be.
 struct LocalOrgan {
-  std::uint32_t organ = 0;              // index into the scene's
-  std::vector<Vec3> rest_of_file_node;  // [nodes of the mesh file] in W, m; NaN where the mesh has none
-  double reach_m = 0;                   // no model takes a node farther (organ_reach.h)
+  std::uint32_t organ = 0;  // index into the scene's
+  // [nodes of the mesh file, or of an intestine's skin] in W, m; NaN where the mesh has none
+  std::vector<Vec3> rest_of_file_node;
+  double reach_m = 0;         // no model takes a node farther (organ_reach.h)
+  bool bends_freely = false;  // LocalPatch::bends_freely
 };
 
 struct HapticSetup {

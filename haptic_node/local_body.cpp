@@ -80,9 +80,10 @@ struct OwnedSurface {
 
 // In which direction tissue pushes: the normals of the organ's own shape, as DeformedSurface has them, turned
 // as the patch has turned. Those of the shape without forces would be a funnel's, since most of a dent is by
-// the organ's own motion.
+// the organ's own motion. A gut, whose wall alone dents, is bent away from what it was at the start instead.
 std::vector<Vec3> normals_of(const LocalPatch& patch, const ElasticSurface& elastic) {
-  if (patch.at_rest.empty()) return geometry::surface_normals(elastic.surface, elastic.rest);
+  if (patch.at_rest.empty() || patch.bends_freely)
+    return geometry::surface_normals(elastic.surface, elastic.rest);
   const auto columns = [](const std::vector<Vec3>& points) {
     return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3, std::ssize(points));
   };

@@ -14,11 +14,12 @@ struct LocalPatch {
   std::optional<std::size_t> tool;  // of the model: it alone touches the patch; none: any does
   std::int64_t arrival_ns = 0;      // when t was 0, on HapticState's clock
   std::uint64_t topology_version = 0;
-  std::vector<std::uint32_t> nodes;           // [n] places in the mesh file
-  std::vector<Vec3> at_rest;                  // [n] in the organ's file, m, in W; or empty: not known
-  std::vector<Vec3> positions;                // [n] m, in W, under `forces`
-  std::vector<Vec3> velocities;               // [n] m/s, in W; or empty: at rest
-  std::vector<Vec3> forces;                   // [n] by the tool, N
+  std::vector<std::uint32_t> nodes;  // [n] places in the mesh file
+  std::vector<Vec3> at_rest;         // [n] in the organ's file, m, in W; or empty: not known
+  bool bends_freely = false;         // where it lies without forces says which way it pushes, not its rest
+  std::vector<Vec3> positions;       // [n] m, in W, under `forces`
+  std::vector<Vec3> velocities;      // [n] m/s, in W; or empty: at rest
+  std::vector<Vec3> forces;          // [n] by the tool, N
   std::vector<geometry::Triangle> triangles;  // outward; an open surface
   std::vector<float> compliance;              // upper triangle of the symmetric C, by rows, m/N
 };

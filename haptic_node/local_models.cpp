@@ -119,12 +119,10 @@ LocalModelCounts LocalModels::counts() const noexcept {
 // ---- the making thread
 
 // After a silence another deform_node may number anew.
-const char* LocalModels::too_late(const Heard& heard, const Patch& patch) const {
-  const Organ& organ = organs_[patch.organ];
-  if (!is_silent(organ.heard_ns, heard.arrival_ns) && heard.model.topology_version < organ.version)
-    return "of an older topology version";
-  if (!is_silent(patch.heard_ns, heard.arrival_ns) && heard.model.seq <= patch.seq)
-    return "repeated, or overtaken";
+const char* LocalModels::too_late(const Heard& heard, const Patch& patch) {
+  if (is_silent(patch.heard_ns, heard.arrival_ns)) return nullptr;
+  if (heard.model.topology_version < patch.version) return "of an older topology version";
+  if (heard.model.seq <= patch.seq) return "repeated, or overtaken";
   return nullptr;
 }
 
@@ -155,10 +153,11 @@ void LocalModels::make(Patch& patch) {
 
 // Numbers of what is no model are not noted: they would shut out those that are.
 std::optional<LocalPatch> LocalModels::accept(const Heard& heard, Patch& patch) {
-  Organ& organ = organs_[patch.organ];
+  const Organ& organ = organs_[patch.organ];
   LocalPatch told = patch_of_message(heard.model);
   told.tool = patch.tool;
   told.arrival_ns = heard.arrival_ns;
+  told.bends_freely = organ.known->bends_freely;
   std::optional<std::string> why;
   if (const char* late = too_late(heard, patch)) why = late;
   if (!why && !told.nodes.empty()) why = reason_against(told, setup_.model.organs.size());
@@ -167,9 +166,9 @@ std::optional<LocalPatch> LocalModels::accept(const Heard& heard, Patch& patch) 
     drop(*why);
     return std::nullopt;
   }
-  patch.heard_ns = organ.heard_ns = heard.arrival_ns;
+  patch.heard_ns = heard.arrival_ns;
   patch.seq = heard.model.seq;
-  organ.version = heard.model.topology_version;
+  patch.version = heard.model.topology_version;
   return told;
 }
 

@@ -23,7 +23,9 @@ struct LocalModelCounts {
 
 /// Each tool has a place with each organ that is felt by local models, and touches no other tool's patch: so
 /// nothing is felt twice. What is no model of this scene, comes late, or is of an older version than the
-/// organ is known to be at, is dropped and raised as a fault. Bodies are made on a thread of their own.
+/// patch was already at, is dropped and raised as a fault: of a version patches know their own alone, because
+/// they are told one by one, and one tool's may be a cut behind another's. Bodies are made on a thread of
+/// their own.
 class LocalModels {
  public:
   /// All outlive this. `start`: how the making thread is made; `clock`: HapticState's.
@@ -59,18 +61,16 @@ class LocalModels {
     std::size_t organ = 0, tool = 0, place = 0;
     Waiting waiting;
     std::int64_t heard_ns = 0;  // 0: never
-    std::uint64_t seq = 0;
+    std::uint64_t seq = 0, version = 0;
     std::int64_t made_ns = 0;  // arrival of what stands there; 0: nothing does
   };
   struct Organ {
     const LocalOrgan* known = nullptr;
     std::vector<std::unique_ptr<Patch>> patches;  // [tools]
-    std::int64_t heard_ns = 0;
-    std::uint64_t version = 0;
   };
 
   Patch* patch_of(const msg::LocalModel& model);
-  const char* too_late(const Heard& heard, const Patch& patch) const;
+  static const char* too_late(const Heard& heard, const Patch& patch);
   std::optional<LocalPatch> accept(const Heard& heard, Patch& patch);
   void drop(const std::string& why);
   void make();

@@ -46,7 +46,8 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
 
 Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
              runtime::FaultList& faults)
-    : clock_(clock),
+    : bus_(bus),
+      clock_(clock),
       faults_(faults),
       poses_(
           bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, clock_.now_ns()); },
@@ -75,7 +76,31 @@ void Inbox::take_contact(const msg::Contact& contact) {
 Inbox::OrganBox::OrganBox(const LoadedOrgan& organ)
     : assembly(organ.state_kind, {organ.node_count, std::max(organ.node_count, organ.most_nodes)},
                organ.reach_m),
-      topologies(organ.tetrahedron_count) {}
+      topologies(organ.tetrahedron_count),
+      most_nodes(std::max(organ.node_count, organ.most_nodes)) {}
+
+void Inbox::read_stress(bool on) {
+  if (on == (stress_reader_ != nullptr)) return;
+  stress_reader_.reset();  // no callback runs any more
+  for (const auto& organ : organs_) {
+    const std::lock_guard lock(organ->mutex);
+    organ->pairing.reset();
+    if (on) organ->pairing.emplace(organ->most_nodes);
+  }
+  if (on)
+    stress_reader_ =
+        bus_.reader<msg::OrganStress>([this](const msg::OrganStress& block) { take_stress(block); });
+}
+
+void Inbox::take_stress(const msg::OrganStress& block) {
+  if (block.organ >= organs_.size())
+    return faults_.raise("organ stress of an organ that the scene does not have");
+  OrganBox& organ = *organs_[block.organ];
+  const std::lock_guard lock(organ.mutex);
+  if (!organ.pairing) return;
+  if (!organ.pairing->take(block)) return faults_.raise("organ stress of another size than the organ's");
+  if (const auto pair = organ.pairing->pair(clock_.now_ns())) post(*pair, organ);
+}
 
 void Inbox::take_state(const msg::OrganState& block) {
   if (block.organ >= organs_.size())
@@ -104,14 +129,24 @@ void Inbox::match(const AssembledState& state, OrganBox& organ) {
   if (organ.early) unmatched_states_.fetch_add(1, std::memory_order_relaxed);
   organ.early.reset();
   if (const RemovedSet* removed = organ.topologies.removed_in(state.topology_version)) {
-    organ.newest.draft() = state;
-    organ.newest.draft().removed = *removed;
-    organ.newest.post();
+    AssembledState whole = state;
+    whole.removed = *removed;
+    if (!organ.pairing) {
+      post(whole, organ);
+    } else if (const auto now = organ.pairing->take(whole, clock_.now_ns())) {
+      post(*now, organ);
+    }
   } else if (state.topology_version > organ.topologies.highest()) {
     organ.early = state;
   } else {
     unmatched_states_.fetch_add(1, std::memory_order_relaxed);
   }
+}
+
+// The organ's mutex is held.
+void Inbox::post(const AssembledState& state, OrganBox& organ) {
+  organ.newest.draft() = state;
+  organ.newest.post();
 }
 
 void Inbox::take_status(const msg::NodeStatus& status) {

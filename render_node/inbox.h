@@ -3,7 +3,7 @@
 
 #include "node_common/session_orders.h"
 #include "render_node/pose_arrivals.h"
-#include "render_node/state_assembly.h"
+#include "render_node/stress_pairing.h"
 #include "runtime/clock.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
@@ -52,7 +52,7 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
 /// waits.
 class Inbox {
  public:
-  /// `clock` says when something came.
+  /// `clock` says when something came; `bus` outlives this.
   Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
         runtime::FaultList& faults);
 
@@ -72,6 +72,9 @@ class Inbox {
   /// comes before its topology waits for it, until a newer one comes; one of a topology that is past is
   /// dropped.
   const AssembledState* fetch_state(std::size_t organ);
+  /// Whether states come with what their tissue is under (OrganStress), which is read only then. A state
+  /// waits for its own (stress_pairing.h).
+  void read_stress(bool on);
   const std::vector<HeardStatus>& statuses();
   node::SessionOrders& orders() { return orders_; }
   const msg::SceneInfo* fetch_scene_info();
@@ -86,6 +89,8 @@ class Inbox {
     std::mutex mutex;
     StateAssembly assembly;
     KnownTopologies topologies;
+    std::optional<StressPairing> pairing;  // while stress is read
+    std::size_t most_nodes;
     std::optional<AssembledState> early;  // its topology did not come yet
     runtime::Mailbox<AssembledState> newest;
     std::array<runtime::Mailbox<HeardContact>, msg::MAX_TOOLS> contacts;
@@ -93,9 +98,12 @@ class Inbox {
   void take_contact(const msg::Contact& contact);
   void take_state(const msg::OrganState& block);
   void take_topology(const msg::Topology& topology);
+  void take_stress(const msg::OrganStress& block);
   void match(const AssembledState& state, OrganBox& organ);
+  void post(const AssembledState& state, OrganBox& organ);
   void take_status(const msg::NodeStatus& status);
 
+  transport::Bus& bus_;
   const runtime::Clock& clock_;
   runtime::FaultList& faults_;
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
@@ -115,6 +123,7 @@ class Inbox {
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;
   std::unique_ptr<transport::Reader<msg::Topology>> topology_reader_;
+  std::unique_ptr<transport::Reader<msg::OrganStress>> stress_reader_;  // while stress is read
 };
 
 }  // namespace omentum::render

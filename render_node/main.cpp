@@ -1,6 +1,7 @@
 // render_node: shows the session. A window, or pictures where there is no display.
 #include "node_common/node_identity.h"
 #include "render_node/gl/display.h"
+#include "render_node/option_words.h"
 #include "render_node/render_loop.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
@@ -9,21 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
-
-#include <cstdio>
-
-namespace {
-
-// "WxH" to pixels; an error message, or empty.
-std::string parse_size(const std::string& text, omentum::render::Size& size) {
-  char rest = 0;
-  const int found = std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest);
-  if (found == 2 && size.width >= 64 && size.height >= 64 && size.width <= 8192 && size.height <= 8192)
-    return {};
-  return "found " + text + ", expected WIDTHxHEIGHT from 64x64 to 8192x8192";
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   using namespace omentum;
@@ -34,7 +20,7 @@ int main(int argc, char** argv) {
   line.needs(render::gl::kRoomToDraw);
   line.flag("--headless", options.headless, "draw off-screen even where there is a display");
   line.option(
-          "--size", [&](const std::string& text) { return parse_size(text, options.size); },
+          "--size", [&](const std::string& text) { return render::parse_size(text, options.size); },
           "of the picture, default 1280x800 in a window and 960x600 off-screen")
       .type_name("WxH");
   line.option("--fps", options.fps, "most frames per second").between(1.0, 240.0).show_default();
@@ -42,6 +28,10 @@ int main(int argc, char** argv) {
   line.option("--out", options.out, "folder for pictures (off-screen: the current one)").type_name("DIR");
   line.option("--picture-period-s", options.picture_period_s, "between two pictures (0: none but the last)")
       .not_negative();
+  line.option(
+          "--map", [&](const std::string& text) { return render::parse_map(text, options.map); },
+          "colour organs by strain or stress (key S switches)")
+      .type_name("WHICH");
   line.flag("--no-panel", options.no_panel, "draw the scene only");
 
   return line.run(argc, argv, [&] {

@@ -1,5 +1,7 @@
 #include "render_node/organ_drawing.h"
 
+#include "render_node/tube_drawing.h"
+
 #include <optional>
 #include <stdexcept>
 
@@ -23,10 +25,13 @@ class SurfaceDrawing final : public OrganDrawing {
       outline_.normals.push_back(surface_.skin.rest_normal(geometry::SurfaceId(s)));
   }
 
-  RestOutline rest_outline() const override { return outline_; }
+  Outline outline() const override { return outline_; }
   void deform(std::span<const float> values) override { surface_.skin.deform(values); }
   CutOutcome cut(const RemovedSet& removed, std::size_t node_count) override;
-  void map_strain(bool on) override { surface_.skin.map_strain(on); }
+  bool map(std::span<const float> shares) override {
+    surface_.skin.map(shares);
+    return true;
+  }
   const MeshData& mesh() const override { return surface_.skin.mesh(); }
   std::span<const TriangleRun> changed() const override { return surface_.skin.changed(); }
   const MeshData* bared() const override { return cut_ ? &surface_.skin.bared() : nullptr; }
@@ -40,7 +45,7 @@ class SurfaceDrawing final : public OrganDrawing {
 
   OrganShape shape_;
   PressedSurface surface_;
-  RestOutline outline_;
+  Outline outline_;
   RemovedSet removed_;           // of what is drawn
   std::optional<OrganCut> cut_;  // made when it is first cut
   std::int32_t removed_count_ = 0;
@@ -77,6 +82,8 @@ std::unique_ptr<OrganDrawing> make_drawing(const OrganShape& shape) {
   switch (shape.kind) {
     case scene::OrganKind::kTetrahedralMesh:
       return std::make_unique<SurfaceDrawing>(shape);
+    case scene::OrganKind::kTube:
+      return make_tube_drawing(*shape.gut, shape.material);
   }
   throw std::invalid_argument("an organ of a kind that nobody draws");
 }

@@ -1,6 +1,7 @@
 // What is drawn of an organ: chosen by its kind, in one place.
 #pragma once
 
+#include "geometry/gut_shape.h"
 #include "render_node/organ_look.h"
 #include "render_node/organ_skin.h"
 #include "scene/scene.h"
@@ -19,6 +20,7 @@ struct OrganShape {
   Material bared = bared_material("liver");
   // What the surface bounds; null: it is never cut. Shared, because shapes are copied and meshes are large.
   std::shared_ptr<const geometry::TetraMesh> mesh{};
+  std::shared_ptr<const geometry::GutShape> gut{};  // of a tube, which has no surface of its own; else null
 };
 
 /// A surface that tools press: its skin, and which of its nodes a file's node is.
@@ -32,10 +34,10 @@ struct PressedSurface {
   }
 };
 
-/// The outside of an organ at rest, for the camera's distance and the ground under it.
-struct RestOutline {
+/// The outside of an organ, for the camera's distance and the ground under it.
+struct Outline {
   std::vector<geometry::Vec3> points;  // in W, m
-  std::vector<Vec3f> normals;          // of the points, outward, unit
+  std::vector<Vec3f> normals;          // of the points, outward, unit; zero where only the place counts
   double area_m2 = 0;
 };
 
@@ -46,20 +48,31 @@ enum class CutOutcome {
   kCut,     // more lies bare, or less
 };
 
+/// A further mesh of an organ, with a material of its own: as many vertices and triangles as ever.
+struct OrganPart {
+  const MeshData* mesh;
+  Look look;
+  Material material;
+};
+
 /// From the values of an organ's states to lit vertices. One thread, the renderer's.
 class OrganDrawing {
  public:
   virtual ~OrganDrawing() = default;
 
-  virtual RestOutline rest_outline() const = 0;
+  /// As it lies now where it wanders(), else at rest.
+  virtual Outline outline() const = 0;
+  /// Whether it moves so far that the ground's shade has to follow.
+  virtual bool wanders() const { return false; }
   /// `values`: of a whole state of this organ's kind, x y z of each node.
   virtual void deform(std::span<const float> values) = 0;
   /// From here on exactly this is removed of it, and its states have `node_count` nodes.
   [[nodiscard]] virtual CutOutcome cut(const RemovedSet& removed, std::size_t /*node_count*/) {
     return removed.whole() ? CutOutcome::kSame : CutOutcome::kMisfit;
   }
-  /// Whether vertices have their strain (surface_strain.h) from here on, those of the last state too.
-  virtual void map_strain(bool /*on*/) {}
+  /// `shares`: of the map's scale at each node of the state that is drawn next (tissue_map.h). False: this
+  /// organ is not drawn as a map.
+  [[nodiscard]] virtual bool map(std::span<const float> /*shares*/) { return false; }
   /// As many vertices and triangles as ever.
   virtual const MeshData& mesh() const = 0;
   /// Which triangles of mesh() the last cut() changed.
@@ -70,6 +83,11 @@ class OrganDrawing {
   /// Tetrahedra, now.
   virtual std::int32_t removed_count() const { return 0; }
   virtual Material material() const = 0;
+  virtual Look look() const { return Look::kTissue; }
+  /// What is drawn beside mesh() and moves with it, always the same parts.
+  virtual std::vector<OrganPart> parts() const { return {}; }
+  /// How long it is now, m; 0 for an organ that is not one long tube.
+  virtual double length_m() const { return 0; }
   /// Where tools dent it; null for an organ without such a surface.
   virtual const PressedSurface* surface() const { return nullptr; }
 };

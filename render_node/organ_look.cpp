@@ -1,5 +1,7 @@
 #include "render_node/organ_look.h"
 
+#include <map>
+
 namespace omentum::render {
 namespace {
 
@@ -7,18 +9,30 @@ namespace {
 const Material kLiver{{0.112f, 0.0185f, 0.0155f}, 0.0f, 0.23f};
 // Bile through a thin wall: dull green-blue, under a smooth and wetter serosa.
 const Material kGallbladder{{0.040f, 0.086f, 0.064f}, 0.0f, 0.17f};
-// Without the capsule's veil: the deeper, duller red of parenchyma full of blood, wet with it. And the mucosa
-// of a sac, yellow with bile.
+// Small bowel: pink serosa over muscle, thin and shining.
+const Material kGut{{0.395f, 0.158f, 0.128f}, 0.0f, 0.22f};
+// Fat under a clear film: yellow, wetter than the gut.
+const Material kMesentery{{0.50f, 0.335f, 0.155f}, 0.0f, 0.26f};
+// Large bowel: paler and greyer, its fat shines through.
+const Material kColon{{0.33f, 0.150f, 0.105f}, 0.0f, 0.26f};
+// Without the capsule's veil: the deeper, duller red of parenchyma full of blood, wet with it; the mucosa of
+// a sac, yellow with bile; and that of a bowel, a moist salmon.
 const Material kLiverBared{{0.088f, 0.0105f, 0.0085f}, 0.0f, 0.30f};
 const Material kGallbladderBared{{0.105f, 0.078f, 0.020f}, 0.0f, 0.26f};
+const Material kColonBared{{0.260f, 0.085f, 0.060f}, 0.0f, 0.28f};
+
+const std::map<std::string, Material> kTissues{
+    {"gallbladder", kGallbladder}, {"gut", kGut}, {"mesentery", kMesentery}, {"colon", kColon}};
 
 }  // namespace
 
 Material tissue_material(const std::string& look) {
-  return look == "gallbladder" ? kGallbladder : kLiver;
+  const auto found = kTissues.find(look);
+  return found != kTissues.end() ? found->second : kLiver;
 }
 
 Material bared_material(const std::string& look) {
+  if (look == "colon") return kColonBared;
   return look == "gallbladder" ? kGallbladderBared : kLiverBared;
 }
 

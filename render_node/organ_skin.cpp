@@ -2,7 +2,6 @@
 
 #include "geometry/precondition.h"
 #include "render_node/surface_shading.h"
-#include "render_node/surface_strain.h"
 
 #include <Eigen/Geometry>
 
@@ -106,19 +105,12 @@ void OrganSkin::deform(std::span<const float> displacements) {
   }
   refinement_.apply(drawn_, normals_, openness_, mesh_.vertices);
   bared_.deform(drawn_, normals_, openness_);
-  if (maps_strain_) show_strain();
 }
 
-void OrganSkin::map_strain(bool on) {
-  maps_strain_ = on;
-  if (on) show_strain();
-}
-
-void OrganSkin::show_strain() {
-  strain_.resize(rest_.size());
-  surface_strain(closed_, rest_, positions_, strain_);
-  refinement_.spread(strain_, &Vertex::strain, mesh_.vertices);
-  bared_.spread(strain_, &Vertex::strain);
+void OrganSkin::map(std::span<const float> shares) {
+  geometry::require(shares.size() == rest_.size(), "a share for each node");
+  refinement_.spread(shares, &Vertex::share, mesh_.vertices);
+  bared_.spread(shares, &Vertex::share);
 }
 
 }  // namespace omentum::render

@@ -27,9 +27,8 @@ class OrganSkin {
   /// `displacements`: x, y, z of each node, m.
   void deform(std::span<const float> displacements);
 
-  /// From here on vertices have their strain, which costs a pass over the surface for each state. Shows the
-  /// last state anew.
-  void map_strain(bool on);
+  /// `shares`: of the map's scale at each node (tissue_map.h), which the vertices have from now on.
+  void map(std::span<const float> shares);
 
   const MeshData& mesh() const { return mesh_; }
   /// What lies bare; without triangles where nothing does.
@@ -49,7 +48,6 @@ class OrganSkin {
  private:
   void take_away(const std::vector<std::uint8_t>& gone);
   void set_nodes(const CutShape& shape);
-  void show_strain();
 
   std::vector<geometry::Triangle> triangles_;  // of the whole organ
   std::vector<geometry::Triangle> left_;       // of them
@@ -59,8 +57,7 @@ class OrganSkin {
   // of the nodes: normals_ of the skin alone, closed_normals_ of all that there is
   std::vector<Vec3f> rest_, rest_normals_, positions_, normals_, closed_normals_;
   std::vector<Vec3f> drawn_;  // positions_, without the teeth of a cut
-  std::vector<float> openness_, strain_;
-  bool maps_strain_ = false;
+  std::vector<float> openness_;
   int level_;
   SurfaceRefinement refinement_;
   BaredSkin bared_;

@@ -1,7 +1,7 @@
 #include "render_node/panel.h"
 
+#include "render_node/panel_lines.h"
 #include "render_node/scene_view.h"
-#include "render_node/surface_strain.h"
 
 #include <imgui.h>
 
@@ -16,41 +16,6 @@ constexpr float kAxisWidth = 40;                            // pixels: "100 N"
 constexpr double kKeepsUp = 0.98;  // of real time: what is less is seen as slow motion
 const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
 const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
-
-ImVec4 display(const Vec3f& linear) {
-  return {std::sqrt(linear.x()), std::sqrt(linear.y()), std::sqrt(linear.z()), 1};  // as the film does
-}
-
-void right_aligned(const char* text, const ImVec4* colour = nullptr) {
-  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
-  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, space));
-  if (colour) {
-    ImGui::TextColored(*colour, "%s", text);
-  } else {
-    ImGui::TextUnformatted(text);
-  }
-}
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), pattern, args...);
-  return text.data();
-}
-
-std::string duration(double us) {
-  return us < 1000 ? format("%.0f us", us) : format("%.1f ms", us / 1000);
-}
-
-// The text, or as much of it as fits beside what stands at the right.
-std::string beside(const std::string& right, std::string text) {
-  const float space = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x -
-                      ImGui::CalcTextSize(right.c_str()).x;
-  if (ImGui::CalcTextSize(text.c_str()).x <= space) return text;
-  constexpr const char* kCut = "...";
-  while (!text.empty() && ImGui::CalcTextSize((text + kCut).c_str()).x > space) text.pop_back();
-  return text + kCut;
-}
 
 void header(const PanelView& view) {
   const std::string right = view.paused ? "paused" : format("%.1f s", view.time_s);
@@ -106,7 +71,7 @@ void latency(const char* name, double p50_us, double p99_us) {
 // One line for each stretch without a gap.
 void draw_curve(const ToolRow& tool, double now_s, double top_n, const ImVec2& corner, const ImVec2& size) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImU32 colour = ImGui::GetColorU32(display(tool.colour));
+  const ImU32 colour = ImGui::GetColorU32(shown(tool.colour));
   std::vector<ImVec2> line;
   const auto finish_line = [&] {
     draw.AddPolyline(line.data(), static_cast<int>(line.size()), colour, 0, kCurveThickness);
@@ -159,7 +124,7 @@ void swatch(const Vec3f& colour) {
   const float side = 0.62f * ImGui::GetFontSize();
   const float top = at.y + 0.25f * ImGui::GetFontSize();
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side},
-                                            ImGui::GetColorU32(display(colour)), 2);
+                                            ImGui::GetColorU32(shown(colour)), 2);
   ImGui::Dummy({side, ImGui::GetFontSize()});
   ImGui::SameLine();
 }
@@ -185,17 +150,20 @@ void forces(const PanelView& view) {
   draw_curves(view);
 }
 
-void organ_line(const OrganRow& row) {
+void organ_line(const OrganRow& row, TissueMap map) {
   const std::string of = row.name.empty() ? "" : row.name + ": ";
+  if (map != TissueMap::kOff && !row.mapped)
+    ImGui::TextDisabled("%sno %s is told", of.c_str(), word(map).data());
   if (row.stale()) {
     const std::string age = format("%.0f s", 1e-9 * static_cast<double>(row.age_ns));
     ImGui::TextColored(kAmber, "%s%s for %s", of.c_str(),
                        row.known ? "organ stale: no state" : "no organ state", age.c_str());
   }
-  if (row.removed_tetrahedra > 0) {
-    ImGui::TextUnformatted((of + "removed tetrahedra").c_str());
-    ImGui::SameLine();
-    right_aligned(format("%d", row.removed_tetrahedra).c_str());
+  if (row.removed_tetrahedra > 0) figure(of + "removed tetrahedra", format("%d", row.removed_tetrahedra));
+  if (row.length_mm > 0) figure(of + "length", format("%.2f m", 1e-3 * row.length_mm));
+  if (row.beyond_small_strains()) {
+    ImGui::TextColored(kAmber, "%sstrained %.0f %%: beyond small strains (%.0f %%)", of.c_str(),
+                       100 * *row.strained, 100 * kSmallStrain);
   }
   if (row.beyond_linear()) {
     ImGui::TextColored(kAmber, "%smoved %.0f mm: beyond linear range (%.0f mm)", of.c_str(), row.moved_mm,
@@ -203,20 +171,41 @@ void organ_line(const OrganRow& row) {
   }
 }
 
-// The map's colours from left to right, with what they mean at both ends.
-void strain_scale() {
-  ImGui::TextUnformatted("strain  0");
+double full_scale(const PanelView& view) {
+  return view.map == TissueMap::kStress ? view.full_stress_pa : static_cast<double>(kFullStrain);
+}
+
+std::string in_words(TissueMap map, double value) {
+  return map == TissueMap::kStress ? pressure(value) : format("%.1f %%", 100 * value);
+}
+
+// Of all organs that are drawn as the map.
+void largest_line(const PanelView& view) {
+  std::optional<double> largest;
+  for (const OrganRow& row : view.organs) {
+    const std::optional<double>& own = view.map == TissueMap::kStress ? row.stressed_pa : row.strained;
+    if (row.mapped && own) largest = std::max(*own, largest.value_or(*own));
+  }
+  if (!largest) return;
+  ImGui::TextUnformatted("largest");
   ImGui::SameLine();
-  const std::string most = format("%.0f %%", 100.0 * static_cast<double>(kFullStrain));
+  right_aligned(in_words(view.map, *largest).c_str());
+}
+
+// The map's colours from left to right, with what they mean at both ends.
+void map_scale(const PanelView& view) {
+  ImGui::TextUnformatted((std::string(word(view.map)) + "  0").c_str());
+  ImGui::SameLine();
+  const std::string most = in_words(view.map, full_scale(view));
   const float height = ImGui::GetFontSize();
   const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(most.c_str()).x -
                       ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float step = width / static_cast<float>(kStrainColourCount - 1);
-  for (std::size_t i = 0; i + 1 < kStrainColourCount; ++i) {
+  const float step = width / static_cast<float>(kMapColourCount - 1);
+  for (std::size_t i = 0; i + 1 < kMapColourCount; ++i) {
     const float left = at.x + step * static_cast<float>(i);
-    const ImU32 from = ImGui::GetColorU32(display(strain_colours()[i]));
-    const ImU32 to = ImGui::GetColorU32(display(strain_colours()[i + 1]));
+    const ImU32 from = ImGui::GetColorU32(shown(map_colours()[i]));
+    const ImU32 to = ImGui::GetColorU32(shown(map_colours()[i + 1]));
     ImGui::GetWindowDrawList()->AddRectFilledMultiColor({left, at.y}, {left + step, at.y + height}, from, to,
                                                         to, from);
   }
@@ -226,18 +215,19 @@ void strain_scale() {
 }
 
 void organs(const PanelView& view) {
-  ImGui::TextUnformatted("deepest dent");
-  ImGui::SameLine();
-  right_aligned(format("%.1f mm", view.dent_mm).c_str());
-  if (view.strain) strain_scale();
+  if (view.dents) figure("deepest dent", format("%.1f mm", view.dent_mm));
+  if (view.exposed_share)
+    figure(view.exposed_organ + " exposed", format("%.0f %%", 100 * *view.exposed_share));
+  if (view.map != TissueMap::kOff) {
+    map_scale(view);
+    largest_line(view);
+  }
   if (view.real_time_factor > 0) {
-    ImGui::TextUnformatted("real time");
-    ImGui::SameLine();
     const bool slow = view.real_time_factor < kKeepsUp;
-    right_aligned(format("%.2f x", view.real_time_factor).c_str(), slow ? &kAmber : nullptr);
+    figure("real time", format("%.2f x", view.real_time_factor), slow ? &kAmber : nullptr);
   }
   ImGui::PushTextWrapPos(0);  // an organ may have a long name
-  for (const OrganRow& row : view.organs) organ_line(row);
+  for (const OrganRow& row : view.organs) organ_line(row, view.map);
   ImGui::PopTextWrapPos();
   if (view.incomplete_states > 0) {
     ImGui::TextColored(kAmber, "%llu states came incomplete",
@@ -269,15 +259,26 @@ PanelActions buttons(const PanelView& view) {
   actions.reset = ImGui::Button("Reset", {third, 0});
   ImGui::SameLine();
   actions.clear_fault = ImGui::Button("Clear fault", {third, 0});
-  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers, strain = view.strain;
+  bool endoscope = view.endoscope, arrows = view.arrows, markers = view.markers;
   actions.switch_camera = ImGui::Checkbox("endoscope", &endoscope);
   ImGui::SameLine();
   actions.switch_arrows = ImGui::Checkbox("arrows", &arrows);
   ImGui::SameLine();
   actions.switch_markers = ImGui::Checkbox("nodes", &markers);
-  actions.switch_strain = ImGui::Checkbox("strain (key S)", &strain);
+  actions.switch_map =
+      ImGui::Button(("map: " + std::string(word(view.map)) + " (key S)" + kMapButton).c_str(), {-1, 0});
   ImGui::TextDisabled("drag: turn   right drag: move   wheel: zoom");
   return actions;
+}
+
+// To below the line that was laid out last; the window, where the mouse is the panel's, is as large.
+void box_around_lines() {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float bottom = ImGui::GetCursorScreenPos().y - style.ItemSpacing.y + style.WindowPadding.y;
+  ImGui::GetBackgroundDrawList()->AddRectFilled({kPanelMargin, kPanelMargin},
+                                                {kPanelMargin + kPanelWidth, bottom},
+                                                ImGui::GetColorU32(ImGuiCol_WindowBg), style.WindowRounding);
+  ImGui::SetWindowSize({kPanelWidth, bottom - kPanelMargin});
 }
 
 }  // namespace
@@ -288,11 +289,14 @@ double panel_share(Size picture) {
 }
 
 PanelActions lay_out_panel(const PanelView& view) {
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({kPanelMargin, kPanelMargin});
-  ImGui::SetNextWindowSize({kPanelWidth, 0});
+  // one that sizes itself would not be seen in its first frame, and cut what is new in any other
+  ImGui::SetNextWindowSize({kPanelWidth, picture.y}, ImGuiCond_Once);
   ImGui::Begin("omentum", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PushClipRect({0, 0}, picture, false);
   header(view);
   node_table(view.nodes);
   latency("hand to force", view.hand_to_force_us, view.hand_to_force_p99_us);
@@ -301,6 +305,8 @@ PanelActions lay_out_panel(const PanelView& view) {
   organs(view);
   fault_list(view.faults);
   const PanelActions actions = view.interactive ? buttons(view) : PanelActions{};
+  ImGui::PopClipRect();
+  box_around_lines();
   ImGui::End();
   return actions;
 }

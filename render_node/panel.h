@@ -5,6 +5,8 @@
 
 namespace omentum::render {
 
+// Dear ImGui's name of the button whose label is the map that is on.
+inline constexpr const char* kMapButton = "###map";
 inline constexpr float kPanelWidth = 306;  // pixels
 inline constexpr float kPanelMargin = 10;  // pixels, to the picture's edge
 

@@ -3,7 +3,8 @@
 
 #include "render_node/force_history.h"
 #include "render_node/inbox.h"
-#include "render_node/renderer.h"
+#include "render_node/tissue_map.h"
+#include "scene/scene.h"
 
 #include <optional>
 #include <string>
@@ -33,6 +34,10 @@ struct ToolRow {
   std::vector<ForceHistory::Sample> curve;
 };
 
+/// Above this strain Hooke's law is a guess: there U - I and Green's strain, of which a material law may be
+/// linear in either, differ by a twentieth.
+inline constexpr double kSmallStrain = 0.1;
+
 /// An organ's line.
 struct OrganRow {
   double moved_mm = 0;  // largest displacement of any of its nodes, the bending of the whole organ included
@@ -41,8 +46,19 @@ struct OrganRow {
   std::int64_t age_ns = 0;  // of the newest state; where none came, since the start
   std::string name = {};    // empty where the scene has no other
   std::int32_t removed_tetrahedra = 0;
+  double length_mm = 0;  // of one long tube; 0 of any other
 
-  bool beyond_linear() const { return moved_mm > limit_mm; }
+  scene::Trusted trusted = scene::Trusted::kSmallDisplacements;
+  // The largest of any of its nodes, while they are read.
+  std::optional<double> strained = {}, stressed_pa = {};
+  bool mapped = false;  // drawn as the map that is on
+
+  /// Moved too far for a law that is linear in displacements.
+  bool beyond_linear() const { return trusted == scene::Trusted::kSmallDisplacements && moved_mm > limit_mm; }
+  /// Strained too far for one that moves and turns with the tissue.
+  bool beyond_small_strains() const {
+    return trusted == scene::Trusted::kSmallStrains && strained && *strained > kSmallStrain;
+  }
   bool stale() const { return age_ns > kStaleState_ns; }
   static constexpr std::int64_t kStaleState_ns =
       500'000'000;  // states come at 60 Hz or more; what is drawn is old
@@ -53,7 +69,9 @@ struct PanelView {
   double time_s = 0;
   bool paused = false;
   bool interactive = false;  // somebody could press a button
-  bool endoscope = false, arrows = true, markers = true, strain = false;
+  bool endoscope = false, arrows = true, markers = true;
+  TissueMap map = TissueMap::kOff;
+  double full_stress_pa = 0;  // where the scale of stress ends
   std::vector<NodeRow> nodes;
   std::vector<ToolRow> tools;
   // from a pose to its force, as the device says, and from its arrival here to the end of the frame that
@@ -61,7 +79,11 @@ struct PanelView {
   double hand_to_force_us = 0, hand_to_force_p99_us = 0;
   double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
   double real_time_factor = 0;  // of the organs that live in time of their own; 0: none does
-  double dent_mm = 0;           // the deepest of this moment (dent.h)
+  std::string exposed_organ;    // of which the share below is told
+  std::optional<double>
+      exposed_share;   // that nothing hides; none: the scene asks for none, or it is out of sight
+  bool dents = true;   // an organ here has a surface that tools dent
+  double dent_mm = 0;  // the deepest of this moment (dent.h)
   std::vector<OrganRow> organs;
   std::uint64_t incomplete_states = 0;
   std::vector<std::string> faults;  // of all nodes, their name in front
@@ -70,7 +92,7 @@ struct PanelView {
 /// What the person pressed.
 struct PanelActions {
   bool start = false, pause = false, reset = false, clear_fault = false;
-  bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_strain = false;
+  bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_map = false;
 };
 
 /// Linear elasticity is trusted up to this share of the mesh's size (Cotin 1999, section 3-3).

@@ -8,13 +8,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace omentum::render {
 namespace {
 
-constexpr double kPicturePeriod_s = 2;                  // off-screen, unless asked otherwise
+constexpr double kPicturePeriod_s = 2;            // off-screen, unless asked otherwise
+constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and the ground's shade is seen to
+                                                  // follow them, within seconds
 constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
 constexpr double kDuty = 0.45;
@@ -29,17 +32,32 @@ OrganShape shape_of(node::OrganSource source, const std::string& look) {
           std::move(surface_of_file_node),
           tissue_material(look),
           bared_material(look),
-          std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh))};
+          std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh)),
+          std::move(source.gut)};
+}
+
+// The largest value of a state: displacements, or places in the scene.
+double most_m(const node::OrganSource& source) {
+  double farthest = 0;
+  if (source.gut)
+    for (const geometry::Vec3& x : source.rest) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
+  return farthest + reach_of(source.rest);
 }
 
 LoadedOrgan loaded_organ(const node::OrganSource& source) {
   return {.name = source.organ.name,
           .hash = source.organ.hash,
           .node_count = source.rest.size(),
-          .reach_m = reach_of(source.rest),
+          .reach_m = most_m(source),
           .state_kind = node::state_kind(source.kind),
           .tetrahedron_count = source.organ.mesh.tetrahedra.size(),
           .most_nodes = source.organ.mesh.positions.size()};
+}
+
+std::optional<std::size_t> organ_to_expose(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.organs.size(); ++o)
+    if (scene.organs[o].name == scene.score.exposed_organ) return o;
+  return std::nullopt;
 }
 
 double picture_period_s(const RenderOptions& options, bool has_window) {
@@ -76,6 +94,9 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
       account_(std::llround(1e9 / options.fps)),
       status_(node::introduce(msg::NODE_RENDER, options.fps)),
       bus_(open_bus()) {
+  exposed_organ_ = loaded.scene.score.exposed_organ;
+  to_expose_ = organ_to_expose(loaded.scene);
+  scored_from_s_ = loaded.scene.score.from_s;
   choices_.orbit = view_.first_camera();
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
@@ -83,6 +104,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
   inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, pace_, faults_);
+  show_map(options.map);
 }
 
 void RenderLoop::run() {
@@ -100,6 +122,7 @@ void RenderLoop::frame(bool last) {
   const std::int64_t begin_ns = pace_.now_ns();
   account_.start(begin_ns);
   watch_.listen(*inbox_, view_, faults_, begin_ns);
+  if (begin_ns >= next_slow_ns_) watch_slowly(begin_ns);
   const std::optional<Dent>& dent = watch_.deepest_dent();
   PicturesDue due;
   if (last) {
@@ -110,11 +133,22 @@ void RenderLoop::frame(bool last) {
   const Input input = renderer_.begin_frame();
   closed_ = closed_ || input.close;
   steer(input);
-  if (input.switch_strain) switch_strain();
+  if (input.switch_map) show_map(next(choices_.map));
   if (!options_.no_panel) obey(lay_out_panel(panel_view(begin_ns)));
   if (due.indent) take_close_up(*dent);
   draw(due.numbered);
   finish_frame(begin_ns, due.indent || !due.numbered.empty());
+}
+
+void RenderLoop::watch_slowly(std::int64_t now_ns) {
+  next_slow_ns_ = now_ns + kSlow_ns;
+  view_.shade_ground();
+  if (to_expose_ && seconds_since_begin(now_ns) >= scored_from_s_) measure_exposure();
+}
+
+void RenderLoop::measure_exposure() {
+  const std::optional<double> share = view_.exposed_share(*to_expose_, watch_.tools(), raster_);
+  if (share) exposure_.add(*share);
 }
 
 void RenderLoop::require_written() {
@@ -170,12 +204,14 @@ void RenderLoop::obey(const PanelActions& actions) {
   choices_.endoscope ^= actions.switch_camera;
   choices_.arrows ^= actions.switch_arrows;
   choices_.markers ^= actions.switch_markers;
-  if (actions.switch_strain) switch_strain();
+  if (actions.switch_map) show_map(next(choices_.map));
 }
 
-void RenderLoop::switch_strain() {
-  choices_.strain = !choices_.strain;
-  view_.map_strain(choices_.strain);
+void RenderLoop::show_map(TissueMap map) {
+  choices_.map = map;
+  watch_.show_as(map);
+  view_.forget_map();
+  inbox_->read_stress(map != TissueMap::kOff);
 }
 
 void RenderLoop::command(std::uint32_t command) {
@@ -189,7 +225,10 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   panel.endoscope = choices_.endoscope;
   panel.arrows = choices_.arrows;
   panel.markers = choices_.markers;
-  panel.strain = choices_.strain;
+  panel.map = choices_.map;
+  panel.full_stress_pa = watch_.full_stress_pa();
+  panel.exposed_organ = exposed_organ_;
+  panel.exposed_share = exposure_.newest;
   watch_.describe(view_, now_ns, panel);
   return panel;
 }
@@ -205,13 +244,18 @@ void RenderLoop::tell_status(std::int64_t now_ns) {
 
 nlohmann::json RenderLoop::report() const {
   const runtime::LoopRecord& record = account_.record();
-  return {{"dds", options_.node.dds},
-          {"frames", record.ticks},
-          {"frame_us", runtime::to_json(record.compute.percentiles())},
-          {"deepest_dent_m", watch_.largest_dent_m()},
-          {"unmatched_states", watch_.unmatched_states()},
-          {"closed", closed_},
-          {"faults", faults_.lines()}};
+  std::int32_t removed = 0;
+  for (std::size_t i = 0; i < view_.organ_count(); ++i) removed += view_.removed_count(i);
+  nlohmann::json report{{"dds", options_.node.dds},
+                        {"frames", record.ticks},
+                        {"frame_us", runtime::to_json(record.compute.percentiles())},
+                        {"deepest_dent_m", watch_.largest_dent_m()},
+                        {"unmatched_states", watch_.unmatched_states()},
+                        {"removed_tetrahedra", removed},
+                        {"closed", closed_},
+                        {"faults", faults_.lines()}};
+  if (to_expose_) report["exposed_share"] = to_json(exposure_);
+  return report;
 }
 
 }  // namespace omentum::render

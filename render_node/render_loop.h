@@ -1,6 +1,7 @@
 // The node around the renderer: topics in, frames and pictures out.
 #pragma once
 
+#include "render_node/exposure_score.h"
 #include "render_node/frame_rate_control.h"
 #include "render_node/panel.h"
 #include "render_node/picture_schedule.h"
@@ -26,7 +27,11 @@ struct RenderOptions {
   double picture_period_s =
       -1;  // numbered pictures; 0: none; negative: every 2 s off-screen, none in a window
   bool no_panel = false;
+  TissueMap map = TissueMap::kOff;  // at the start
 };
+
+/// Of an organ that is to be exposed so many pixels are looked at: a hundredth of it is seen in some tens.
+inline constexpr Size kExposureSize{160, 120};
 
 /// Owns the scene's drawing and the node's life on the bus. The renderer's thread.
 class RenderLoop {
@@ -40,7 +45,8 @@ class RenderLoop {
   /// std::runtime_error when deform_node turns out to serve another organ.
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
-  /// window, `deepest_dent_m` (dent.h) and `unmatched_states` (inbox.h).
+  /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h), `removed_tetrahedra` of the newest
+  /// picture and, where the scene names an organ to expose, `exposed_share` (exposure_score.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.
@@ -56,12 +62,14 @@ class RenderLoop {
   RenderLoop(const RenderOptions& options, const Loaded& loaded, const transport::OpenBus& open_bus,
              Renderer& renderer, runtime::Pace& pace);
   void frame(bool last);
+  void measure_exposure();
+  void watch_slowly(std::int64_t now_ns);
   void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
   void finish_frame(std::int64_t begin_ns, bool for_disk);
   void steer(const Input& input);
   void obey(const PanelActions& actions);
-  void switch_strain();
+  void show_map(TissueMap map);
   void command(std::uint32_t command);
   PanelView panel_view(std::int64_t now_ns) const;
   void tell_status(std::int64_t now_ns);
@@ -85,6 +93,12 @@ class RenderLoop {
   runtime::TickAccount account_;  // frames, not the pace's ticks: a slow machine skips some of those
   bool closed_ = false;           // the window, by a person
   std::int64_t next_status_ns_ = 0;
+  std::string exposed_organ_;             // the scene's
+  std::optional<std::size_t> to_expose_;  // its place among the organs
+  ExposureRaster raster_{kExposureSize};
+  double scored_from_s_ = 0;
+  ExposureScore exposure_;
+  std::int64_t next_slow_ns_ = 0;
   msg::NodeStatus status_;
 
   // declared last: callbacks end before what they touch

@@ -22,14 +22,14 @@ struct Size {
 
 /// A corner of a triangle. `rest` is where it was before any deformation: patterns stick to it.
 /// `openness` is the fraction of ambient light that reaches it, `charring` how far heat browned it, 0 to 1;
-/// `strain` by which share the tissue there is longer or shorter than at rest (surface_strain.h).
+/// `share` how far up a map's scale the tissue there is (tissue_map.h), 1 or more: at its end.
 struct Vertex {
   Vec3f position;
   Vec3f normal;  // outward, unit
   Vec3f rest;
   float openness = 1;
   float charring = 0;
-  float strain = 0;
+  float share = 0;
 };
 static_assert(sizeof(Vertex) == 12 * sizeof(float), "uploaded as it lies in memory");
 
@@ -45,13 +45,15 @@ enum class MeshId : std::uint32_t {};
 
 /// How light meets a surface.
 enum class Look : std::uint8_t {
-  kTissue,  // wet, translucent, patterned
-  kCut,     // the same, of an organ that was cut: heat may have charred it
-  kBared,   // the inside of tissue, where it was cut or torn
-  kStrain,  // tissue as a map of its strain (surface_strain.h)
-  kSolid,   // metal or plastic
-  kGround,  // the drape below, fading into the background
-  kSignal,  // arrows and markers: not part of the world, drawn over it, nearly unlit
+  kTissue,     // wet, translucent, patterned
+  kCut,        // the same, of an organ that was cut: heat may have charred it
+  kBared,      // the inside of tissue, where it was cut or torn
+  kGut,        // tissue of a tube: fine vessels, rings of muscle
+  kMesentery,  // a sheet of fat and vessels
+  kMap,        // tissue as a map of what it is under (tissue_map.h)
+  kSolid,      // metal or plastic
+  kGround,     // the drape below, fading into the background
+  kSignal,     // arrows and markers: not part of the world, drawn over it, nearly unlit
 };
 
 /// Colours are linear (not gamma-encoded) sRGB primaries.
@@ -111,7 +113,7 @@ struct Input {
   float orbit_x = 0, orbit_y = 0;  // pixels dragged with the left button
   float pan_x = 0, pan_y = 0;      // pixels dragged with the right or middle button
   float zoom = 0;                  // wheel steps, positive towards the target
-  bool switch_strain = false;      // the key S went down
+  bool switch_map = false;         // the key S went down
   bool close = false;
 };
 

@@ -20,6 +20,8 @@ constexpr double kShadowReach =
 constexpr double kScopeDistance = 0.42;  // of the orbit camera's start
 constexpr double kScopeField_deg = 62;   // a laparoscope's, bottom to top
 
+constexpr std::size_t kGroundSamples = 400;  // of the organs, for a shade that follows them: 4 ms
+
 constexpr double kLeastHeight = 0.45;  // of the unit viewing direction: never from under the table
 
 // From where a whole scene is best seen: the side on which it is pressed, from above.
@@ -34,10 +36,26 @@ Vec3 viewing_direction(const scene::Scene& scene) {
   return std::sqrt(1 - height * height) * from + height * Vec3::UnitZ();
 }
 
+// Of the plane that organs fall on, if the scene has one.
+std::optional<double> table_height(const scene::Scene& scene) {
+  constexpr double kLevel = 0.999;  // cosine of its slope: a drape is drawn level
+  for (const scene::ObstacleSpec& obstacle : scene.obstacles)
+    if (obstacle.shape == "plane" && obstacle.normal.z() > kLevel) return obstacle.centre.z();
+  return std::nullopt;
+}
+
 std::vector<std::unique_ptr<OrganDrawing>> drawings_of(const std::vector<OrganShape>& organs) {
   std::vector<std::unique_ptr<OrganDrawing>> drawings;
   for (const OrganShape& shape : organs) drawings.push_back(make_drawing(shape));
   return drawings;
+}
+
+// All that is drawn of an organ.
+std::vector<const MeshData*> meshes_of(const OrganDrawing& drawing) {
+  std::vector<const MeshData*> meshes{&drawing.mesh()};
+  if (drawing.bared()) meshes.push_back(drawing.bared());
+  for (const OrganPart& part : drawing.parts()) meshes.push_back(part.mesh);
+  return meshes;
 }
 
 // z of the mesh along `direction`, scaled.
@@ -68,18 +86,14 @@ SceneView::SceneView(const scene::Scene& scene, const std::vector<OrganShape>& o
 SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs,
                      Renderer& renderer)
     : renderer_(renderer), scene_(scene) {
-  std::vector<Vec3> all;
-  std::vector<Vec3f> normals;
-  double area = 0;
   for (std::unique_ptr<OrganDrawing>& drawing : organs) {
-    const RestOutline outline = drawing->rest_outline();
-    all.insert(all.end(), outline.points.begin(), outline.points.end());
-    normals.insert(normals.end(), outline.normals.begin(), outline.normals.end());
-    area += outline.area_m2;
     const MeshId mesh = renderer.add_mesh(drawing->mesh());
-    organs_.push_back({std::move(drawing), mesh});
+    std::vector<MeshId> parts;
+    for (const OrganPart& part : drawing->parts()) parts.push_back(renderer.add_mesh(*part.mesh));
+    organs_.push_back({std::move(drawing), mesh, {}, std::move(parts)});
   }
-  ball_ = ball_around(all);
+  const Outline all = outline();
+  ball_ = ball_around(all.points);
   for (const auto& tool : scene.tools) {
     auto& parts = instruments_.emplace_back();
     for (auto& part : instrument_parts(tool, tool_colour(tool.id))) {
@@ -87,38 +101,61 @@ SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<Orga
       parts.push_back({std::move(part), mesh});
     }
   }
-  const MeshData ground = ground_under(all, normals, ball_, area);
-  ground_m_ = ground.vertices.front().position.z();
-  ground_ = renderer.add_mesh(ground);
+  drape_ = ground_under(all.points, all.normals, ball_, all.area_m2, table_height(scene));
+  ground_ = renderer.add_mesh(drape_);
   arrow_shaft_ = renderer.add_mesh(unit_shaft());
   arrow_head_ = renderer.add_mesh(unit_head());
   marker_ = renderer.add_mesh(unit_ball());
 }
 
-void SceneView::deform(std::size_t organ, std::span<const float> values) {
-  OrganDrawing& drawing = *organs_[organ].drawing;
-  drawing.deform(values);
-  renderer_.update_vertices(organs_[organ].mesh, drawing.mesh().vertices);
+Outline SceneView::outline() const {
+  Outline all;
+  for (const DrawnOrgan& organ : organs_) {
+    const Outline of_organ = organ.drawing->outline();
+    all.points.insert(all.points.end(), of_organ.points.begin(), of_organ.points.end());
+    all.normals.insert(all.normals.end(), of_organ.normals.begin(), of_organ.normals.end());
+    all.area_m2 += of_organ.area_m2;
+  }
+  return all;
 }
 
-bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<const float> values) {
-  const CutOutcome outcome = organs_[organ].drawing->cut(removed, values.size() / 3);
+void SceneView::shade_ground() {
+  const auto wanders = [](const DrawnOrgan& organ) { return organ.drawing->wanders(); };
+  if (std::ranges::none_of(organs_, wanders)) return;
+  const Outline all = outline();
+  render::shade_ground(all.points, all.normals, all.area_m2, kGroundSamples, drape_);
+  renderer_.update_vertices(ground_, drape_.vertices);
+}
+
+void SceneView::deform(std::size_t organ, std::span<const float> values) {
+  organs_[organ].drawing->deform(values);
+  send_vertices(organs_[organ]);
+}
+
+void SceneView::send_vertices(const DrawnOrgan& organ) {
+  renderer_.update_vertices(organ.mesh, organ.drawing->mesh().vertices);
+  const std::vector<OrganPart> parts = organ.drawing->parts();
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    renderer_.update_vertices(organ.parts[p], parts[p].mesh->vertices);
+}
+
+bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<const float> values,
+                     std::span<const float> shares) {
+  OrganDrawing& drawing = *organs_[organ].drawing;
+  const CutOutcome outcome = drawing.cut(removed, values.size() / 3);
   if (outcome == CutOutcome::kMisfit) return false;
+  organs_[organ].mapped = 3 * shares.size() == values.size() && drawing.map(shares);
   deform(organ, values);
   if (outcome == CutOutcome::kCut) {
     show_cut(organs_[organ]);
   } else if (const auto& bared = organs_[organ].bared) {
-    renderer_.update_vertices(*bared, organs_[organ].drawing->bared()->vertices);
+    renderer_.update_vertices(*bared, drawing.bared()->vertices);
   }
   return true;
 }
 
-void SceneView::map_strain(bool on) {
-  for (const auto& [drawing, mesh, bared] : organs_) {
-    drawing->map_strain(on);
-    renderer_.update_vertices(mesh, drawing->mesh().vertices);
-    if (bared) renderer_.update_vertices(*bared, drawing->bared()->vertices);
-  }
+void SceneView::forget_map() {
+  for (DrawnOrgan& organ : organs_) organ.mapped = false;
 }
 
 void SceneView::show_cut(DrawnOrgan& organ) {
@@ -165,14 +202,34 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
   near.markers = near.arrows = false;  // they would cover the dent
   std::vector<const MeshData*> meshes;
   for (const DrawnOrgan& organ : organs_) {
-    meshes.push_back(&organ.drawing->mesh());
-    if (organ.drawing->bared()) meshes.push_back(organ.drawing->bared());
+    const std::vector<const MeshData*> of_organ = meshes_of(*organ.drawing);
+    meshes.insert(meshes.end(), of_organ.begin(), of_organ.end());
   }
-  const Camera camera = close_up_of(dent, meshes, shafts, choices.orbit, ground_m_);
+  const Camera camera =
+      close_up_of(dent, meshes, shafts, choices.orbit, drape_.vertices.front().position.z());
   Frame frame = frame_from(camera, near, tools, 0);
   frame.lighting = rake_light(camera, shadow_ball());
   frame.with_panel = false;
   return frame;
+}
+
+std::optional<double> SceneView::exposed_share(std::size_t organ, std::span<const ToolNow> tools,
+                                               ExposureRaster& raster) const {
+  ViewChoices own;
+  own.orbit = first_camera();
+  own.endoscope = scene_.camera.mode == "endoscope";
+  raster.look(view_of(camera(own, tools), ball_, raster.size().aspect(), 0));
+  for (const MeshData* mesh : meshes_of(*organs_[organ].drawing)) raster.add_thing(*mesh);
+  for (std::size_t o = 0; o < organs_.size(); ++o) {
+    if (o == organ) continue;
+    for (const MeshData* mesh : meshes_of(*organs_[o].drawing)) raster.add_cover(*mesh);
+  }
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    if (!tools[t].seen || scope_of(scene_) == t) continue;
+    for (const auto& [part, mesh] : instruments_[t])
+      raster.add_cover(part.mesh, part_pose(part, tools[t].p_WT, tools[t].q_WT, tools[t].grip_rad));
+  }
+  return raster.share();
 }
 
 const PressedSurface* SceneView::touched_surface(const ToolNow& tool) const {
@@ -201,15 +258,7 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
-  for (const auto& [drawing, mesh, bared] : organs_) {
-    const bool is_cut = bared && drawing->removed_count() > 0;
-    const Look skin = is_cut ? Look::kCut : Look::kTissue;
-    frame.items.push_back(
-        {mesh, choices.strain ? Look::kStrain : skin, Mat4f::Identity(), drawing->material()});
-    if (is_cut)
-      frame.items.push_back({*bared, choices.strain ? Look::kStrain : Look::kBared, Mat4f::Identity(),
-                             drawing->bared_material()});
-  }
+  for (const DrawnOrgan& organ : organs_) add_organ(organ, choices.map != TissueMap::kOff, frame.items);
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;
     add_instrument(t, tools[t], frame.items);
@@ -217,6 +266,19 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
     if (choices.markers) add_markers(t, tools[t], frame.items);
   }
   return frame;
+}
+
+void SceneView::add_organ(const DrawnOrgan& organ, bool map, std::vector<DrawItem>& items) {
+  const OrganDrawing& drawing = *organ.drawing;
+  const bool is_map = map && organ.mapped;
+  const auto add = [&](MeshId mesh, Look look, const Material& material) {
+    items.push_back({mesh, is_map ? Look::kMap : look, Mat4f::Identity(), material});
+  };
+  const bool is_cut = organ.bared && drawing.removed_count() > 0;
+  add(organ.mesh, is_cut ? Look::kCut : drawing.look(), drawing.material());
+  if (is_cut) add(*organ.bared, Look::kBared, drawing.bared_material());
+  const std::vector<OrganPart> parts = drawing.parts();
+  for (std::size_t p = 0; p < parts.size(); ++p) add(organ.parts[p], parts[p].look, parts[p].material);
 }
 
 void SceneView::add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {

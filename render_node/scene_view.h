@@ -2,8 +2,10 @@
 #pragma once
 
 #include "render_node/close_up.h"
+#include "render_node/exposure_raster.h"
 #include "render_node/instrument_shape.h"
 #include "render_node/organ_drawing.h"
+#include "render_node/tissue_map.h"
 
 #include <memory>
 #include <optional>
@@ -27,7 +29,7 @@ struct ViewChoices {
   Camera orbit;
   bool endoscope = false;
   bool arrows = true;
-  bool strain = false;   // organs as a map of their strain, after SceneView::map_strain
+  TissueMap map = TissueMap::kOff;  // as which organs are drawn whose values are known
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
 };
 
@@ -44,12 +46,18 @@ class SceneView {
 
   /// `values`: of a whole state of that organ (OrganDrawing::deform).
   void deform(std::size_t organ, std::span<const float> values);
-  /// The organ as a state has it, of which `removed` is gone. False: it has no such states; nothing was
+  /// The organ as a state has it, of which `removed` is gone. `shares`: of the map's scale at each of the
+  /// state's nodes (tissue_map.h); empty where they are not known. False: it has no such states; nothing was
   /// changed.
-  [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values);
+  [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values,
+                          std::span<const float> shares = {});
+  /// What organs are a map of is of no use any more: until they are shown anew they are drawn as tissue.
+  void forget_map();
+  /// Whether an organ's shares are known.
+  bool mapped(std::size_t organ) const { return organs_[organ].mapped; }
 
-  /// Whether organs tell their strain from here on: ViewChoices::strain shows it.
-  void map_strain(bool on);
+  /// The ground's shade follows organs that wander: for now and then, it takes milliseconds.
+  void shade_ground();
 
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
@@ -60,11 +68,18 @@ class SceneView {
   /// The dent that a tool presses; none where it touches nothing.
   std::optional<Dent> dent_of(const ToolNow& tool) const;
 
+  /// The share of an organ that nothing hides, tools included, as the scene's own camera or its endoscope
+  /// sees it, wherever a person turned the picture; none where it is out of sight. Draws into `raster`.
+  std::optional<double> exposed_share(std::size_t organ, std::span<const ToolNow> tools,
+                                      ExposureRaster& raster) const;
+
   /// Where the orbit camera starts.
   Camera first_camera() const;
   const Ball& ball() const { return ball_; }
   /// Tetrahedra of an organ as it is drawn.
   std::int32_t removed_count(std::size_t organ) const { return organs_[organ].drawing->removed_count(); }
+  /// Of an organ that is one long tube, m; 0 of any other.
+  double length_m(std::size_t organ) const { return organs_[organ].drawing->length_m(); }
   /// Null for an organ that tools do not dent.
   const PressedSurface* surface(std::size_t organ) const { return organs_[organ].drawing->surface(); }
   std::size_t organ_count() const { return organs_.size(); }
@@ -74,17 +89,22 @@ class SceneView {
     std::unique_ptr<OrganDrawing> drawing;
     MeshId mesh{};
     std::optional<MeshId> bared{};  // made when it is first cut
+    std::vector<MeshId> parts;      // as the drawing has them
+    bool mapped = false;            // its vertices have their shares of the map
   };
   struct DrawnPart {
     InstrumentPart part;
     MeshId mesh{};
   };
+  Outline outline() const;
+  void send_vertices(const DrawnOrgan& organ);
   void show_cut(DrawnOrgan& organ);
   const PressedSurface* touched_surface(const ToolNow& tool) const;
   Ball shadow_ball() const;  // what the shadow map covers
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;
   Frame frame_from(const Camera& camera, const ViewChoices& choices, std::span<const ToolNow> tools,
                    double panel_share) const;
+  static void add_organ(const DrawnOrgan& organ, bool map, std::vector<DrawItem>& items);
   void add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
@@ -94,7 +114,7 @@ class SceneView {
   std::vector<DrawnOrgan> organs_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
-  double ground_m_ = 0;  // height of the table
+  MeshData drape_;  // the ground's
   MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{};
 };
 

@@ -15,6 +15,25 @@ constexpr std::int64_t kToolGone_ns =
     1'000'000'000;  // a pose this old: the device has left, its tool is not drawn
 constexpr std::int64_t kForceGone_ns = 250'000'000;  // a force this old is nobody's any more
 
+double largest_young_pa(const scene::Scene& scene) {
+  double largest = 0;
+  for (const scene::OrganSpec& organ : scene.organs) largest = std::max(largest, organ.young_pa);
+  return largest;
+}
+
+std::vector<scene::Trusted> trusted_of(const scene::Scene& scene) {
+  std::vector<scene::Trusted> trusted;
+  for (const scene::OrganSpec& organ : scene.organs)
+    trusted.push_back(
+        std::ranges::find(scene::kOrganModels, organ.model, &scene::OrganModelWord::word)->trusted);
+  return trusted;
+}
+
+std::optional<double> largest_of(const std::vector<float>& values) {
+  if (values.empty()) return std::nullopt;
+  return *std::ranges::max_element(values);
+}
+
 std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
   std::vector<msg::OrganInfo> infos;
   for (const LoadedOrgan& organ : organs)
@@ -34,7 +53,11 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
       rows_(scene.tools.size()),
       histories_(scene.tools.size()),
       echoes_(organs.size()),
-      state_arrived_ns_(organs.size(), 0) {
+      state_arrived_ns_(organs.size(), 0),
+      full_stress_pa_(render::full_stress_pa(largest_young_pa(scene))),
+      trusted_(trusted_of(scene)),
+      strained_(organs.size()),
+      stressed_pa_(organs.size()) {
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     ids_.push_back(scene.tools[t].id);
     rows_[t].name = scene.tools[t].name;
@@ -69,14 +92,28 @@ void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, runtime::Faul
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
     const AssembledState* state = inbox.fetch_state(i);
     if (!state) continue;
-    if (!view.show(i, state->removed, state->values)) {
+    if (!view.show(i, state->removed, state->values, shares_of(*state))) {
       faults.raise(kMisfitState);
       continue;
     }
+    strained_[i] = largest_of(state->strain);
+    stressed_pa_[i] = largest_of(state->stress_pa);
     echoes_[i] = state->echoes;
     state_arrived_ns_[i] = now_ns;
     fresh_echoes_ = true;
   }
+}
+
+void SessionWatch::show_as(TissueMap map) {
+  map_ = map;
+}
+
+std::span<const float> SessionWatch::shares_of(const AssembledState& state) {
+  shares_ = map_ == TissueMap::kStress ? state.stress_pa : state.strain;
+  if (map_ == TissueMap::kOff) shares_.clear();
+  const double full = map_ == TissueMap::kStress ? full_stress_pa_ : static_cast<double>(kFullStrain);
+  for (float& share : shares_) share = full > 0 ? share / static_cast<float>(full) : 0.0f;
+  return shares_;
 }
 
 void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns) {
@@ -174,14 +211,21 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
   panel.hand_to_picture_us = hand_to_picture_.percentile_us(0.5);
   panel.hand_to_picture_p99_us = hand_to_picture_.percentile_us(0.99);
   panel.real_time_factor = real_time_factor(statuses_, now_ns);
+  panel.dents = false;
   panel.dent_mm = dent_ ? 1e3 * dent_->depth_m : 0;
   for (std::size_t i = 0; i < view.organ_count(); ++i) {
     OrganRow& row = panel.organs.emplace_back();
     if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
     row.known = state_arrived_ns_[i] > 0;
     row.removed_tetrahedra = view.removed_count(i);
+    row.length_mm = 1e3 * view.length_m(i);
     row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);
+    row.mapped = view.mapped(i);
+    row.trusted = trusted_[i];
+    row.strained = strained_[i];
+    row.stressed_pa = stressed_pa_[i];
     if (const PressedSurface* surface = view.surface(i)) {
+      panel.dents = true;
       row.moved_mm = 1e3 * surface->skin.largest_displacement_m();
       row.limit_mm = 1e3 * kLinearShare * surface->skin.extent_m();
     }

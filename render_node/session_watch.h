@@ -19,6 +19,9 @@ class SessionWatch {
   /// What came since the last call. Throws std::runtime_error when deform_node serves another scene, within
   /// node::kSettled_s of the beginning; later such a scene is a fault.
   void listen(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns);
+  /// What states are shown as from the next one on (Inbox::read_stress), and where that scale ends, Pa.
+  void show_as(TissueMap map);
+  double full_stress_pa() const { return full_stress_pa_; }
   /// The state of the last listen() is on the screen.
   void shown(const Inbox& inbox, std::int64_t now_ns);
 
@@ -42,6 +45,7 @@ class SessionWatch {
   void listen_to_organs(Inbox& inbox, SceneView& view, runtime::FaultList& faults, std::int64_t now_ns);
   void listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
   void listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_t now_ns);
+  std::span<const float> shares_of(const AssembledState& state);
   static void draw_contact(const msg::Contact& contact, ToolNow& now);
   void find_deepest_dent(const SceneView& view, std::int64_t now_ns);
   double seconds_since_begin(std::int64_t now_ns) const {
@@ -58,7 +62,13 @@ class SessionWatch {
   std::vector<ForceHistory> histories_;
   std::vector<std::vector<msg::Echo>> echoes_;  // per organ, of the state that is drawn
   std::vector<std::int64_t> state_arrived_ns_;  // per organ; 0: none came
-  bool fresh_echoes_ = false;                   // since the last frame
+  TissueMap map_ = TissueMap::kOff;
+  double full_stress_pa_;
+  std::vector<scene::Trusted> trusted_;             // per organ
+  std::vector<std::optional<double>> strained_;     // per organ: the largest strain, where it is known
+  std::vector<std::optional<double>> stressed_pa_;  // likewise
+  std::vector<float> shares_;                       // of a map, workspace
+  bool fresh_echoes_ = false;                       // since the last frame
   std::optional<Dent> dent_;
   double largest_dent_m_ = 0;
   std::vector<HeardStatus> statuses_;

@@ -16,7 +16,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 // The ground reaches this many organ radii out, where the shader has faded it into the background.
 constexpr double kGroundRadii = 7;
 constexpr int kGroundRings = 40, kGroundSpokes = 72;
-constexpr std::size_t kGroundSamples = 2000;  // surface elements summed per ground vertex: 10 ms at start
+constexpr std::size_t kGroundSamples = 2000;  // 10 ms at start
 constexpr double kGroundGap = 0.015;  // of the radius, below the lowest point: no flicker where they touch
 
 }  // namespace
@@ -94,33 +94,39 @@ MeshData unit_ball() {
   return turned(profile, kRoundSegments);
 }
 
+void shade_ground(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
+                  double surface_area_m2, std::size_t samples, MeshData& ground) {
+  const std::size_t stride = std::max<std::size_t>(1, surface_positions.size() / samples);
+  const auto element = static_cast<float>(surface_area_m2 * static_cast<double>(stride) /
+                                          static_cast<double>(surface_positions.size()));
+  const auto count = static_cast<Eigen::Index>((surface_positions.size() + stride - 1) / stride);
+  Eigen::Array3Xf place(3, count), normal(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    place.col(i) = surface_positions[static_cast<std::size_t>(i) * stride].cast<float>();
+    normal.col(i) = normals[static_cast<std::size_t>(i) * stride];
+  }
+  for (Vertex& vertex : ground.vertices) {
+    const Eigen::Array3Xf to = place.colwise() - vertex.position.array();
+    const Eigen::ArrayXf squared = to.square().colwise().sum();
+    const Eigen::ArrayXf facing = (-(normal * to).colwise().sum()).max(0);
+    const Eigen::ArrayXf hidden =
+        facing * to.row(2).transpose() * element / (squared * (kPi * squared + element));
+    vertex.openness = std::clamp(1 - hidden.sum(), 0.0f, 1.0f);
+  }
+}
+
 MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
-                      const Ball& ball, double surface_area_m2) {
+                      const Ball& ball, double surface_area_m2, std::optional<double> height_m) {
   double lowest = ball.centre.z();
   for (const Vec3& p : surface_positions) lowest = std::min(lowest, p.z());
-  const Vec3 middle(ball.centre.x(), ball.centre.y(), lowest - kGroundGap * ball.radius);
-
-  // the share of the sky above `g` that one surface element hides is its form factor
-  const std::size_t stride = std::max<std::size_t>(1, surface_positions.size() / kGroundSamples);
-  const double element =
-      surface_area_m2 * static_cast<double>(stride) / static_cast<double>(surface_positions.size());
-  const auto openness = [&](const Vec3& g) {
-    double hidden = 0;
-    for (std::size_t s = 0; s < surface_positions.size(); s += stride) {
-      const Vec3 to = surface_positions[s] - g;
-      const double squared = to.squaredNorm(), distance = std::sqrt(squared);
-      const double facing = -normals[s].cast<double>().dot(to) / distance;
-      if (facing > 0)
-        hidden += facing * (to.z() / distance) * element / (std::numbers::pi * squared + element);
-    }
-    return static_cast<float>(std::clamp(1 - hidden, 0.0, 1.0));
-  };
+  const double below = lowest - kGroundGap * ball.radius;
+  const Vec3 middle(ball.centre.x(), ball.centre.y(), std::min(height_m.value_or(below), below));
 
   MeshData mesh;
   const auto add = [&](double radius, double angle) {
     const Vec3 g = middle + radius * Vec3(std::cos(angle), std::sin(angle), 0);
     const Vec3f p = g.cast<float>();
-    mesh.vertices.push_back({p, Vec3f::UnitZ(), ((g - middle) / ball.radius).cast<float>(), openness(g)});
+    mesh.vertices.push_back({p, Vec3f::UnitZ(), ((g - middle) / ball.radius).cast<float>()});
   };
   add(0, 0);
   for (int k = 1; k <= kGroundRings; ++k) {
@@ -138,6 +144,7 @@ MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const V
       mesh.triangles.push_back({at(k, s), at(k + 1, s + 1), at(k, s + 1)});
     }
   }
+  shade_ground(surface_positions, normals, surface_area_m2, kGroundSamples, mesh);
   return mesh;
 }
 

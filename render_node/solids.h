@@ -4,6 +4,8 @@
 #include "render_node/camera.h"
 #include "render_node/renderer.h"
 
+#include <optional>
+
 namespace omentum::render {
 
 /// Smooth normals except over edges sharper than the crease angle, where corners are doubled.
@@ -24,9 +26,14 @@ MeshData unit_head();
 /// Radius 1 about the origin.
 MeshData unit_ball();
 
-/// A round drape under an organ, in W: `openness` is the share of the sky that the organ leaves free (the sum
-/// of the form factors of its surface elements), so that it seems to rest on it.
+/// `openness` of a drape: the share of the sky that the surface above leaves free (the sum of the form
+/// factors of about `samples` of its elements).
+void shade_ground(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
+                  double surface_area_m2, std::size_t samples, MeshData& ground);
+
+/// A round drape under an organ, in W, shaded by it, so that it seems to rest on it. It lies just below the
+/// lowest place, or at `height_m` where that is lower.
 MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
-                      const Ball& ball, double surface_area_m2);
+                      const Ball& ball, double surface_area_m2, std::optional<double> height_m = {});
 
 }  // namespace omentum::render

@@ -8,6 +8,8 @@ namespace omentum::render {
 StateAssembly::StateAssembly(std::uint32_t kind, NodeCounts counts, double reach_m)
     : kind_(kind), counts_(counts), reach_m_(static_cast<float>(reach_m)) {
   state_.values.assign(3 * counts.whole, 0.0f);
+  may_lack_blocks_ =
+      kind == msg::KIND_SURFACE;  // whose zeros are the organ at rest; places have no such start
 }
 
 StateAssembly::Outcome StateAssembly::take(const msg::OrganState& block,

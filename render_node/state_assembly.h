@@ -17,6 +17,9 @@ struct AssembledState {
   RemovedSet removed;             // in that version; the inbox fills it in
   std::vector<msg::Echo> echoes;  // newest pose per tool in this state
   std::vector<float> values;      // x y z of each node, as the organ's kind of state has them, m
+  // At each node, as OrganStress has them; empty where they are not known, or nobody asked
+  // (stress_pairing.h).
+  std::vector<float> strain, stress_pa;
 };
 
 /// Nodes of an organ's states: as it was loaded, and at most, when everything else of it was bared.

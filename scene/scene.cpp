@@ -2,9 +2,12 @@
 
 #include "messages/common.h"
 #include "scene/dynamics_keys.h"
+#include "scene/hand_way_keys.h"
+#include "scene/intestine_keys.h"
 #include "scene/toml_section.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -13,9 +16,10 @@ namespace {
 
 using enum TomlSection::Need;
 
-// What organ_phantom makes: the liver in two sizes, its gallbladder, and two pieces of tissue.
-constexpr std::array<std::string_view, 5> kPhantoms{"phantom:paper", "phantom:fine", "phantom:gallbladder",
-                                                    "phantom:plate", "phantom:cylinder"};
+// What organ_phantom makes: the liver in two sizes, its gallbladder, the colon, and two pieces of
+// tissue.
+constexpr std::array<std::string_view, 6> kPhantoms{"phantom:paper", "phantom:fine",  "phantom:gallbladder",
+                                                    "phantom:colon", "phantom:plate", "phantom:cylinder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
@@ -47,7 +51,12 @@ void read_model(TomlSection& s, OrganSpec& organ) {
   s.read_word("model", organ.model, kOptional, words);
   const OrganModelWord& chosen = *std::ranges::find(kOrganModels, organ.model, &OrganModelWord::word);
   organ.kind = chosen.kind;
-  if (chosen.feel == Feel::kLocalModels) organ.dynamics = read_dynamics(s, organ.model);
+  if (chosen.kind == OrganKind::kTube) {
+    organ.intestine = read_intestine(s);
+    organ.look = "gut";
+  } else if (chosen.feel == Feel::kLocalModels) {
+    organ.dynamics = read_dynamics(s, organ.model);
+  }
 }
 
 RegionSpec read_region(TomlSection& s, bool tears) {
@@ -70,30 +79,55 @@ RegionSpec read_region(TomlSection& s, bool tears) {
   return region;
 }
 
-OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
-  OrganSpec organ;
-  std::string file;
-  s.read("name", organ.name, kRequired);
-  read_model(s, organ);
-  s.read("mesh", organ.mesh, kRequired);
-  s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
-  s.read("young_pa", organ.young_pa, kRequired, kPositive);
-  s.read("poisson", organ.poisson, kRequired, kPoisson);
-  s.read("density_kg_m3", organ.density_kg_m3, kRequired, kPositive);
+// Nodes tell each other a rule in one line, "organs[N].fixed = " before it.
+void read_supports(TomlSection& s, OrganSpec& organ) {
+  constexpr std::size_t kMost = msg::MAX_LINE - 18;
   s.read("fixed", organ.fixed, kRequired);
+  const bool is_rule = organ.fixed.starts_with("plane:") || organ.fixed.starts_with("box:");
+  if (is_rule && organ.fixed.size() > kMost)
+    s.refuse("fixed", std::to_string(organ.fixed.size()) + " characters",
+             "at most " + std::to_string(kMost) + ", or a file");
+}
+
+void refuse_what_is_built(TomlSection& s) {
+  for (const char* key : {"metres_per_unit", "fixed"})
+    if (s.has(key)) s.refuse(key, "one beside an organ file", "none: the file is built with its own");
+}
+
+void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& organ) {
+  std::string file;
+  s.read("mesh", organ.mesh, kRequired);
+  if (is_organ_file(organ.mesh)) {
+    refuse_what_is_built(s);
+  } else {
+    s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
+    read_supports(s, organ);
+  }
+  // a scene that is prepared names the file, and says what that is of
+  const TomlSection::Need need = is_organ_file(organ.mesh) && !s.has("file") ? kOptional : kRequired;
+  s.read("young_pa", organ.young_pa, need, kPositive);
+  s.read("poisson", organ.poisson, need, kPoisson);
+  s.read("density_kg_m3", organ.density_kg_m3, need, kPositive);
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions"))
     organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
-  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder"});
-  s.refuse_unknown_keys();
+  s.read_word("look", organ.look, kOptional, {"liver", "gallbladder", "colon"});
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();
   } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
     s.refuse("mesh", "\"" + organ.mesh + "\"",
-             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:plate\", "
-             "\"phantom:cylinder\" or a file");
+             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:colon\", "
+             "\"phantom:plate\", \"phantom:cylinder\" or a file");
   }
   if (!file.empty()) organ.file = beside(scene, file);
+}
+
+OrganSpec read_organ(TomlSection& s, const std::filesystem::path& scene) {
+  OrganSpec organ;
+  s.read("name", organ.name, kRequired);
+  read_model(s, organ);
+  if (organ.kind == OrganKind::kTetrahedralMesh) read_mesh(s, scene, organ);
+  s.refuse_unknown_keys();
   return organ;
 }
 
@@ -127,13 +161,7 @@ ToolSpec read_tool(TomlSection& s) {
   return tool;
 }
 
-HandSpec read_hand(TomlSection& s) {
-  HandSpec hand;
-  s.read("tool", hand.tool, kRequired, msg::MAX_TOOLS - 1);
-  s.read("organ", hand.organ, kOptional);
-  s.read("mass_kg", hand.mass_kg, kOptional, kPositive);
-  s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
-  s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
+void read_press(TomlSection& s, HandSpec& hand) {
   s.read("press_point", hand.press_point, kRequired);
   s.read_direction("press_normal", hand.press_normal, kRequired);
   s.read_direction("slide_direction", hand.slide_direction, kOptional);
@@ -147,6 +175,21 @@ HandSpec read_hand(TomlSection& s) {
   s.read("hold_s", hand.hold_s, kOptional, kNotNegative);
   s.read("slide_s", hand.slide_s, kOptional, kPositive);
   s.read("release_s", hand.release_s, kOptional, kPositive);
+}
+
+HandSpec read_hand(TomlSection& s) {
+  HandSpec hand;
+  s.read("tool", hand.tool, kRequired, msg::MAX_TOOLS - 1);
+  s.read("organ", hand.organ, kOptional);
+  s.read("mass_kg", hand.mass_kg, kOptional, kPositive);
+  s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
+  s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
+  hand.way = read_way(s);
+  if (hand.way.empty()) {
+    read_press(s, hand);
+  } else {
+    hand.press_point = hand.way.front().to;
+  }
   s.refuse_unknown_keys();
   return hand;
 }
@@ -178,6 +221,17 @@ CameraSpec read_camera(TomlSection s, bool given) {
   s.read("field_of_view_deg", camera.field_of_view_deg, kOptional, kFieldOfView);
   s.refuse_unknown_keys();
   return camera;
+}
+
+ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs) {
+  ScoreSpec score;
+  s.read("exposed_organ", score.exposed_organ, kOptional);
+  s.read("from_s", score.from_s, kOptional, kNotNegative);
+  const auto is_exposed = [&](const OrganSpec& organ) { return organ.name == score.exposed_organ; };
+  if (s.has("exposed_organ") && std::ranges::none_of(organs, is_exposed))
+    s.refuse("exposed_organ", "\"" + score.exposed_organ + "\"", "the name of one of the [[organs]]");
+  s.refuse_unknown_keys();
+  return score;
 }
 
 void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {
@@ -233,20 +287,31 @@ void refuse_wrong_count(const TomlSection& root, const std::string& key, std::si
 
 }  // namespace
 
+bool is_organ_file(const std::string& mesh) {
+  std::string ending = std::filesystem::path(mesh).extension();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".h5";
+}
+
 Scene load_scene(const std::filesystem::path& file) {
   TomlSection root = open_toml(file);
   Scene scene;
   scene.file = file;
   root.read("name", scene.name, kRequired);
   auto organs = root.sections("organs");
+  auto obstacles = root.sections("obstacles");
   auto tools = root.sections("tools");
   auto hands = root.sections("hands");
   const bool has_camera = root.has("camera");
   scene.haptics = read_haptics(root.section("haptics"));
   scene.camera = read_camera(root.section("camera"), has_camera);
+  TomlSection score = root.section("score");
   root.refuse_unknown_keys();
 
   for (TomlSection& s : organs) scene.organs.push_back(read_organ(s, file));
+  for (TomlSection& s : obstacles) scene.obstacles.push_back(read_obstacle(s));
+  for (OrganSpec& organ : scene.organs)
+    if (organ.intestine) organ.intestine->obstacles = scene.obstacles;
   for (TomlSection& s : tools) scene.tools.push_back(read_tool(s));
   for (TomlSection& s : hands) scene.hands.push_back(read_hand(s));
   refuse_wrong_count(root, "organs", organs.size(), msg::MAX_ORGANS);
@@ -255,6 +320,7 @@ Scene load_scene(const std::filesystem::path& file) {
   refuse_repeated_tools(scene, tools);
   refuse_wrong_hands(scene, hands);
   find_pressed_organs(scene, hands);
+  scene.score = read_score(std::move(score), scene.organs);
   return scene;
 }
 

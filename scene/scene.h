@@ -3,6 +3,7 @@
 
 #include "geometry/types.h"
 #include "scene/dynamics_spec.h"
+#include "scene/intestine_spec.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +17,10 @@ namespace omentum::scene {
 using geometry::Vec3;
 
 /// What an organ consists of: how it is loaded, touched and drawn. How it moves is its model's affair.
-enum class OrganKind : std::uint8_t { kTetrahedralMesh };
+enum class OrganKind : std::uint8_t {
+  kTetrahedralMesh,  // of a file
+  kTube,             // an intestine and its mesentery, made from the scene's numbers
+};
 
 /// How a hand knows what an organ answers.
 enum class Feel : std::uint8_t {
@@ -24,17 +28,26 @@ enum class Feel : std::uint8_t {
   kLocalModels,  // deform_node tells of the surface around each tool, again and again
 };
 
+/// Where a model's law is tissue's: what has to be small for it.
+enum class Trusted : std::uint8_t {
+  kSmallDisplacements,  // beside the organ's size: the law is linear in them
+  kSmallStrains,        // however far tissue is moved and turned
+  kAlways,              // its springs are what they are at any length: there is no law to leave
+};
+
 /// A model that a scene may choose for an organ, the kind of organ that it moves, and how that is felt.
 struct OrganModelWord {
   std::string_view word;
   OrganKind kind;
   Feel feel = Feel::kTensors;
+  Trusted trusted = Trusted::kSmallDisplacements;
 };
 inline constexpr std::array kOrganModels{
     OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh},
     OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
-    OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
-    OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+    OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
+    OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
+    OrganModelWord{"intestine", OrganKind::kTube, Feel::kLocalModels, Trusted::kAlways},
 };
 
 /// A part of an organ that is of another material: at one of label, box and ball; what is absent of the
@@ -47,7 +60,8 @@ struct RegionSpec {
   TearSpec tears;
 };
 
-/// An organ as the scene describes it: enough to build its file, or a built file.
+/// An organ as the scene describes it: enough to build its file, or a built file; of a tube its anatomy, and
+/// no file at all.
 struct OrganSpec {
   std::string name;
   std::string model{kOrganModels.front().word};
@@ -55,13 +69,18 @@ struct OrganSpec {
   std::string
       mesh;  // a mesh or organ file (relative to the scene), or "phantom:..." (scene.cpp has the words)
   double metres_per_unit = 1;
+  // 0, all or some: what the mesh, an organ file, was built of (scene_prepare fills it in)
   double young_pa = 0, poisson = 0, density_kg_m3 = 0;
-  std::vector<RegionSpec> regions;       // of several that overlap the last one holds
-  std::string fixed;                     // as organ_build --fixed takes it
-  std::string look = "liver";            // "liver" or "gallbladder": how it is drawn
-  std::optional<DynamicsSpec> dynamics;  // of a model that moves by itself
+  std::vector<RegionSpec> regions;         // of several that overlap the last one holds
+  std::string fixed;                       // as organ_build --fixed takes it; of an organ file empty
+  std::string look = "liver";              // "liver", "gallbladder" or "colon"; of a tube "gut"
+  std::optional<DynamicsSpec> dynamics;    // of a mesh whose model moves it by itself
+  std::optional<IntestineSpec> intestine;  // of a tube
   std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
+
+/// Whether an OrganSpec's mesh is a built organ, which has its material, supports and metres.
+bool is_organ_file(const std::string& mesh);
 
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the
 /// handle).
@@ -75,7 +94,15 @@ struct ToolSpec {
   std::vector<Vec3> edge;      // begin and end of what cuts while its button is pressed, in T, m; or empty
 };
 
-/// A simulated hand: a mass on a spring and damper to a target that moves along a script.
+/// A place that a simulated hand goes to.
+struct HandWaypoint {
+  Vec3 to = Vec3::Zero();  // of the tip, in W, m
+  double seconds = 1;      // from the waypoint before; of the first one, from the last
+  double grip_rad = 0;     // how far its jaws are open there; 0: closed
+};
+
+/// A simulated hand: a mass on a spring and damper to a target that moves along a script: it presses an organ
+/// at one place, or it goes along waypoints.
 struct HandSpec {
   std::uint32_t tool = 0;
   std::string organ;  // the name of that which it presses
@@ -88,6 +115,7 @@ struct HandSpec {
   double slide_m = 0.03;
   bool cut = false;  // presses the tool's button while it slides
   double start_s = 1, approach_s = 2, press_s = 1.5, hold_s = 2, slide_s = 3, release_s = 1.5;  // then again
+  std::vector<HandWaypoint> way;  // instead of all that from press_point on, which is the first of them
 };
 
 /// How contacts answer, and the scene's part of force safety. The limits have bounds of their own
@@ -109,14 +137,22 @@ struct CameraSpec {
   double field_of_view_deg = 40;
 };
 
+/// What a trainee is measured by.
+struct ScoreSpec {
+  std::string exposed_organ;  // its name: the share of it that nothing hides is told; empty: none
+  double from_s = 0;  // since render_node began: what is seen earlier, while organs settle, does not count
+};
+
 struct Scene {
   std::string name;
   std::filesystem::path file;
   std::vector<OrganSpec> organs;
+  std::vector<ObstacleSpec> obstacles;  // of intestines
   std::vector<ToolSpec> tools;
   std::vector<HandSpec> hands;
   HapticsSpec haptics;
   CameraSpec camera;
+  ScoreSpec score;
 };
 
 /// Reads and checks a scene. Throws std::runtime_error "FILE:LINE: key: found ..., expected ..." for a

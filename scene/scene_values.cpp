@@ -85,9 +85,54 @@ void add(const DynamicsSpec& dynamics, Table& table) {
   table.add("smallest_piece_m3", dynamics.smallest_piece_m3);
 }
 
+void add(const geometry::GutAnatomy& anatomy, Table& table) {
+  table.add("length_m", anatomy.length_m);
+  table.add("tube_radius_m", anatomy.tube_radius_m);
+  table.add("cylinder_radius_m", anatomy.cylinder_radius_m);
+  table.add("vessel_length_m", anatomy.vessel_length_m);
+  table.add("mesentery_thickness_m", anatomy.mesentery_thickness_m);
+  table.add("fold_pitch_m", anatomy.fold_pitch_m);
+  table.add("legs", anatomy.legs);
+  table.add("rows", anatomy.rows);
+  table.add("columns", anatomy.columns);
+  table.add("origin", anatomy.origin);
+  table.add("along", anatomy.along);
+  table.add("up", anatomy.up);
+}
+
+void add(const GutMaterialSpec& material, Table& table) {
+  table.add("gut_mass_kg_m", material.gut_mass_kg_m);
+  table.add("gut_stretch_n", material.gut_stretch_n);
+  table.add("gut_bending_n_m2", material.gut_bending_n_m2);
+  table.add("mesentery_mass_kg_m2", material.mesentery_mass_kg_m2);
+  table.add("mesentery_stretch_n_m", material.mesentery_stretch_n_m);
+  table.add("spring_damping_s", material.spring_damping_s);
+  table.add("calming_time_s", material.calming_time_s);
+}
+
+void add(const IntestineSpec& intestine, Table& table) {
+  add(intestine.anatomy, table);
+  add(intestine.material, table);
+  table.add("method", intestine.method);
+  table.add("step_s", intestine.step_s);
+  table.add("gravity_m_s2", intestine.gravity_m_s2);
+  table.add("collision", intestine.collision);
+  table.add("seed", intestine.seed);
+  table.add("friction", intestine.friction);
+  table.add("wall_stiffness_n_m", intestine.wall_stiffness_n_m);
+}
+
+void add(const ObstacleSpec& obstacle, Table table) {
+  table.add("shape", obstacle.shape);
+  table.add("centre", obstacle.centre);
+  table.add("normal", obstacle.normal);
+  table.add("half_axes_m", obstacle.half_axes_m);
+}
+
 void add(const OrganSpec& organ, Table table) {
   table.add("name", organ.name);
   table.add("model", organ.model);
+  if (organ.intestine) return add(*organ.intestine, table);
   table.add("young_pa", organ.young_pa);
   table.add("poisson", organ.poisson);
   table.add("density_kg_m3", organ.density_kg_m3);
@@ -138,6 +183,12 @@ void add(const HandSpec& hand, Table table) {
   table.add("hold_s", hand.hold_s);
   table.add("slide_s", hand.slide_s);
   table.add("release_s", hand.release_s);
+  for (std::size_t i = 0; i < hand.way.size(); ++i) {
+    const std::string of = "way[" + std::to_string(i) + "].";
+    table.add(of + "to", hand.way[i].to);
+    table.add(of + "seconds", hand.way[i].seconds);
+    table.add(of + "grip_rad", hand.way[i].grip_rad);
+  }
 }
 
 void add(const HapticsSpec& haptics, Table table) {
@@ -156,6 +207,7 @@ void add(const HapticsSpec& haptics, Table table) {
 std::vector<std::string> scene_values(const Scene& scene) {
   std::vector<std::string> values;
   for (std::size_t i = 0; i < scene.organs.size(); ++i) add(scene.organs[i], {"organs", i, values});
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) add(scene.obstacles[i], {"obstacles", i, values});
   for (std::size_t i = 0; i < scene.tools.size(); ++i) add(scene.tools[i], {"tools", i, values});
   for (std::size_t i = 0; i < scene.hands.size(); ++i) add(scene.hands[i], {"hands", i, values});
   add(scene.haptics, {"haptics", values});

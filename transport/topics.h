@@ -55,6 +55,8 @@ template <> inline constexpr TopicSpec kTopicSpec<msg::LocalModel> {
     topic_name<"local_model">(), Reliability::kBestEffort, Durability::kVolatile};
 template <> inline constexpr TopicSpec kTopicSpec<msg::OrganState> {
     topic_name<"organ_state">(), Reliability::kBestEffort, Durability::kVolatile};
+template <> inline constexpr TopicSpec kTopicSpec<msg::OrganStress> {
+    topic_name<"organ_stress">(), Reliability::kBestEffort, Durability::kVolatile};
 template <> inline constexpr TopicSpec kTopicSpec<msg::Topology> {
     topic_name<"topology">(), Reliability::kReliable, Durability::kTransientLocal};
 template <> inline constexpr TopicSpec kTopicSpec<msg::SceneInfo> {
@@ -85,6 +87,10 @@ constexpr std::size_t organ_block_floats(Profile profile) {
   if (profile == Profile::kLoopback) return msg::MAX_BLOCK_FLOATS;
   return (fragment_bytes(profile) - kOverhead) / (3 * sizeof(float)) * 3;
 }
+
+// An OrganStress block has the nodes of its state's block, with two values for three: it fits wherever that
+// does.
+static_assert(3 * msg::MAX_BLOCK_NODES == msg::MAX_BLOCK_FLOATS);
 
 /// Most nodes of one LocalModel. Its compliance is needed whole, so that a LAN carries few: such a sample has
 /// kLocalModelDatagrams, and at 1 % loss nine of ten arrive; one of 96 nodes would have 135, and one of four.

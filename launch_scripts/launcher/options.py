@@ -33,6 +33,7 @@ class Options:
     log: bool = False
     profile: str = "loopback"
     split: str = None
+    map: str = None
     paused: bool = False
     restart: bool = False
     programs: pathlib.Path = REPOSITORY / "build" / "release" / "bin"
@@ -80,6 +81,7 @@ def build_parser():
     add("--log", action="store_true", help="also write every loop's samples to DIR/PROCESS.csv")
     add("--split", choices=("paper",), help="paper: hand and haptic_node on one processor, organ and picture on the "
         "other, as Cotin 1999 did with two machines")
+    add("--map", choices=("strain", "stress"), help="draw organs as a map of it (default: as tissue; key S switches)")
     add("--paused", action="store_true", help="start paused")
     add("--restart", action="store_true", help="start a node again when it crashed")
     add("--secure", action="store_true", help="secured topics (not part of this version)")
@@ -96,7 +98,7 @@ def parse(arguments):
     options = Options(
         scene=find_scene(given.scene), seconds=given.seconds, out=pathlib.Path(given.out), dds=parse_dds(given.dds),
         scale=given.scale, fixed=given.fixed, rate_hz=given.rate_hz, headless=given.headless, domain=given.domain,
-        log=given.log, profile=given.profile, split=given.split, paused=given.paused, restart=given.restart,
+        log=given.log, profile=given.profile, split=given.split, map=given.map, paused=given.paused, restart=given.restart,
         check_only=given.check, prepare_only=given.prepare)
     options.device, options.trace = parse_device(given.device)
     options.organ = existing(given.organ, "--organ") if given.organ else None

@@ -13,7 +13,7 @@ LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to
 # Of a foreign mesh's length, where --fixed is not given: an organ is held at an edge (ligaments), but lies on its whole
 # underside; held at its lowest tip only, it would rock under the hand.
 SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
-PHANTOM_PARTS = ("gallbladder", "plate", "cylinder")  # beside the liver, in one size each
+PHANTOM_PARTS = ("gallbladder", "colon", "plate", "cylinder")  # beside the liver, in one size each
 
 told_warnings = set()  # without the program's name: organ_build and scene_prepare say the same of one organ
 
@@ -131,6 +131,9 @@ def users_organ_file(options, cache, spec):
     """Of the organ that the user gives instead of `spec`, the scene's first one."""
     if options.organ.suffix.lower() == ".h5":
         return options.organ
+    if not spec["young_pa"]:
+        raise Refusal(f"{options.scene}: the organ {spec['name']} is an organ file, without a material for the mesh "
+                      f"{options.organ.name}: expected --organ FILE.h5, or young_pa, poisson and density_kg_m3 beside it")
     scale, fixed = foreign_terms(options, spec)
     if spec["regions"]:
         print(f"run: {options.organ.name} is of one material: the scene's regions lie in its own organ", flush=True)
@@ -148,10 +151,14 @@ def organ_file(options, cache, spec):
 
 
 def organ_files(options, cache, specs):
-    """Of all organs, in the scene's order. One after the other: organ_build computes on all processors by itself."""
-    first, *others = specs
-    files = [(users_organ_file if options.organ else organ_file)(options, cache, first)]
-    return files + [organ_file(options, cache, spec) for spec in others]
+    """Of all organs that have one, in the scene's order. One after the other: organ_build computes on all processors by
+    itself."""
+    first = specs[0]
+    if options.organ and not first["has_file"]:
+        raise Refusal(f"--organ: the first organ of {options.scene}, {first['name']}, is made from the scene's numbers: "
+                      "no file takes its place")
+    return [(users_organ_file if options.organ and spec is first else organ_file)(options, cache, spec)
+            for spec in specs if spec["has_file"]]
 
 
 def prepare(options):

@@ -17,9 +17,9 @@ FIELDS = {
     "haptic_node": {"loop": NO_LOOP, "force_n": {"mean": 0.0, "max": 0.0},
                     "contacts": {"ticks_in_contact": 0, "nodes_max": 0},
                     "local_models": {"heard": 0, "dropped": 0, "gone": 0}, "faults": []},
-    "deform_node": {"loop": NO_LOOP, "states": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
+    "deform_node": {"loop": NO_LOOP, "states": 0, "stress_states": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
                     "cuts": {"way_cm": 0.0, "lost_cm3": 0.0, "lost_cm3_per_cm": 0.0}, "real_time_factor": 0.0, "faults": []},
-    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "closed": False,
+    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "removed_tetrahedra": 0, "closed": False,
                     "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
@@ -146,19 +146,34 @@ def link_row(link, times):
     return [link.removesuffix("_us").replace("_", " "), "", "", "", f"{times['count']} seen", "", "latency", *span(times)]
 
 
+def removed_line(organs):
+    """What the organs lack at the end; repairs are counted over the whole session, resets included."""
+    line = f"removed tetrahedra: {organs['removed_tetrahedra']}"
+    if organs["repaired_tetrahedra"]:
+        line += f"; {organs['repaired_tetrahedra']} went because they hung on a node or an edge"
+    cuts = organs["cuts"]
+    return line + (f"; {cuts['lost_cm3']:.1f} cm^3 lost over {cuts['way_cm']:.1f} cm of cut" if cuts["way_cm"] else "")
+
+
 def summary(report):
     """A short table, and what a person should know besides."""
     rows = [["", "dds", "exit", "rate", "done", "not done", "time of", "median", "99 %", "longest"]]
     rows += [node_row(name, node) for name, node in report["nodes"].items()]
     rows += [link_row(link, report["link"][link]) for link in LINKS]
     lines = [table(rows)]
-    haptic, picture = report["nodes"].get("haptic_node"), report["nodes"].get("render_node")
+    haptic, organs, picture = (report["nodes"].get(name) for name in ("haptic_node", "deform_node", "render_node"))
     if haptic:
         force = haptic["force_n"]
         lines.append(f"force: mean {force['mean']:.2f} N, largest {force['max']:.2f} N; "
                      f"{haptic['contacts']['ticks_in_contact']} ticks in contact")
+    if organs and organs["removed_tetrahedra"]:
+        lines.append(removed_line(organs))
     if picture:
         lines.append(f"deepest dent: {1e3 * picture['deepest_dent_m']:.1f} mm")
+    exposed = picture.get("exposed_share") if picture else None
+    if exposed and exposed["first"] is not None:
+        lines.append(f"exposed: {100 * exposed['first']:.0f} % at first, {100 * exposed['newest']:.0f} % at the end, "
+                     f"{100 * exposed['largest']:.0f} % at most")
     for name, node in report["nodes"].items():
         lines += [f"{name}: {fault}" for fault in node["faults"]]
         if node["exit"] is None:

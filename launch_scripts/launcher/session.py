@@ -66,6 +66,8 @@ class Session:
                 own[name] += ["--rate-hz", f"{self.options.rate_hz:g}"]
         if self.headless:
             own["render_node"].append("--headless")
+        if self.options.map:
+            own["render_node"] += ["--map", self.options.map]
         processors = processors_of(self.options.split)
         return [processes.Node(name, self.command(name) + extra, self.report_file(name), processors.get(name))
                 for name, extra in own.items()]

@@ -93,6 +93,10 @@ MeshSize gallbladder_size() {
   return {700, 1000, 2500, 5000, 0.0042};
 }
 
+MeshSize colon_size() {
+  return {1400, 1900, 4500, 9000, 0.0135};
+}
+
 MeshSize plate_size() {
   return {700, 820, 2000, 2450, 0.0105};
 }

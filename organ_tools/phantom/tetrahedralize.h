@@ -20,6 +20,8 @@ MeshSize paper_size();
 MeshSize fine_size();
 /// The gallbladder's: elements of about half the length of those of a liver of the papers' size.
 MeshSize gallbladder_size();
+/// The colon's: edges of a third of its width, as long as it is.
+MeshSize colon_size();
 /// The plate's: about 759 nodes and 2,212 tetrahedra (Cotin 1998, fig. 2).
 MeshSize plate_size();
 /// The cylinder's: about 248 nodes and 889 tetrahedra (Cotin 1998, fig. 3).

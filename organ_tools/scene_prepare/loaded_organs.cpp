@@ -5,24 +5,26 @@
 
 namespace omentum::scene_prepare {
 
-void name_files(const std::vector<std::string>& files, scene::Scene& scene) {
-  if (files.size() > scene.organs.size()) {
-    throw std::runtime_error("--organ: found " + std::to_string(files.size()) + " files, expected at most " +
-                             std::to_string(scene.organs.size()) + ", the organs of " + scene.file.string());
-  }
-  for (std::size_t i = 0; i < files.size(); ++i) scene.organs[i].file = files[i];
-  const auto nameless =
-      std::ranges::find_if(scene.organs, [](const auto& organ) { return organ.file.empty(); });
-  if (nameless == scene.organs.end()) return;
-  throw std::runtime_error(scene.file.string() + ": organ \"" + nameless->name +
-                           "\" has no file, expected another --organ FILE, in the scene's order");
+std::vector<std::size_t> organs_of_files(const scene::Scene& scene) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < scene.organs.size(); ++i)
+    if (scene.organs[i].kind == scene::OrganKind::kTetrahedralMesh) places.push_back(i);
+  return places;
 }
 
-std::vector<organ::Organ> load_all(const scene::Scene& scene) {
-  std::vector<organ::Organ> organs;
-  for (const scene::OrganSpec& spec : scene.organs)
-    organs.push_back(organ::load_organ(spec.file, organ::Load::kMeshOnly));
-  return organs;
+void name_files(const std::vector<std::string>& files, scene::Scene& scene) {
+  const std::vector<std::size_t> places = organs_of_files(scene);
+  if (files.size() > places.size()) {
+    throw std::runtime_error("--organ: found " + std::to_string(files.size()) + " files, expected at most " +
+                             std::to_string(places.size()) + ", the organs of " + scene.file.string() +
+                             " that have one");
+  }
+  for (std::size_t k = 0; k < files.size(); ++k) scene.organs[places[k]].file = files[k];
+  const auto nameless =
+      std::ranges::find_if(places, [&](std::size_t i) { return scene.organs[i].file.empty(); });
+  if (nameless == places.end()) return;
+  throw std::runtime_error(scene.file.string() + ": organ \"" + scene.organs[*nameless].name +
+                           "\" has no file, expected another --organ FILE, in the scene's order");
 }
 
 }  // namespace omentum::scene_prepare

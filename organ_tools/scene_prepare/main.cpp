@@ -41,22 +41,25 @@ void warn_of_what_can_hardly_be_meant(const organ::Organ& organ, const scene::Sc
   }
 }
 
+void fit(std::size_t i, bool is_its_own, scene::Scene& scene) {
+  const organ::Organ organ = organ::load_organ(scene.organs[i].file, organ::Load::kMeshOnly);
+  warn_of_what_can_hardly_be_meant(organ, scene);
+  const scene_prepare::OrganSkin skin(organ);
+  if (is_its_own) {
+    scene_prepare::take_own_material(organ, i, scene);
+    scene_prepare::project_hands(skin, i, scene);
+    return;
+  }
+  for (const std::string& note : scene_prepare::replace_first(organ.name, skin, scene))
+    std::cout << note << '\n';
+  scene_prepare::take_material(organ.material, scene.organs.front());
+}
+
 void prepare(const Options& options) {
   scene::Scene scene = scene::load_scene(options.scene);
   scene_prepare::name_files(options.organs, scene);
-  const std::vector<organ::Organ> organs = scene_prepare::load_all(scene);
-  for (std::size_t i = 0; i < organs.size(); ++i) {
-    warn_of_what_can_hardly_be_meant(organs[i], scene);
-    const scene_prepare::OrganSkin skin(organs[i]);
-    if (i > 0 || options.keep_points) {
-      scene_prepare::require_own_material(organs[i], i, scene);
-      scene_prepare::project_hands(skin, i, scene);
-    } else {
-      for (const std::string& note : scene_prepare::replace_first(organs[i].name, skin, scene))
-        std::cout << note << '\n';
-      scene_prepare::take_material(organs[i].material, scene.organs.front());
-    }
-  }
+  for (const std::size_t i : scene_prepare::organs_of_files(scene))
+    fit(i, i > 0 || options.keep_points, scene);
   files::write_whole(options.output, scene_prepare::resolved_toml(scene));
 }
 
@@ -67,8 +70,8 @@ void run(const Options& options) {
     throw std::runtime_error("SCENE is missing (see scene_prepare --help)");
   } else if (options.describe) {
     std::cout << scene_prepare::describe(scene::load_scene(options.scene)) << '\n';
-  } else if (options.organs.empty() || options.output.empty()) {
-    throw std::runtime_error("--organ and -o are needed (see scene_prepare --help)");
+  } else if (options.output.empty()) {
+    throw std::runtime_error("-o is needed (see scene_prepare --help)");
   } else {
     prepare(options);
   }

@@ -3,9 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -15,12 +13,6 @@ namespace {
 std::string words(double number) {
   char digits[32];  // the shortest form of a double has at most 24
   return {digits, std::to_chars(std::begin(digits), std::end(digits), number).ptr};
-}
-
-bool is_organ_file(const std::string& mesh) {
-  std::string ending = std::filesystem::path(mesh).extension();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending == ".h5";
 }
 
 // `where`: the key that is wrong, or of the regions the wrong one.
@@ -42,17 +34,20 @@ bool same(const scene::RegionSpec& region, const physics::Material& common,
 
 }  // namespace
 
-void require_own_material(const organ::Organ& organ, std::size_t k, const scene::Scene& scene) {
-  const scene::OrganSpec& said = scene.organs.at(k);
-  if (!is_organ_file(said.mesh)) return;
+void take_own_material(const organ::Organ& organ, std::size_t k, scene::Scene& scene) {
+  scene::OrganSpec& said = scene.organs.at(k);
+  if (!scene::is_organ_file(said.mesh)) return;
+  const toml::table root = toml::parse_file(scene.file.string());
   const physics::Material& built = organ.material.common;
   const std::string place = "organs[" + std::to_string(k) + "].";
-  const auto require = [&](const char* key, double found, double expected) {
-    if (found != expected) refuse(scene, place + key, words(found), words(expected));
+  const auto take = [&](const char* key, double& found, double expected) {
+    if (root.at_path(place + key) && found != expected)
+      refuse(scene, place + key, words(found), words(expected));
+    found = expected;
   };
-  require("young_pa", said.young_pa, built.young_pa);
-  require("poisson", said.poisson, built.poisson);
-  require("density_kg_m3", said.density_kg_m3, built.density_kg_m3);
+  take("young_pa", said.young_pa, built.young_pa);
+  take("poisson", said.poisson, built.poisson);
+  take("density_kg_m3", said.density_kg_m3, built.density_kg_m3);
   const auto alike = [&](const scene::RegionSpec& region) {
     return std::ranges::any_of(organ.material.regions,
                                [&](const auto& own) { return same(region, built, own); });

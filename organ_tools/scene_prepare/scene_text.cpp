@@ -61,6 +61,7 @@ std::string region_text(const scene::RegionSpec& region) {
 
 void write_organ(const scene::OrganSpec& organ, toml::table& table) {
   table.insert_or_assign("name", organ.name);
+  if (organ.kind != scene::OrganKind::kTetrahedralMesh) return;
   table.insert_or_assign("young_pa", organ.young_pa);
   table.insert_or_assign("poisson", organ.poisson);
   table.insert_or_assign("density_kg_m3", organ.density_kg_m3);
@@ -70,11 +71,15 @@ void write_organ(const scene::OrganSpec& organ, toml::table& table) {
   if (!regions.empty()) table.insert("regions", std::move(regions));
   if (!organ.mesh.starts_with("phantom:"))
     table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
+  // a file that took a mesh's place has its own
+  if (scene::is_organ_file(organ.mesh))
+    for (const char* key : {"metres_per_unit", "fixed"}) table.erase(key);
   if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
 }
 
 void write_hand(const scene::HandSpec& hand, toml::table& table) {
   table.insert_or_assign("organ", hand.organ);
+  if (!hand.way.empty()) return;
   table.insert_or_assign("press_point", to_array(hand.press_point));
   table.insert_or_assign("press_normal", to_array(hand.press_normal));
   table.insert_or_assign("slide_direction", to_array(hand.slide_direction));
@@ -109,6 +114,7 @@ nlohmann::json describe(const scene::Scene& scene) {
     nlohmann::json regions = nlohmann::json::array();
     for (const scene::RegionSpec& region : organ.regions) regions.push_back(region_text(region));
     organs.push_back({{"name", organ.name},
+                      {"has_file", organ.kind == scene::OrganKind::kTetrahedralMesh},
                       {"mesh", organ.mesh},
                       {"file", organ.file.string()},
                       {"metres_per_unit", organ.metres_per_unit},

@@ -13,8 +13,8 @@ namespace omentum::scene_prepare {
 /// else is carried over. load_scene reads it from any folder.
 std::string resolved_toml(const scene::Scene& scene);
 
-/// {"name", "organs": [{"name", "mesh", "metres_per_unit", "young_pa", "poisson", "density_kg_m3",
-/// "regions": [as organ_build --region takes them], "fixed"}]}.
+/// {"name", "organs": [{"name", "has_file" (false: made from the scene's numbers), "mesh", "metres_per_unit",
+/// "young_pa", "poisson", "density_kg_m3", "regions": [as organ_build --region takes them], "fixed"}]}.
 nlohmann::json describe(const scene::Scene& scene);
 
 }  // namespace omentum::scene_prepare

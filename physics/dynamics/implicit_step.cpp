@@ -79,7 +79,9 @@ bool ImplicitStep::finish(BodyState& state, std::span<const double> external) no
     state.u[c] += step_s_ * state.v[c];
     speed += state.v[c] * state.v[c];
   }
-  return std::isfinite(speed);
+  if (std::isfinite(speed)) return true;
+  std::ranges::fill(lacking_, 0.0);  // whoever goes on from a state that is known owes nothing to this step
+  return false;
 }
 
 bool ImplicitStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {

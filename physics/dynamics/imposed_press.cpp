@@ -35,32 +35,38 @@ ImposedPress::ImposedPress(std::size_t node_count, std::size_t most_presses)
       lacking_(most_presses),
       strength_(most_presses) {}
 
-std::span<const double> ImposedPress::impose(LargeStep& stepper, std::span<const Press> presses,
-                                             BodyState& state) noexcept {
+std::span<const double> ImposedPress::impose(Yielding& body, std::span<const Press> presses,
+                                             std::span<double> u, std::span<double> v,
+                                             double already) noexcept {
   geometry::require(presses.size() <= yields_.size(), "no more presses than were said");
   count_ = presses.size();
   for (std::size_t p = 0; p < count_; ++p) {
     for (std::size_t i = 0; i < presses[p].nodes.size(); ++i)
       Vec3::Map(&pattern_[3 * presses[p].nodes[i]]) += presses[p].forces[i];
-    stepper.yield_to(pattern_, yields_[p]);
+    body.yield_to(pattern_, yields_[p]);
     for (const geometry::NodeId n : presses[p].nodes) Vec3::Map(&pattern_[3 * n]).setZero();
   }
   for (std::size_t p = 0; p < count_; ++p) {
-    lacking_[p] = wanted(presses[p]) - along(presses[p], state.u);
-    for (std::size_t q = 0; q < count_; ++q) coupling_[p * count_ + q] = along(presses[p], yields_[q]);
+    lacking_[p] = wanted(presses[p]) - along(presses[p], u);
+    for (std::size_t q = 0; q < count_; ++q) {
+      coupling_[p * count_ + q] = along(presses[p], yields_[q]);
+      lacking_[p] += already * coupling_[p * count_ + q];
+    }
+    coupling_[p * count_ + p] += presses[p].own_yield_j;
   }
-  solve();
+  solve(presses);
   for (std::size_t p = 0; p < count_; ++p) {
-    if (strength_[p] == 0) continue;
-    for (std::size_t c = 0; c < state.u.size(); ++c) {
-      state.u[c] += strength_[p] * yields_[p][c];
-      state.v[c] += strength_[p] * yields_[p][c] / stepper.step_s();
+    const double more = strength_[p] - already;
+    if (more == 0) continue;
+    for (std::size_t c = 0; c < u.size(); ++c) {
+      u[c] += more * yields_[p][c];
+      v[c] += more * yields_[p][c] / body.step_s();
     }
   }
   return std::span(strength_).first(count_);
 }
 
-void ImposedPress::solve() noexcept {
+void ImposedPress::solve(std::span<const Press> presses) noexcept {
   std::fill_n(strength_.begin(), count_, 0.0);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (std::size_t p = 0; p < count_; ++p) {
@@ -68,7 +74,7 @@ void ImposedPress::solve() noexcept {
       if (!(row[p] > 0)) continue;
       double rest = lacking_[p];
       for (std::size_t q = 0; q < count_; ++q) rest -= row[q] * strength_[q];
-      strength_[p] = std::clamp(strength_[p] + rest / row[p], 0.0, kMostStrength);
+      strength_[p] = std::clamp(strength_[p] + rest / row[p], 0.0, presses[p].most_strength);
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/dynamics/body_state.h"
+#include "physics/dynamics/yielding.h"
 
 #include <span>
 
@@ -9,12 +10,8 @@ namespace omentum::physics {
 
 /// Backward Euler on a kept factor (ImplicitStep, WarpedStep). One thread at a time; what is noexcept
 /// allocates nothing. Vectors are [3N], x y z of each node in the mesh's order.
-class LargeStep {
+class LargeStep : public Yielding {
  public:
-  virtual ~LargeStep() = default;
-
-  virtual double step_s() const = 0;
-
   /// One step under `external` forces, N. False: the result is not finite.
   [[nodiscard]] virtual bool step(BodyState& state, std::span<const double> external) noexcept = 0;
   /// J, with what is left.
@@ -26,8 +23,6 @@ class LargeStep {
 
   /// Displacement of `nodes` at the end of a step per force held over it, [3n x 3n], m/N, symmetric.
   virtual void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept = 0;
-  /// That of all nodes for given forces, m.
-  virtual void yield_to(std::span<const double> forces, std::span<double> yield) noexcept = 0;
   /// Where the next step would end under `external` forces. Nothing is changed.
   virtual void foresee(const BodyState& state, std::span<const double> external,
                        std::span<double> u) noexcept = 0;

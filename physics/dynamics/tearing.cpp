@@ -3,7 +3,6 @@
 #include "geometry/tetra_bits.h"
 #include "geometry/tetra_edges.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -19,12 +18,6 @@ using geometry::Vec3;
 
 using Places = std::array<Vec3, 4>;
 
-Eigen::Matrix3d edges_from_first(const Places& x) {
-  Eigen::Matrix3d D;
-  D << x[1] - x[0], x[2] - x[0], x[3] - x[0];
-  return D;
-}
-
 std::array<double, 6> edge_lengths(const Places& x) {
   std::array<double, 6> length_m;
   for (std::size_t e = 0; e < 6; ++e) {
@@ -38,13 +31,6 @@ double mean(const std::array<double, 6>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / 6;
 }
 
-// Tension has the positive sign.
-double largest_principal(const Eigen::Matrix3d& stress) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(stress, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[2];
-}
-
 }  // namespace
 
 bool TearLimits::ever() const {
@@ -53,14 +39,14 @@ bool TearLimits::ever() const {
 
 Tearing::Tearing(const geometry::TetraMesh& mesh, const MaterialMap& material,
                  std::span<const TearLimits> limits)
-    : mesh_(mesh), is_shared_(mesh.positions.size()) {
+    : mesh_(mesh), gradients_(mesh), is_shared_(mesh.positions.size()) {
   rest_.reserve(mesh.tetrahedra.size());
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
     const TetId t(i);
     Places x;
     for (std::size_t c = 0; c < 4; ++c) x[c] = mesh.positions[mesh.tetrahedra[i][c]];
     const Material& of_t = material.of(mesh, t);
-    rest_.push_back({edges_from_first(x).inverse(), edge_lengths(x), of_t.lambda(), of_t.mu(), limits[i]});
+    rest_.push_back({edge_lengths(x), of_t.lambda(), of_t.mu(), limits[i]});
   }
   loaded_.reserve(mesh.tetrahedra.size());
   chosen_.reserve(mesh.tetrahedra.size());
@@ -82,10 +68,9 @@ Tearing::Deformed Tearing::deform(TetId t, std::span<const double> displacements
   const Rest& rest = rest_[t];
   const std::array<double, 6> length_m = edge_lengths(x);
   for (std::size_t e = 0; e < 6; ++e) now.elongation[e] = length_m[e] / rest.length_m[e] - 1;
-  const Eigen::Matrix3d F = edges_from_first(x) * rest.inverse;
-  const Eigen::Matrix3d E = 0.5 * (F.transpose() * F - Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d F = gradients_.at(t, displacements);
   now.volume_ratio = F.determinant();
-  now.stress_pa = rest.lambda_pa * E.trace() * Eigen::Matrix3d::Identity() + 2 * rest.mu_pa * E;
+  now.stress_pa = hooke_stress(rest.lambda_pa, rest.mu_pa, green_strain(F));
   return now;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/tetra_mesh.h"
+#include "physics/element_strain.h"
 #include "physics/material_map.h"
 
 #include <limits>
@@ -46,7 +47,6 @@ class Tearing {
 
  private:
   struct Rest {
-    Eigen::Matrix3d inverse;         // of the three edges from corner 0, 1/m
     std::array<double, 6> length_m;  // of the edges
     double lambda_pa, mu_pa;
     TearLimits limits;
@@ -64,6 +64,7 @@ class Tearing {
   void choose(geometry::TetId t) noexcept;
 
   const geometry::TetraMesh& mesh_;
+  DeformationGradients gradients_;
   std::vector<Rest> rest_;               // [T]
   std::vector<Loaded> loaded_;           // workspace, [T]
   std::vector<std::uint8_t> is_shared_;  // [N]: a node of what this check chose

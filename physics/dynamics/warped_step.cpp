@@ -40,19 +40,23 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
               options.most_compliance_nodes),
       left_(mesh.tetrahedra.size(), 1),
       rotation_(inertia.mass.size(), Eigen::Matrix3d::Identity()),
+      linear_at_(state_at_rest(inertia.mass.size())),
       ahead_(3 * inertia.mass.size()),
       forces_(ahead_.size()),
       change_(ahead_.size()),
+      foreseen_(ahead_.size()),
       direction_(ahead_.size()),
       product_(ahead_.size()),
       turned_(ahead_.size()),
+      solved_(ahead_.size()),
       lacking_(ahead_.size()),
       residual_(ahead_.size()) {}
 
 bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
   linearize(state);
-  add_impulse(state, external, residual_);
-  if (!solve(residual_, change_)) {
+  add_impulse(external, residual_);
+  enough_ = enough_of(residual_);
+  if (!solve(enough_, residual_, change_)) {
     std::ranges::fill(residual_, 0.0);
     return false;
   }
@@ -65,15 +69,32 @@ void WarpedStep::foresee(const BodyState& state, std::span<const double> externa
                          std::span<double> u) noexcept {
   linearize(state);
   std::ranges::copy(residual_, lacking_.begin());
-  add_impulse(state, external, lacking_);
-  solve(lacking_, change_);
-  for (std::size_t c = 0; c < u.size(); ++c) u[c] = state.u[c] + options_.step_s * (state.v[c] + change_[c]);
+  add_impulse(external, lacking_);
+  // near a rest the right-hand side is a small difference of what tissue and tools do
+  solve(std::max(enough_, enough_of(lacking_)), lacking_, foreseen_);
+  for (std::size_t c = 0; c < u.size(); ++c)
+    u[c] = state.u[c] + options_.step_s * (state.v[c] + foreseen_[c]);
 }
 
+// A step begins where the last look ahead did, unless something was removed.
 void WarpedStep::linearize(const BodyState& state) noexcept {
+  if (is_linear_ && state.u == linear_at_.u && state.v == linear_at_.v) return;
+  std::ranges::copy(state.u, linear_at_.u.begin());
+  std::ranges::copy(state.v, linear_at_.v.begin());
   for (std::size_t c = 0; c < ahead_.size(); ++c) ahead_[c] = state.u[c] + options_.step_s * state.v[c];
   law_.linearize(ahead_, Tangent::kWarped);
   mean_rotations();
+  find_forces(state.v);
+  is_linear_ = true;
+}
+
+void WarpedStep::find_forces(std::span<const double> v) noexcept {
+  law_.forces(ahead_, forces_);
+  law_.product(v, product_);
+  for (std::size_t c = 0; c < forces_.size(); ++c) {
+    forces_[c] -= inertia_.mass_damping_per_s * inertia_.mass[c / 3] * v[c] +
+                  inertia_.stiffness_damping_s * product_[c];
+  }
 }
 
 // Nodes that are held in part are not turned: a held component has to stay one.
@@ -92,16 +113,10 @@ void WarpedStep::mean_rotations() noexcept {
 }
 
 // The right-hand side is added to what the last step lacked: all of it is lacking while dv = 0.
-void WarpedStep::add_impulse(const BodyState& state, std::span<const double> external,
-                             std::span<double> lacking) noexcept {
-  law_.forces(ahead_, forces_);
-  law_.product(state.v, product_);
+void WarpedStep::add_impulse(std::span<const double> external, std::span<double> lacking) noexcept {
   for (std::size_t c = 0; c < lacking.size(); ++c) {
-    const double drag = inertia_.mass_damping_per_s * inertia_.mass[c / 3] * state.v[c] +
-                        inertia_.stiffness_damping_s * product_[c];
     const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
-    lacking[c] += options_.step_s * (external[c] + forces_[c] - drag);
-    if (held) lacking[c] = 0;
+    lacking[c] = held ? 0.0 : lacking[c] + options_.step_s * (external[c] + forces_[c]);
   }
 }
 
@@ -123,17 +138,28 @@ void WarpedStep::precondition(std::span<const double> residual, std::span<double
     Vec3::Map(&x[3 * n]) = (rotation_[n] * Vec3::Map(&x[3 * n])).eval();
 }
 
-// Conjugate gradients from zero; what x still lacks stays in `lacking`. False: that is no number.
-bool WarpedStep::solve(std::span<double> lacking, std::span<double> x) noexcept {
-  std::ranges::fill(x, 0.0);
-  double left2 = dot(lacking, lacking);
-  const double enough2 = options_.tolerance * options_.tolerance * left2;
-  double along_before = 0;
-  for (iterations_ = 0; iterations_ < options_.most_iterations && left2 > enough2; ++iterations_) {
-    precondition(lacking, ahead_);
-    const double along = dot(lacking, ahead_);
+double WarpedStep::enough_of(std::span<const double> right_hand_side) const noexcept {
+  return options_.tolerance * std::sqrt(dot(right_hand_side, right_hand_side));
+}
+
+// As much of the guess x as is right; what it lacks stays in `lacking`.
+void WarpedStep::start_from(std::span<double> x, std::span<double> lacking) noexcept {
+  multiply(x, product_);
+  const double length = dot(x, product_), share = length > 0 ? dot(x, lacking) / length : 0;
+  for (double& value : x) value *= share;
+  add(-share, product_, lacking);
+}
+
+// Conjugate gradients from the guess x, until no more than `enough` is lacking; that stays in `lacking`.
+// False: it is no number, and x is zero.
+bool WarpedStep::solve(double enough, std::span<double> lacking, std::span<double> x) noexcept {
+  start_from(x, lacking);
+  double left2 = dot(lacking, lacking), along_before = 0;
+  for (iterations_ = 0; iterations_ < options_.most_iterations && left2 > enough * enough; ++iterations_) {
+    precondition(lacking, solved_);
+    const double along = dot(lacking, solved_);
     for (std::size_t c = 0; c < direction_.size(); ++c)
-      direction_[c] = ahead_[c] + (iterations_ == 0 ? 0 : along / along_before * direction_[c]);
+      direction_[c] = solved_[c] + (iterations_ == 0 ? 0 : along / along_before * direction_[c]);
     along_before = along;
     multiply(direction_, product_);
     const double length = along / dot(direction_, product_);
@@ -141,10 +167,12 @@ bool WarpedStep::solve(std::span<double> lacking, std::span<double> x) noexcept 
     add(-length, product_, lacking);
     left2 = dot(lacking, lacking);
   }
+  if (!std::isfinite(left2)) std::ranges::fill(x, 0.0);
   return std::isfinite(left2);
 }
 
 bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
+  is_linear_ = false;
   for (const geometry::TetId t : tetrahedra) {
     law_.remove(t);
     left_[static_cast<std::size_t>(t)] = 0;
@@ -153,11 +181,12 @@ bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
 }
 
 void WarpedStep::restore() noexcept {
+  is_linear_ = false;
   for (std::size_t t = 0; t < left_.size(); ++t) {
     if (left_[t] == 0) law_.add(geometry::TetId(t));
   }
   std::ranges::fill(left_, 1);
-  std::ranges::fill(residual_, 0.0);
+  for (auto* kept : {&residual_, &change_, &foreseen_}) std::ranges::fill(*kept, 0.0);
   factor_.restore();
 }
 
@@ -165,7 +194,7 @@ void WarpedStep::yield_to(std::span<const double> forces, std::span<double> yiel
   const double dt = options_.step_s;
   for (std::size_t c = 0; c < lacking_.size(); ++c)
     lacking_[c] = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3)) ? 0.0 : dt * dt * forces[c];
-  solve(lacking_, yield);
+  solve(enough_of(lacking_), lacking_, yield);
 }
 
 void WarpedStep::compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {

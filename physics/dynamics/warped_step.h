@@ -21,8 +21,9 @@ struct WarpedOptions {
 ///
 /// By conjugate gradients, preconditioned by the factor of the same matrix at rest, turned at each node:
 /// Q A_0^-1 Q^T, Q_n the mean rotation of the tetrahedra around node n. For a body that only turned this is
-/// the inverse itself; where it bends, the better the slower rotations change from node to node. What a
-/// step's equation lacks in the end is given to the next one as an impulse, so that momentum is kept.
+/// the inverse itself; where it bends, the better the slower rotations change from node to node. Each solve
+/// begins from the answer to the last equation of its kind, as far as it is one to this. What a step's
+/// equation lacks in the end is given to the next one as an impulse, so that momentum is kept.
 ///
 /// All memory is taken at construction; one thread at a time.
 class WarpedStep final : public LargeStep {
@@ -46,30 +47,36 @@ class WarpedStep final : public LargeStep {
   void foresee(const BodyState& state, std::span<const double> external,
                std::span<double> u) noexcept override;
 
-  /// Of the last step.
+  /// Of the last equation that was solved.
   int iterations() const { return iterations_; }
   Corotational& law() { return law_; }
 
  private:
   void linearize(const BodyState& state) noexcept;
   void mean_rotations() noexcept;
-  void add_impulse(const BodyState& state, std::span<const double> external,
-                   std::span<double> lacking) noexcept;
+  void find_forces(std::span<const double> v) noexcept;
+  void add_impulse(std::span<const double> external, std::span<double> lacking) noexcept;
   void multiply(std::span<const double> x, std::span<double> y) noexcept;
   void precondition(std::span<const double> residual, std::span<double> x) noexcept;
-  bool solve(std::span<double> lacking, std::span<double> x) noexcept;
+  double enough_of(std::span<const double> right_hand_side) const noexcept;
+  void start_from(std::span<double> x, std::span<double> lacking) noexcept;
+  bool solve(double enough, std::span<double> lacking, std::span<double> x) noexcept;
 
   const geometry::TetraMesh& mesh_;
   Inertia inertia_;
   Corotational law_;
   WarpedOptions options_;
   KeptFactor factor_;
-  std::vector<std::uint8_t> left_;                             // [T] 1: there, 0: removed
-  std::vector<Eigen::Matrix3d> rotation_;                      // [N] Q
-  std::vector<double> ahead_, forces_;                         // [3N]
-  std::vector<double> change_, direction_, product_, turned_;  // [3N]
+  std::vector<std::uint8_t> left_;         // [T] 1: there, 0: removed
+  std::vector<Eigen::Matrix3d> rotation_;  // [N] Q
+  BodyState linear_at_;                    // where the law, the rotations and the forces are of ...
+  bool is_linear_ = false;                 // ... if they are
+  std::vector<double> ahead_, forces_;     // [3N] u + dt v there; f(u + dt v) - D v, N
+  std::vector<double> change_, foreseen_;  // [3N] dv of the last step, of the last foresee(), m/s
+  std::vector<double> direction_, product_, turned_, solved_;  // [3N]
   std::vector<double> lacking_;                                // [3N] of an equation that is no step's
   std::vector<double> residual_;  // [3N] what the last step's equation lacks, N s
+  double enough_ = 0;             // what the last step's equation was allowed to lack, N s
   int iterations_ = 0;
 };
 

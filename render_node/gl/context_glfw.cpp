@@ -68,8 +68,8 @@ class GlfwContext final : public GlContext {
       input.zoom = scrolled_;
     }
     const bool key = glfwGetKey(window_, GLFW_KEY_S) == GLFW_PRESS;
-    input.switch_strain = key && !strain_key_;
-    strain_key_ = key;
+    input.switch_map = key && !map_key_;
+    map_key_ = key;
     mouse_ = mouse;
     scrolled_ = 0;
     return input;
@@ -93,7 +93,7 @@ class GlfwContext final : public GlContext {
   GLFWwindow* window_ = nullptr;
   Mouse mouse_;
   float scrolled_ = 0;
-  bool strain_key_ = false;  // was down
+  bool map_key_ = false;  // was down
 };
 
 }  // namespace

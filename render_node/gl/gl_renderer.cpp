@@ -5,7 +5,7 @@
 #include "render_node/gl/panel_backend.h"
 #include "render_node/gl/program.h"
 #include "render_node/gl/render_target.h"
-#include "render_node/surface_strain.h"
+#include "render_node/tissue_map.h"
 #include "render_node/tissue_pattern.h"
 #include "shader_sources.h"  // generated from gl/shaders/
 
@@ -58,12 +58,14 @@ struct Programs {
         cut("cut tissue", shaders::surface_vert, prefix + "#define CUT\n", shaders::tissue_frag),
         bared("bared tissue", shaders::surface_vert, prefix + "#define CUT\n#define BARED\n",
               shaders::tissue_frag),
-        strain("strain", shaders::surface_vert, prefix, shaders::strain_frag),
+        map("map", shaders::surface_vert, prefix, shaders::map_frag),
+        gut("gut", shaders::surface_vert, prefix + "#define GUT\n", shaders::tissue_frag),
+        mesentery("mesentery", shaders::surface_vert, prefix + "#define SHEET\n", shaders::tissue_frag),
         solid("solid", shaders::surface_vert, prefix, shaders::solid_frag),
         ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
         signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
 
-  Program backdrop, lens, tissue, cut, bared, strain, solid, ground, signal;
+  Program backdrop, lens, tissue, cut, bared, gut, mesentery, map, solid, ground, signal;
 
   const Program& of(Look look) const {
     switch (look) {
@@ -73,8 +75,12 @@ struct Programs {
         return cut;
       case Look::kBared:
         return bared;
-      case Look::kStrain:
-        return strain;
+      case Look::kMap:
+        return map;
+      case Look::kGut:
+        return gut;
+      case Look::kMesentery:
+        return mesentery;
       case Look::kGround:
         return ground;
       case Look::kSignal:
@@ -195,8 +201,8 @@ class GlRenderer final : public Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look :
-         {Look::kSolid, Look::kTissue, Look::kCut, Look::kBared, Look::kStrain, Look::kGround, Look::kSignal})
+    for (const Look look : {Look::kSolid, Look::kGut, Look::kTissue, Look::kCut, Look::kBared,
+                            Look::kMesentery, Look::kMap, Look::kGround, Look::kSignal})
       draw_items(frame, look);
     glDisable(GL_CULL_FACE);
     glDepthRange(kSignalDepth, 1);
@@ -218,7 +224,7 @@ class GlRenderer final : public Renderer {
     program.use();
     set_scene(program, frame);
     program.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
-    if (look == Look::kStrain) set_scale(program);
+    if (look == Look::kMap) set_colours(program);
     const bool over = look == Look::kSignal;
     glDepthRange(over ? 0 : kSignalDepth, over ? kSignalDepth : 1);
     for (const DrawItem& item : frame.items) {
@@ -243,10 +249,9 @@ class GlRenderer final : public Renderer {
     program.set("pattern", kPatternUnit);
   }
 
-  static void set_scale(const Program& program) {
-    program.set("full_strain", kFullStrain);
-    for (std::size_t i = 0; i < kStrainColourCount; ++i)
-      program.set(("strain_colours[" + std::to_string(i) + "]").c_str(), strain_colours()[i]);
+  static void set_colours(const Program& program) {
+    for (std::size_t i = 0; i < kMapColourCount; ++i)
+      program.set(("map_colours[" + std::to_string(i) + "]").c_str(), map_colours()[i]);
   }
 
   void fill_screen(const Program& program, const Frame& frame) {

@@ -30,7 +30,7 @@ MeshBuffer::MeshBuffer(const MeshData& mesh) {
   attribute(2, 3, offsetof(Vertex, rest));
   attribute(3, 1, offsetof(Vertex, openness));
   attribute(4, 1, offsetof(Vertex, charring));
-  attribute(5, 1, offsetof(Vertex, strain));
+  attribute(5, 1, offsetof(Vertex, share));
   glBindVertexArray(0);
 }
 

@@ -23,10 +23,12 @@ class Pebbles final : public OrganModel {
   std::span<const CollisionSphere> collidable() const noexcept override { return spheres; }
   void respond(std::span<const OrganContact> contacts) noexcept override {
     met.assign(contacts.begin(), contacts.end());
+    ++asked;
   }
 
   std::vector<CollisionSphere> spheres;
   std::vector<OrganContact> met;
+  int asked = 0;
 };
 
 /// A quasi-static organ's way: it offers nothing to meet.
@@ -57,6 +59,7 @@ TEST(OrganCollision, BothOrgansLearnOfAContactWithOppositeNormals) {
   EXPECT_DOUBLE_EQ(left.met[0].depth_m, 0.5);
   EXPECT_DOUBLE_EQ(left.met[0].share, 0.75) << "the lighter one yields more";
   EXPECT_DOUBLE_EQ(left.met[0].share + right.met[0].share, 1);
+  EXPECT_EQ(left.met[0].push_m_s, right.met[0].push_m_s);
 }
 
 TEST(OrganCollision, WhatNeverYieldsLeavesTheWholeWayToTheOther) {
@@ -65,6 +68,17 @@ TEST(OrganCollision, WhatNeverYieldsLeavesTheWholeWayToTheOther) {
   EXPECT_TRUE(collision.run());
   EXPECT_EQ(rock.met.at(0).share, 0);
   EXPECT_EQ(soft.met.at(0).share, 1);
+}
+
+TEST(OrganCollision, WhoDoesNotAnswerIsAskedOnceInATick) {
+  Pebbles left({sphere({0, 0, 0}, 1, {1, 0, 0})}), right({sphere({1.5, 0, 0}, 3)});
+  OrganCollision collision({&left, &right});
+  for (int tick = 1; tick < 5; ++tick) {
+    EXPECT_TRUE(collision.run());
+    EXPECT_EQ(left.asked, tick);
+    EXPECT_EQ(right.asked, tick);
+    EXPECT_DOUBLE_EQ(left.met.at(0).share + right.met.at(0).share, 1) << "nothing is learnt of it";
+  }
 }
 
 TEST(OrganCollision, AnOrganMeetsNeitherItselfNorOneThatOffersNothing) {
@@ -88,7 +102,8 @@ TEST(OrganCollision, FindsWhatAllPairsFind) {
     Pebbles one(heap(0)), other(heap(shift));
     std::size_t pairs = 0;
     for (const CollisionSphere& a : one.spheres)
-      for (const CollisionSphere& b : other.spheres) pairs += (a.centre - b.centre).norm() < 2 ? 1u : 0u;
+      for (const CollisionSphere& b : other.spheres)
+        pairs += (a.centre - b.centre).norm() < 2 + kNear_m ? 1u : 0u;
     OrganCollision collision({&one, &other});
     EXPECT_TRUE(collision.run());
     EXPECT_EQ(one.met.size(), pairs) << shift;

@@ -67,6 +67,8 @@ TEST_F(ContactBookTest, SilentSenderFadesToNothingAndANewContactCountsInFull) {
     EXPECT_LE(last - now, 0.01 / kContactFade_s + 1e-6) << "a jump at " << t;
     last = now;
   }
+  push_at(1 + kContactStale_s + kContactFade_s / 2);
+  EXPECT_NEAR(book_.loads(0)[0].gain, 0.5, 1e-9) << "models are told";
   EXPECT_EQ(push_at(1 + kContactStale_s + kContactFade_s), 0);
   book_.take(contact_on(0, {3}, {kPush}), 2 * kNs_per_s);
   EXPECT_DOUBLE_EQ(push_at(2), 1);

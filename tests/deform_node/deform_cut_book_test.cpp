@@ -18,7 +18,6 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 constexpr double kSample_s = 0.004;
-const Vec3 kPush(0, 0, -1);
 
 msg::Edge edge_at(double x_m) {
   return {.begin = {.x = x_m, .y = 0, .z = 0}, .end = {.x = x_m, .y = 0.01, .z = 0}};
@@ -193,7 +192,7 @@ TEST_F(CutBookTest, ItTakesNoMemory) {
 class CutVersionsTest : public CutBookTest {
  protected:
   double push_with(std::uint64_t version) {
-    msg::Contact contact = contact_on(0, {1}, {kPush});
+    msg::Contact contact = contact_on(0, {1}, {Vec3(0, 0, -1)});
     contact.seq = ++seq_;
     contact.topology_version = version;
     take(contact);

@@ -126,7 +126,9 @@ TEST_F(CutJournalTest, WhatIsNoJournalAtAllIsRefused) {
 }
 
 TEST_F(CutJournalTest, WhatStrangersWroteIsQuotedInPart) {
-  const JournalContents contents = read_with("5ce9e", std::string(100'000, 'x') + "\\n");
+  std::string hash(100'000, 'x');
+  hash += "\\n";
+  const JournalContents contents = read_with("5ce9e", hash);
   expect_whole(contents);
   EXPECT_LT(contents.flaw.size(), 400u);
 }

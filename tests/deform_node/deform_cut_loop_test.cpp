@@ -3,6 +3,7 @@
 
 #include "files/whole_file.h"
 #include "geometry/mesh_editor.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/block_scene.h"
 #include "tests/support/fake_bus.h"
 #include "tests/support/process.h"
@@ -17,8 +18,6 @@ namespace {
 
 using ::testing::Each;
 using ::testing::HasSubstr;
-
-constexpr double kRate_hz = 100;
 
 class CutLoopTest : public testing::Test {
  protected:
@@ -69,6 +68,17 @@ class CutLoopTest : public testing::Test {
   std::unique_ptr<test::StagedLoop<DeformLoop>> node_;
   std::uint64_t seq_ = 0, orders_ = 0;
 };
+
+TEST_F(CutLoopTest, TimeThatAStallTookIsLivedThroughAfterwards) {
+  const auto steps_with = [&](double stall_s) {
+    start();
+    node_->pace().stall(static_cast<std::int64_t>(1e9 * stall_s));
+    node_->pass(0.5 - stall_s);
+    EXPECT_EQ(node_->end(), "");
+    return node_->loop().report()["steps"].get<int>();
+  };
+  EXPECT_NEAR(steps_with(0.06), steps_with(0), 1);
+}
 
 TEST_F(CutLoopTest, AStrokeBecomesATopologyAndAStateThatNumbersBaredNodes) {
   EXPECT_EQ(bus_.newest<msg::OrganState>()->node_count, organ_.surface.node.size());

@@ -1,5 +1,6 @@
 #include "deform_node/cut_queue.h"
 
+#include "tests/deform_node/rates.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
 
@@ -10,7 +11,6 @@ namespace {
 
 using geometry::TetId;
 
-constexpr double kTick_s = 0.01;
 constexpr double kPlenty = 1e6;  // tetrahedra a second: no bound
 
 class CutQueueTest : public testing::Test {

@@ -1,6 +1,7 @@
 #include "deform_node/dynamic_maker.h"
 
 #include "deform_node/model_table.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/meshes.h"
 
 #include <gmock/gmock.h>
@@ -14,8 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr double kTick_s = 0.01;
-constexpr double kLength_m = 0.12;
+constexpr double kBeam_m = 0.12;
 
 // the last one has explicit integrators only
 constexpr std::array kDynamic{"tensor-mass", "corotational", "spring-mass"};
@@ -26,7 +26,7 @@ class DynamicMakerTest : public testing::Test {
  protected:
   DynamicMakerTest() {
     organ::Organ& organ = source_.organ;
-    organ.mesh = test::make_box_mesh(6, 2, 2, Vec3(kLength_m, 0.04, 0.04));
+    organ.mesh = test::make_box_mesh(6, 2, 2, Vec3(kBeam_m, 0.04, 0.04));
     organ.material = physics::Material{.young_pa = 20000, .poisson = 0.3, .density_kg_m3 = 1000};
     for (const Vec3& x : organ.mesh.positions) organ.fixed.push_back(x.x() < 1e-9 ? physics::kPinned : 0);
     organ.surface = geometry::extract_surface(organ.mesh, physics::pinned_nodes(organ.fixed));
@@ -90,8 +90,8 @@ TEST_F(DynamicMakerTest, ACorotationalBeamHangsDownAndComesToRest) {
   const auto turning = make("corotational", "implicit"), linear = make("tensor-mass", "implicit");
   pass(*turning, 10);
   pass(*linear, 10);
-  EXPECT_GT(sag(*turning), 0.5 * kLength_m);
-  EXPECT_LT(sag(*turning), 1.3 * kLength_m);
+  EXPECT_GT(sag(*turning), 0.5 * kBeam_m);
+  EXPECT_LT(sag(*turning), 1.3 * kBeam_m);
   EXPECT_GT(sag(*linear), sag(*turning));
   const double at_rest = sag(*turning);
   pass(*turning, 0.5);

@@ -22,6 +22,7 @@ class Exploding final : public BodyStepper {
   void restore(std::span<const geometry::TetId>) noexcept override {}
   void compliance(std::span<const NodeId>, std::span<float>) noexcept override {}
   void foresee(const physics::BodyState&, std::span<const double>, std::span<double>) noexcept override {}
+  void yield_to(std::span<const double>, std::span<double>) noexcept override {}
 
  private:
   bool also_shorter_;

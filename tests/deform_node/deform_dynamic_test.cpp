@@ -52,6 +52,33 @@ TEST_F(DynamicModelTest, UnderAPressItComesToTheDirectSolution) {
     }
 }
 
+// Or what fades would be made up for, up to twice its force, and the organ stay as deep.
+TEST_F(DynamicModelTest, APressWhoseHandIsSilentIsLetGoOfAsItFades) {
+  DynamicModel model(parts());
+  const std::array<NodeId, 1> nodes{nearest({kLength_m, kThick_m / 2, kThick_m})};
+  std::array<Vec3, 1> place{Vec3(0, 0, -0.004)}, force{Vec3(0, 0, -0.1)};
+  ToolLoad load{.tool = 0, .nodes = nodes, .displacements = place, .forces = force};
+  pass(model, 5, {.presses = {&load, 1}, .cuts = {}});
+  // as the hand finds it
+  LocalPatch patch(model.sizes().local_nodes);
+  ASSERT_TRUE(model.local_model({0, mesh_.positions[nodes[0]] + place[0], 0.03}, patch));
+  for (std::size_t i = 0; i < patch.node_count; ++i)
+    if (NodeId(static_cast<std::size_t>(patch.nodes[i])) == nodes[0]) force[0] = patch.forces[i];
+  const double pressed = shown(model, nodes[0]).z();
+  EXPECT_NEAR(pressed, -0.004, 1e-6);
+  const Vec3 whole = force[0];
+  double last = pressed;
+  for (double gain : {0.8, 0.6, 0.4, 0.2}) {
+    load.gain = gain;
+    force[0] = gain * whole;
+    pass(model, 5, {.presses = {&load, 1}, .cuts = {}});
+    const double now = shown(model, nodes[0]).z();
+    EXPECT_GE(now, last - 1e-6);
+    EXPECT_NEAR(now / pressed, std::min(1.0, 2 * gain * gain), 0.01) << gain;
+    last = now;
+  }
+}
+
 TEST_F(DynamicModelTest, ItSagsUnderItsWeight) {
   DynamicParts heavy = parts();
   heavy.gravity_m_s2 = Vec3(0, 0, -9.81);

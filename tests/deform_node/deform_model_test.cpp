@@ -23,7 +23,8 @@ class QuasiStaticModelTest : public ::testing::Test {
  protected:
   physics::SurfaceCompliance compliance_ = random_compliance(kMobile, 11);
   const geometry::Surface surface_ = deform_test::odd_surface(kSurfaceNodes);
-  QuasiStaticModel model_{compliance_, surface_};
+  const std::vector<Vec3> rest_{std::size_t{kSurfaceNodes}, Vec3::Zero()};
+  QuasiStaticModel model_{compliance_, surface_, rest_};
   runtime::FaultList faults_;
   ContactBook book_{
       {odd_numbers(kSurfaceNodes, kSurfaceNodes - kMobile)}, {.tools = 3, .max_force_n = 10}, faults_};
@@ -73,6 +74,28 @@ TEST_F(QuasiStaticModelTest, ReleaseAndResetBringTheOrganBackToRest) {
   book_.advance(kNs_per_s + static_cast<std::int64_t>((kContactStale_s + kContactFade_s) * kNs_per_s));
   model_.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
   EXPECT_EQ(largest(), 0) << "haptic_node fell silent";
+}
+
+TEST_F(QuasiStaticModelTest, ItsSpheresFollowTheSurfaceAboveThemAndDoNotYield) {
+  geometry::Surface surface = surface_;
+  surface.triangles = {{SurfaceId(3), SurfaceId(17), SurfaceId(50)}};
+  const Vec3 rest(1, 2, 3), place(0.5, 0.25, 0.25);
+  const geometry::CoverSphere sphere{
+      .centre = rest, .radius_m = 0.5, .below = geometry::TriangleId(0), .place = place};
+  QuasiStaticModel model(compliance_, surface, rest_, {.spheres = {sphere}, .spacing_m = 0.5});
+  EXPECT_EQ(model.sizes().spheres, 1u);
+  press();
+  model_.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
+  model.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
+  const Vec3 u = place[0] * displacement(3) + place[1] * displacement(17) + place[2] * displacement(50);
+  EXPECT_LT((model.collidable()[0].centre - rest - u).norm(), 1e-12);
+  EXPECT_LT((model.collidable()[0].velocity - u / 0.01).norm(), 1e-9);
+  EXPECT_TRUE(std::isinf(model.collidable()[0].mass_kg));
+  model.step({.presses = book_.loads(0), .cuts = {}}, 0.01);
+  EXPECT_LT(model.collidable()[0].velocity.norm(), 1e-9) << "it holds still";
+  model.reset();
+  EXPECT_EQ(model.collidable()[0].centre, rest);
+  EXPECT_EQ(model.collidable()[0].velocity, Vec3::Zero()) << "a reset throws nothing";
 }
 
 TEST_F(QuasiStaticModelTest, StepTakesNoMemory) {

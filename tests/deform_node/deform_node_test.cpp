@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 
@@ -46,6 +47,10 @@ class Bench {
 
   void send(const msg::Contact& contact) { contacts_->write(contact); }
   void send(const msg::SceneInfo& scene) { other_scenes_->write(scene); }
+  std::unique_ptr<transport::Reader<msg::OrganStress>> read_stress(
+      std::function<void(const msg::OrganStress&)> take) {
+    return bus_->reader<msg::OrganStress>(std::move(take));
+  }
 
   /// Sends the contact, as often as haptic_node might, until a state with its echo comes back.
   std::optional<msg::OrganState> answer_to(const msg::Contact& contact) {
@@ -126,6 +131,28 @@ TEST_P(DeformNodeTest, LateJoinerLearnsTheSceneAndTheTopology) {
   EXPECT_EQ(bench_.topology()->version, 0U);
   EXPECT_EQ(bench_.topology()->tetrahedron_count, organ_.mesh.tetrahedra.size());
   EXPECT_EQ(bench_.status()->kind, msg::NODE_DEFORM);
+}
+
+TEST_P(DeformNodeTest, StressIsMeasuredWhileAReaderIsThereAlone) {
+  ASSERT_TRUE(bench_.answer_to(push(organ_, 1)));
+  std::atomic<int> heard = 0;
+  std::atomic<std::size_t> nodes = 0;
+  for (int join = 0; join < 2; ++join) {
+    const int before = heard;
+    const auto reader = bench_.read_stress([&](const msg::OrganStress& stress) {
+      nodes = stress.strains.size();
+      ++heard;
+    });
+    EXPECT_TRUE(test::comes_true([&] { return heard - before >= 5; })) << "join " << join;
+  }
+  EXPECT_EQ(nodes, static_cast<std::size_t>(organ_.surface.node_count()));
+  // a reader that left is noticed, and from then on nothing is measured
+  const std::uint64_t seq = bench_.state()->seq;
+  EXPECT_TRUE(test::comes_true([&] { return bench_.state()->seq > seq + 300; }));
+  EXPECT_EQ(bench_.node().terminate(), 0) << bench_.node().messages();
+  const auto report = nlohmann::json::parse(test::read_text(block_.report()));
+  EXPECT_GE(report["stress_states"], heard.load());
+  EXPECT_LT(report["stress_states"], report["states"].get<int>() - 200);
 }
 
 TEST_P(DeformNodeTest, ASceneWithAnotherOrganIsNotJoined) {

@@ -3,6 +3,7 @@
 #include "organ/build_organ.h"
 #include "tests/deform_node/deform_fixtures.h"
 #include "tests/deform_node/deform_toy.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
@@ -20,7 +21,6 @@ using deform_test::HangingMass;
 using deform_test::kNs_per_s;
 using ::testing::HasSubstr;
 
-constexpr double kTick_s = 0.01;
 // Brings a mass 0.495 m far in a tick, of which its damping takes a fifth.
 constexpr double kMeeting_m_s =
     0.495 / kTick_s / (1 - HangingMass::kDamping_n_s_m * kTick_s / HangingMass::kMass_kg);
@@ -182,9 +182,8 @@ TEST_F(OrganGroupTest, OrgansThatMeetPushEachOtherApart) {
   mass(0).push(Vec3(kMeeting_m_s, 0, 0));
   mass(1).push(Vec3(-kMeeting_m_s, 0, 0));
   group_.step(book_, kTick_s);
-  EXPECT_NEAR((mass(1).position() - mass(0).position()).norm(), 2 * HangingMass::kRadius_m, 1e-12);
   EXPECT_LE((mass(0).velocity() + mass(1).velocity()).norm(), 1e-9) << "momentum is kept";
-  EXPECT_GE((mass(1).velocity() - mass(0).velocity()).x(), -1e-9) << "and they go on no farther";
+  EXPECT_GT((mass(1).velocity() - mass(0).velocity()).x(), 0) << "and they part";
 }
 
 TEST_F(OrganGroupTest, ResetBringsAllToRestAndKeepsTheCounts) {
@@ -193,6 +192,28 @@ TEST_F(OrganGroupTest, ResetBringsAllToRestAndKeepsTheCounts) {
   group_.reset(book_);
   EXPECT_EQ(mass(0).position(), Vec3::Zero());
   EXPECT_EQ(group_.steps(), 2u);
+}
+
+TEST(OrganGroup, ARunAfterAResetIsTheSameRunAlsoWhereOrgansTouch) {
+  std::vector<ServedOrgan> organs;
+  organs.push_back(deform_test::hanging_organ("left"));
+  organs.push_back(deform_test::hanging_organ("right", Vec3(1.5 * HangingMass::kRadius_m, 0, 0)));
+  runtime::FaultList faults;
+  OrganGroup group(std::move(organs), faults);
+  const OrganNumbers numbers = deform_test::odd_numbers(1, 0);
+  ContactBook book({numbers, numbers}, {.tools = 1, .max_force_n = 10}, faults);
+  const auto run = [&] {
+    std::vector<Vec3> seen;
+    for (int tick = 0; tick < 20; ++tick) {
+      group.step(book, kTick_s);
+      seen.push_back(static_cast<HangingMass&>(*group.organs()[1].model).velocity());
+    }
+    return seen;
+  };
+  const std::vector<Vec3> first = run();
+  EXPECT_GT(first[0].x(), 0) << "they touch";
+  group.reset(book);
+  EXPECT_EQ(run(), first);
 }
 
 TEST_F(OrganGroupTest, AStepTakesNoMemoryAlsoWhereOrgansMeetAndFail) {

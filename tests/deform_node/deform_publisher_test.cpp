@@ -3,6 +3,7 @@
 #include "node_common/loaded_scene.h"
 
 #include "tests/deform_node/deform_toy.h"
+#include "tests/deform_node/rates.h"
 #include "tests/deform_node/written_messages.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/process.h"
@@ -19,8 +20,7 @@ using deform_test::WrittenMessages;
 using ::testing::ElementsAre;
 
 constexpr std::int32_t kManyNodes = 1000;  // to a block
-constexpr double kTick_s = 0.01;
-constexpr std::size_t kMostNodes = 24;
+constexpr std::size_t kPatchNodes = 24;
 
 class PublisherTest : public ::testing::Test {
  protected:
@@ -208,7 +208,7 @@ TEST_F(LocalPublisherTest, LargerModelsThanTheProfileCarriesAreRefusedAtTheStart
 
 TEST_F(LocalPublisherTest, AroundAToolLeavesWhatTheModelOffers) {
   ASSERT_TRUE(offers_local_models(organs_));
-  LocalPublisher publisher(models_, organs_, kMostNodes, runtime::on_own_thread);
+  LocalPublisher publisher(models_, organs_, kPatchNodes, runtime::on_own_thread);
   mass().push(Vec3(0, 0, 0.1));
   mass().step({}, kTick_s);
   offer(publisher, Vec3::Zero(), 77);
@@ -225,7 +225,7 @@ TEST_F(LocalPublisherTest, AroundAToolLeavesWhatTheModelOffers) {
 
 TEST_F(LocalPublisherTest, WithoutAToolNearNothingLeaves) {
   {
-    LocalPublisher publisher(models_, organs_, kMostNodes, runtime::on_own_thread);
+    LocalPublisher publisher(models_, organs_, kPatchNodes, runtime::on_own_thread);
     publisher.offer({}, {}, 1);
     offer(publisher, Vec3(1, 0, 0), 2);
   }
@@ -234,7 +234,7 @@ TEST_F(LocalPublisherTest, WithoutAToolNearNothingLeaves) {
 
 TEST_F(LocalPublisherTest, AStuckStateDelaysNoLocalModel) {
   StatePublisher states = make_publisher();
-  LocalPublisher locals(models_, organs_, kMostNodes, runtime::on_own_thread);
+  LocalPublisher locals(models_, organs_, kPatchNodes, runtime::on_own_thread);
   states_.get_stuck();
   publish(states, 1);
   states_.await_begun(1);
@@ -247,7 +247,7 @@ TEST_F(LocalPublisherTest, AStuckStateDelaysNoLocalModel) {
 }
 
 TEST_F(LocalPublisherTest, OfferingTakesNoMemory) {
-  LocalPublisher publisher(models_, organs_, kMostNodes, runtime::on_own_thread);
+  LocalPublisher publisher(models_, organs_, kPatchNodes, runtime::on_own_thread);
   const std::size_t before = test::heap_allocations();
   for (int i = 0; i < 50; ++i) offer(publisher, Vec3::Zero(), i);
   EXPECT_EQ(test::heap_allocations(), before);

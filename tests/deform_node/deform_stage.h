@@ -4,6 +4,7 @@
 #include "deform_node/deform_loop.h"
 
 #include "tests/deform_node/deform_push.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/block_scene.h"
 #include "tests/support/fake_bus.h"
 #include "tests/support/staged_loop.h"
@@ -12,7 +13,7 @@
 
 namespace omentum::deform_test {
 
-inline constexpr double kRate_hz = 100;
+using deform::kRate_hz;
 inline constexpr double kListens_s = 1;
 inline constexpr double kSettled_s = 5.5;  // half a second more than node::kSettled_s
 

@@ -1,12 +1,13 @@
 #include "deform_node/standby.h"
 
+#include "tests/deform_node/rates.h"
+
 #include <gtest/gtest.h>
 
 namespace omentum::deform {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 100'000'000;  // of a serving node's statuses
-constexpr double kRate_hz = 100;
 
 /// A deform_node's life in turns of one status: what it tells, what it hears.
 struct Node {

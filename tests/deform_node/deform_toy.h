@@ -69,11 +69,7 @@ class HangingMass final : public deform::OrganModel {
   }
   std::span<const CollisionSphere> collidable() const noexcept override { return {&sphere_, 1}; }
   void respond(std::span<const OrganContact> contacts) noexcept override {
-    for (const OrganContact& met : contacts) {
-      offset_ += met.share * met.depth_m * met.normal;
-      const double closing = (velocity_ - met.velocity).dot(met.normal);
-      if (closing < 0) velocity_ -= met.share * closing * met.normal;
-    }
+    for (const OrganContact& met : contacts) velocity_ += answer(met, sphere_.velocity);
     show();
   }
 

@@ -2,6 +2,7 @@
 #include "deform_node/deform_loop.h"
 
 #include "tests/deform_node/deform_toy.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/block_scene.h"
 #include "tests/support/fake_bus.h"
 #include "tests/support/staged_loop.h"
@@ -12,7 +13,6 @@
 namespace omentum::deform {
 namespace {
 
-constexpr double kRate_hz = 100;
 // where the scene says "quasi-static"
 constexpr std::array kModels{
     ModelEntry{"quasi-static", organ::Load::kMeshOnly, deform_test::make_hanging_mass}};

@@ -4,6 +4,7 @@
 #include "deform_node/dynamic_model.h"
 
 #include "geometry/surface.h"
+#include "tests/deform_node/rates.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,6 @@
 
 namespace omentum::deform {
 
-inline constexpr double kTick_s = 0.01;
 inline constexpr double kLength_m = 0.12, kThick_m = 0.04;
 inline constexpr physics::Material kTissue{.young_pa = 20000, .poisson = 0.4, .density_kg_m3 = 1000};
 

@@ -1,5 +1,7 @@
 #include "device_bridge/answer_gate.h"
 
+#include "tests/support/milliseconds.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -7,16 +9,18 @@
 namespace omentum::device {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000, kBegin_ns = 1'000'000 * kMs;
+using test::kMs;
+
+constexpr std::int64_t kFirst_ns = 1'000'000 * kMs;
 constexpr auto kOldest_ns = static_cast<std::int64_t>(1e9 * AnswerGate::kOldestPose_s);
 
-// A device that has sent a pose a millisecond; pose n is stamped kBegin_ns + n ms.
+// A device that has sent a pose a millisecond; pose n is stamped kFirst_ns + n ms.
 struct AnswerGateTest : ::testing::Test {
   static constexpr std::uint64_t kSent = 1000;
   AnswerGateTest() {
     for (std::uint64_t seq = 1; seq <= kSent; ++seq) gate.sent(seq, stamp_ns(seq));
   }
-  static std::int64_t stamp_ns(std::uint64_t seq) { return kBegin_ns + static_cast<std::int64_t>(seq) * kMs; }
+  static std::int64_t stamp_ns(std::uint64_t seq) { return kFirst_ns + static_cast<std::int64_t>(seq) * kMs; }
 
   AnswerVerdict judge(std::uint64_t seq, std::uint64_t echo_seq, std::int64_t echo_stamp_ns,
                       std::int64_t now_ns) {
@@ -57,7 +61,7 @@ TEST_F(AnswerGateTest, RefusesAnswersToAnotherDevicesPoses) {
 TEST_F(AnswerGateTest, RefusesWhatWasKeptBackAndWhatAnEarlierRunSent) {
   EXPECT_EQ(judge(1, kSent, stamp_ns(kSent), stamp_ns(kSent) + kOldest_ns), AnswerVerdict::kAccepted);
   EXPECT_EQ(judge(2, kSent, stamp_ns(kSent), stamp_ns(kSent) + kOldest_ns + 1), AnswerVerdict::kLate);
-  EXPECT_EQ(judge(3, kSent, kBegin_ns - 1000 * kMs, stamp_ns(kSent)), AnswerVerdict::kLate);
+  EXPECT_EQ(judge(3, kSent, kFirst_ns - 1000 * kMs, stamp_ns(kSent)), AnswerVerdict::kLate);
   EXPECT_EQ(judge(4, 0, std::numeric_limits<std::int64_t>::min(), stamp_ns(kSent)), AnswerVerdict::kLate);
   EXPECT_EQ(gate.counts().late, 3u);
 }
@@ -81,7 +85,7 @@ TEST_F(AnswerGateTest, GapsInTheAnswersAreLostFromTheFirstOneOn) {
 
 TEST_F(AnswerGateTest, WhatAnotherDeviceCausedIsNotLost) {
   prompt(5, 995);
-  judge(6, 3, kBegin_ns + 1, stamp_ns(996));
+  judge(6, 3, kFirst_ns + 1, stamp_ns(996));
   judge(7, kSent, stamp_ns(kSent) + 1, stamp_ns(kSent));
   prompt(8, 998);
   EXPECT_EQ(gate.counts().lost, 0u);
@@ -110,7 +114,7 @@ TEST_F(AnswerGateTest, ANodeThatWasRestartedIsObeyedAndNoLoss) {
 
 TEST(AnswerGate, BeforeTheFirstPoseNothingIsAccepted) {
   AnswerGate gate;
-  for (const std::int64_t now_ns : {std::int64_t{0}, kMs, kBegin_ns}) {
+  for (const std::int64_t now_ns : {std::int64_t{0}, kMs, kFirst_ns}) {
     msg::ToolForce answer;
     answer.seq = static_cast<std::uint64_t>(now_ns) + 1;
     EXPECT_NE(gate.judge(answer, now_ns), AnswerVerdict::kAccepted);

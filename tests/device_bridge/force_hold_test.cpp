@@ -1,5 +1,7 @@
 #include "device_bridge/force_hold.h"
 
+#include "tests/support/milliseconds.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,7 @@ namespace omentum::device {
 namespace {
 
 constexpr double kMaxForce_n = 10, kMaxTorque_nm = 0.5;
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 
 msg::ToolForce answer(const Vec3& force, double valid_for_s = 0.005) {
   msg::ToolForce answer;

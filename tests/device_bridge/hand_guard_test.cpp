@@ -1,5 +1,7 @@
 #include "device_bridge/hand_guard.h"
 
+#include "tests/support/milliseconds.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +12,8 @@ namespace {
 
 using node::EnergyTank;
 
-constexpr double kMaxForce_n = 10, kMaxTorque_nm = 0.5;
-constexpr std::int64_t kMs = 1'000'000;
+constexpr double kGuardedForce_n = 10, kGuardedTorque_nm = 0.5;
+using test::kMs;
 constexpr double kRounding = 1e-9;
 
 Wrench force_z(double newton) {
@@ -23,7 +25,7 @@ Wrench force_z(double newton) {
 // A guard, the hand that it guards, and what that hand received.
 struct GuardBench {
   explicit GuardBench(bool is_simulated = false, std::uint32_t axes = 0)
-      : guard(kMaxForce_n, kMaxTorque_nm, axes), simulated(is_simulated) {}
+      : guard(kGuardedForce_n, kGuardedTorque_nm, axes), simulated(is_simulated) {}
 
   // `ms` later: what is exerted of what is asked, and the hand is measured at `tip`
   Vec3 tick(const Wrench& asked, const Vec3& tip, std::int64_t ms = 1, bool usable = true) {

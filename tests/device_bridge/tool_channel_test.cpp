@@ -2,6 +2,7 @@
 
 #include "device_bridge/virtual_hand.h"
 #include "tests/support/heap_count.h"
+#include "tests/support/milliseconds.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@
 namespace omentum::device {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 
 // A device whose measurement the test sets and whose command it sees.
 struct FakeDevice : Device {

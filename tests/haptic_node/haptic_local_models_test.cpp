@@ -238,6 +238,25 @@ TEST_F(LocalModelsTest, AnOlderVersionAnOldSampleAndAStrangersAreDroppedAndCount
   EXPECT_EQ(counted(*node)["dropped"], 4);
 }
 
+// Models leave one by one: when one tool's names the newest cut already, another tool's need not yet.
+TEST_F(LocalModelsTest, AnotherToolsNewerVersionMakesNoModelOld) {
+  const auto node = serving();
+  std::uint64_t of_other = 0;
+  for (int i = 0; i < 400; ++i) {
+    if (i % kTicksPerModel == 0) {
+      msg::LocalModel other = model_at(kAbove);
+      other.patch = 3;
+      other.seq = ++of_other;
+      other.topology_version = std::numeric_limits<std::uint64_t>::max();
+      bus_.post(other);
+    }
+    hold_with_models(*node, kAbove + (kPressed - kAbove) * std::min(i, 90) / 90, 1);
+  }
+  EXPECT_GT(newton(*bus_.newest<msg::ToolForce>()), 0.1);
+  EXPECT_THAT(faults(), IsEmpty());
+  EXPECT_EQ(counted(*node)["dropped"], 0);
+}
+
 // Between one and two of an organ's diagonals a loose piece still falls.
 TEST_F(LocalModelsTest, APieceOnItsWayDownIsAModel) {
   Eigen::AlignedBox3d box;

@@ -10,8 +10,8 @@ namespace {
 using Displacements = std::array<Vec3, 4>;
 
 // lambda and mu far apart, so that a transposed tensor shows.
-const Material kMaterial{4000, 0.4, 1000};
-constexpr double kRounding = 1e-12;  // relative: a few dozen operations on numbers of one size
+const Material kStiffTissue{4000, 0.4, 1000};
+constexpr double kTensorRounding = 1e-12;  // relative: a few dozen operations on numbers of one size
 
 Corners random_corners(unsigned seed) {
   std::mt19937 generator(seed);
@@ -33,8 +33,8 @@ double energy(const Corners& c, const Displacements& u) {
   const Eigen::Matrix3d gradient = moved * edges.inverse();
   const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
   const double volume = edges.determinant() / 6;
-  return volume *
-         (kMaterial.lambda() / 2 * strain.trace() * strain.trace() + kMaterial.mu() * strain.squaredNorm());
+  return volume * (kStiffTissue.lambda() / 2 * strain.trace() * strain.trace() +
+                   kStiffTissue.mu() * strain.squaredNorm());
 }
 
 Eigen::Matrix<double, 12, 12> as_matrix(const ElementTensors& tensors) {
@@ -61,7 +61,7 @@ Displacements sum(const Displacements& a, const Displacements& b) {
 class ElementTensorsTest : public testing::TestWithParam<unsigned> {
  protected:
   const Corners corners = random_corners(GetParam());
-  const Eigen::Matrix<double, 12, 12> K = as_matrix(element_tensors(corners, kMaterial));
+  const Eigen::Matrix<double, 12, 12> K = as_matrix(element_tensors(corners, kStiffTissue));
 
   double largest_force(const Displacements& u) const {
     Eigen::Matrix<double, 12, 1> all;
@@ -78,31 +78,31 @@ TEST_P(ElementTensorsTest, AreHessianOfEnergy) {
     for (int b = 0; b < 12; ++b) {
       const Displacements ua = unit_displacement(a), ub = unit_displacement(b);
       const double hessian = energy(corners, sum(ua, ub)) - energy(corners, ua) - energy(corners, ub);
-      EXPECT_NEAR(K(a, b), hessian, 100 * kRounding * K.norm()) << a << ", " << b;
+      EXPECT_NEAR(K(a, b), hessian, 100 * kTensorRounding * K.norm()) << a << ", " << b;
     }
   }
 }
 
 TEST_P(ElementTensorsTest, AreSymmetric) {
-  EXPECT_LE((K - K.transpose()).norm(), kRounding * K.norm());
+  EXPECT_LE((K - K.transpose()).norm(), kTensorRounding * K.norm());
 }
 
 TEST_P(ElementTensorsTest, TranslationGivesZeroForce) {
   Displacements u;
   u.fill(Vec3(0.3, -0.2, 0.5));
-  EXPECT_LE(largest_force(u), kRounding * K.norm());
+  EXPECT_LE(largest_force(u), kTensorRounding * K.norm());
 }
 
 TEST_P(ElementTensorsTest, InfinitesimalRotationGivesZeroForce) {
   const Vec3 axis(0.4, -0.7, 0.2);
   Displacements u;
   for (int j = 0; j < 4; ++j) u[j] = axis.cross(corners[j]);
-  EXPECT_LE(largest_force(u), kRounding * K.norm());
+  EXPECT_LE(largest_force(u), kTensorRounding * K.norm());
 }
 
 TEST_P(ElementTensorsTest, AreaNormalsPointOutwardAndSumToZero) {
   const std::array<Vec3, 4> M = area_normals(corners);
-  EXPECT_LE((M[0] + M[1] + M[2] + M[3]).norm(), kRounding * M[0].norm());
+  EXPECT_LE((M[0] + M[1] + M[2] + M[3]).norm(), kTensorRounding * M[0].norm());
   for (int j = 0; j < 4; ++j) {
     EXPECT_LT(M[j].dot(corners[j] - corners[(j + 1) % 4]), 0)
         << "corner " << j << " lies outside its opposite face";

@@ -7,7 +7,7 @@
 namespace omentum::physics {
 namespace {
 
-constexpr double kRounding = 1e-9;  // relative, of what clear_obstacle calls zero
+constexpr double kZero = 1e-9;  // relative, of what clear_obstacle calls zero
 
 Eigen::MatrixXd random_compliance(Eigen::Index n, unsigned seed) {
   std::mt19937 generator(seed);
@@ -26,7 +26,7 @@ TEST(ObstacleTest, ItPushesOnlyAndOnlyWhereItTouches) {
     const auto p = clear_obstacle(A, g);
     ASSERT_TRUE(p) << seed;
     const Eigen::VectorXd gap = A * *p - g;
-    const double force = kRounding * p->cwiseAbs().maxCoeff(), way = kRounding * g.cwiseAbs().maxCoeff();
+    const double force = kZero * p->cwiseAbs().maxCoeff(), way = kZero * g.cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < n; ++i) {
       EXPECT_GE((*p)[i], -force);
       EXPECT_GE(gap[i], -way);

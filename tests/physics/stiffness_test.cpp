@@ -10,7 +10,7 @@ namespace omentum::physics {
 namespace {
 
 const Material kMaterial{5000, 0.3, 1000};
-constexpr double kRounding = 1e-12;  // relative: sums of a few dozen tensors
+constexpr double kSumRounding = 1e-12;  // relative: sums of a few dozen tensors
 
 class StiffnessTest : public testing::Test {
  protected:
@@ -33,7 +33,7 @@ TEST_F(StiffnessTest, HoldingForcesAreSumOfElementForces) {
   const std::vector<Vec3> forces = holding_forces(K, u);
 
   for (std::size_t n = 0; n < forces.size(); ++n) {
-    EXPECT_LE((forces[n] - expected[n]).norm(), kRounding * kMaterial.young_pa * 1e-3) << n;
+    EXPECT_LE((forces[n] - expected[n]).norm(), kSumRounding * kMaterial.young_pa * 1e-3) << n;
   }
 }
 
@@ -43,7 +43,7 @@ TEST_F(StiffnessTest, BlocksAreSymmetricAcrossDiagonal) {
       const std::int32_t k = K.neighbour[b];
       std::int32_t mirror = K.start[k];
       while (K.neighbour[mirror] != n) ++mirror;
-      EXPECT_LE((K.block[b] - K.block[mirror].transpose()).norm(), kRounding * K.block[b].norm());
+      EXPECT_LE((K.block[b] - K.block[mirror].transpose()).norm(), kSumRounding * K.block[b].norm());
     }
   }
 }
@@ -53,7 +53,7 @@ TEST_F(StiffnessTest, BodyForcesSumToWeight) {
   Vec3 total = Vec3::Zero();
   for (const Vec3& f : body_forces(mesh, kMaterial, gravity)) total += f;
   const Vec3 weight = kMaterial.density_kg_m3 * 0.03 * 0.02 * 0.05 * gravity;
-  EXPECT_LE((total - weight).norm(), kRounding * weight.norm());
+  EXPECT_LE((total - weight).norm(), kSumRounding * weight.norm());
 }
 
 TEST_F(StiffnessTest, EachTetrahedronIsOfItsRegionsMaterial) {
@@ -72,7 +72,7 @@ TEST_F(StiffnessTest, EachTetrahedronIsOfItsRegionsMaterial) {
       const auto corner = std::ranges::find(tet, K.neighbour[b]);
       Eigen::Matrix3d expected = K.block[b];
       if (corner != tet.end()) expected += own[j][corner - tet.begin()] - common[j][corner - tet.begin()];
-      EXPECT_LE((mixed.block[b] - expected).norm(), kRounding * mixed.block[b].norm());
+      EXPECT_LE((mixed.block[b] - expected).norm(), kSumRounding * mixed.block[b].norm());
     }
   }
   Vec3 more = Vec3::Zero();

@@ -91,15 +91,12 @@ TEST_F(CutDrawing, HeatMakesItBrown) {
   EXPECT_LT(charred[0] / charred[1], 0.8 * raw[0] / raw[1]) << "less red";
 }
 
-TEST_F(CutDrawing, TheMapOfStrainIsLighterWhereTissueIsStretched) {
-  constexpr double kSlack = 0.2;  // of the length, in the right half of the box
-  const Cutter whole(shape_);
-  choices_.strain = true;
-  view_->map_strain(true);
-  const auto pulled = [](const Vec3& p) {
-    return Vec3(kSlack * std::max(0.0, p.x() - 0.5 * kBoxSide_m), 0, 0);
-  };
-  ASSERT_TRUE(view_->show(0, RemovedSet{}, whole.state(pulled)));
+TEST_F(CutDrawing, TheMapIsLighterWhereThereIsMore) {
+  constexpr float kMiddle = 0.67f;  // of the scale, in the right half of the box
+  choices_.map = TissueMap::kStrain;
+  std::vector<float> shares;
+  for (const Vec3& p : shape_.rest) shares.push_back(p.x() > 0.6 * kBoxSide_m ? kMiddle : 0);
+  ASSERT_TRUE(view_->show(0, RemovedSet{}, Cutter(shape_).rest(), shares));
   const Picture picture = draw();
   const Vec3 right{0.8 * kBoxSide_m, 0.5 * kBoxSide_m, kBoxSide_m};
   EXPECT_GT(colour(picture, right)[1], 1.5 * colour(picture, beside_)[1])

@@ -22,7 +22,7 @@ class Pyramid final : public OrganDrawing {
     outline_.area_m2 = 4 * kRadius * kRadius;
     mesh_.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   }
-  RestOutline rest_outline() const override { return outline_; }
+  Outline outline() const override { return outline_; }
   void deform(std::span<const float> values) override {
     mesh_.vertices.back().position = Vec3f(values[0], values[1], values[2]);
   }
@@ -30,7 +30,7 @@ class Pyramid final : public OrganDrawing {
   Material material() const override { return {{0, 1, 0}, 0, 1}; }
 
  private:
-  RestOutline outline_;
+  Outline outline_;
   MeshData mesh_;
 };
 

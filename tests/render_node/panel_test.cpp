@@ -173,6 +173,17 @@ TEST(OrganRow, LinearRangeIsThatOfTheLargestDisplacement) {
   EXPECT_TRUE((OrganRow{.moved_mm = 19, .limit_mm = 18}.beyond_linear()));
 }
 
+TEST(OrganRow, ALawThatTurnsWithTheTissueIsBeyondItsRangeByStrainAlone) {
+  OrganRow row{.moved_mm = 500, .limit_mm = 18, .trusted = scene::Trusted::kSmallStrains};
+  EXPECT_FALSE(row.beyond_linear());
+  EXPECT_FALSE(row.beyond_small_strains()) << "nobody knows";
+  row.strained = 0.3;
+  EXPECT_TRUE(row.beyond_small_strains());
+  row.trusted = scene::Trusted::kSmallDisplacements;
+  EXPECT_TRUE(row.beyond_linear());
+  EXPECT_FALSE(row.beyond_small_strains());
+}
+
 TEST(PanelShare, LeavesTheOrganInANarrowPicture) {
   EXPECT_NEAR(panel_share({960, 600}), (kPanelWidth + kPanelMargin) / 960, 1e-6);
   for (const int width : {64, 200, 480}) EXPECT_LE(panel_share({width, 300}), 0.4);
@@ -195,9 +206,9 @@ class PanelLayout : public testing::Test {
  protected:
   PanelContext context_;
 
-  float height_of(const PanelView& view) {
+  float height_of(const PanelView& view, int frames = 3) {
     PanelActions actions;
-    for (int frame = 0; frame < 3; ++frame) {  // the size settles in the second
+    for (int frame = 0; frame < frames; ++frame) {
       ImGui::GetIO().DisplaySize = {960, 600};
       ImGui::NewFrame();
       actions = lay_out_panel(view);
@@ -254,6 +265,21 @@ TEST_F(PanelLayout, FaultsAndButtonsTakeRoom) {
   EXPECT_GT(height_of(view), without);
 }
 
+TEST_F(PanelLayout, ATubeHasALengthAndNoDentAndAnExposedOrganItsShare) {
+  PanelView view = busy();
+  view.organs = {{.known = true, .name = "gut"}};
+  const float with_dent = height_of(view);
+  view.dents = false;
+  const float plain = height_of(view);
+  EXPECT_LT(plain, with_dent);
+  view.organs[0].length_mm = 3950;
+  const float with_length = height_of(view);
+  EXPECT_GT(with_length, plain);
+  view.exposed_organ = "a colon with a name that is far too long for one line of a panel";
+  view.exposed_share = 0.42;
+  EXPECT_GT(height_of(view), with_length);
+}
+
 TEST_F(PanelLayout, StaleOrganIsTold) {
   PanelView view = busy();
   const float told = height_of(view);
@@ -269,6 +295,51 @@ TEST_F(PanelLayout, CutsAndTheirTimeAreTold) {
   EXPECT_GT(cut, whole);
   view.real_time_factor = 1;
   EXPECT_GT(height_of(view), cut);
+}
+
+TEST_F(PanelLayout, NoLatencyIsTooLongForItsLine) {
+  PanelView view = busy();
+  for (double us = 1; us < 1e8; us *= 9.7) {
+    view.hand_to_force_us = view.hand_to_picture_us = us;
+    view.hand_to_force_p99_us = view.hand_to_picture_p99_us = 1.1 * us;
+    height_of(view);  // looks at every corner
+  }
+}
+
+TEST_F(PanelLayout, TheMapsScaleAndWhatIsNotToldTakeALineEach) {
+  PanelView view = busy();
+  const float tissue = height_of(view);
+  view.map = TissueMap::kStress;
+  view.full_stress_pa = 1800;
+  const float without = height_of(view);
+  EXPECT_GT(without, tissue);
+  view.organs[0].mapped = true;
+  EXPECT_LT(height_of(view), without);
+  const float unknown = height_of(view);
+  view.organs[0].stressed_pa = 420;
+  EXPECT_GT(height_of(view), unknown) << "the largest of it has a line of its own";
+  view.organs[0].trusted = scene::Trusted::kSmallStrains;
+  const float linear = height_of(view);
+  view.organs[0].strained = 0.4;
+  EXPECT_GT(height_of(view), linear);
+}
+
+TEST_F(PanelLayout, WhatIsNewIsInTheBoxAtOnceInTheFirstFrameToo) {
+  const auto corners = [] {
+    int count = 0;
+    for_each_corner([&](const ImDrawVert&) { ++count; });
+    return count;
+  };
+  PanelView view = busy();
+  view.faults.clear();
+  for (int change = 0; change < 2; ++change) {
+    const float at_once = height_of(view, 1);
+    const int drawn = corners();
+    EXPECT_EQ(at_once, height_of(view));
+    EXPECT_EQ(drawn, corners());
+    view.map = TissueMap::kStrain;
+    view.real_time_factor = 1;
+  }
 }
 
 TEST_F(PanelLayout, ALongSceneNameLeavesRoomForWhatStandsBesideIt) {

@@ -209,15 +209,113 @@ TEST_F(RenderLoopTest, DrawsACutOfTheOrganThatItLoaded) {
   EXPECT_EQ(close()["unmatched_states"], 0);
 }
 
-TEST_F(RenderLoopTest, TheMapOfStrainHasAButtonAndAKey) {
-  const auto map = Contains(Field(&DrawItem::look, Look::kStrain));
+/// A session in which deform_node tells what tissue is under.
+class MapTest : public RenderLoopTest {
+ protected:
+  /// deform_node's next state, and its values where somebody reads them.
+  void tell() {
+    ++seq_;
+    bus_.post(test::state_of(organ(), seq_, {0, 0, 0}));
+    if (is_read()) bus_.post(values(seq_));
+    frames(1);
+  }
+  msg::OrganStress values(std::uint64_t seq) const {
+    msg::OrganStress values{};
+    values.block_count = 1;
+    values.seq = seq;
+    values.node_count = static_cast<std::uint32_t>(organ().surface.node_count());
+    values.strains.assign(values.node_count, 0.15f);
+    values.stresses.assign(values.node_count, stress_pa_);
+    return values;
+  }
+  bool is_read() { return deform_writer_->status().matched > 0; }
+  const std::vector<DrawItem>& items() const { return renderer_.frames.back().items; }
+  /// The share of the organ's first vertex.
+  float share() const {
+    const auto organ = std::ranges::find(items(), Look::kMap, &DrawItem::look);
+    return organ == items().end() ? -1 : renderer_.mesh_of(*organ).vertices[0].share;
+  }
+
+  float stress_pa_ = 0;
+  const testing::Matcher<const std::vector<DrawItem>&> map_ = Contains(Field(&DrawItem::look, Look::kMap));
+
+ private:
+  std::uint64_t seq_ = 0;
+  std::unique_ptr<transport::Bus> deform_ = bus_.opener()();
+  std::unique_ptr<transport::Writer<msg::OrganStress>> deform_writer_ = deform_->writer<msg::OrganStress>();
+};
+
+TEST_F(MapTest, AKeyAndAButtonSwitchThroughStrainAndStressAndOff) {
+  stress_pa_ = static_cast<float>(0.25 * full_stress_pa(organ().material.common.young_pa));
+  start();
+  tell();
+  EXPECT_THAT(items(), testing::Not(map_));
+  EXPECT_FALSE(is_read()) << "nobody asked";
+  frame({.switch_map = true});
+  EXPECT_TRUE(is_read());
+  tell();
+  EXPECT_FLOAT_EQ(share(), 0.15f / kFullStrain);
+  click(kMapButton);
+  EXPECT_THAT(items(), testing::Not(map_)) << "strain is not stress";
+  tell();
+  EXPECT_FLOAT_EQ(share(), 0.25f);
+  frame({.switch_map = true});
+  EXPECT_FALSE(is_read());
+  tell();
+  EXPECT_THAT(items(), testing::Not(map_));
+}
+
+TEST_F(MapTest, WhoIsStartedWithAMapShowsItFromTheFirstValuesOn) {
+  options_.map = TissueMap::kStrain;
+  start();
+  tell();
+  EXPECT_THAT(items(), map_);
+}
+
+TEST_F(MapTest, AStateWaitsForItsValues) {
+  options_.map = TissueMap::kStrain;
+  start();
+  tell();
+  const int updates = renderer_.updates;
+  bus_.post(test::state_of(organ(), 100, {0, 0, 0.01}));
+  frames(1);
+  EXPECT_EQ(renderer_.updates, updates);
+  bus_.post(values(100));
+  frames(1);
+  EXPECT_GT(renderer_.updates, updates);
+}
+
+TEST_F(MapTest, ValuesOfAnotherOrganAreFaults) {
+  options_.map = TissueMap::kStrain;
+  start();
+  msg::OrganStress foreign = values(1);
+  foreign.organ = 7;
+  bus_.post(foreign);
+  foreign.organ = 0;
+  foreign.node_count = 1'000'000;
+  bus_.post(foreign);
+  EXPECT_THAT(faults(), SizeIs(2));
+}
+
+TEST_F(RenderLoopTest, ReportsHowFarTheScenesOrganIsExposed) {
+  options_.node.scene = block().scene_with("[[tools]]", "[score]\nexposed_organ = \"block\"\n[[tools]]");
   start();
   frames(1);
-  EXPECT_THAT(renderer_.frames.back().items, testing::Not(map));
-  click("strain (key S)");
-  EXPECT_THAT(renderer_.frames.back().items, map);
-  frame({.switch_strain = true});
-  EXPECT_THAT(renderer_.frames.back().items, testing::Not(map));
+  EXPECT_EQ(close()["exposed_share"], (nlohmann::json{{"first", 1.0}, {"newest", 1.0}, {"largest", 1.0}}));
+}
+
+TEST_F(RenderLoopTest, BeforeTheScenesTimeNoExposureCounts) {
+  options_.node.scene =
+      block().scene_with("[[tools]]", "[score]\nexposed_organ = \"block\"\nfrom_s = 1000\n[[tools]]");
+  start();
+  frames(1);
+  EXPECT_EQ(close()["exposed_share"]["first"], nullptr);
+}
+
+TEST_F(RenderLoopTest, WithoutAScoreNothingIsSaidOfExposure) {
+  start();
+  frames(1);
+  EXPECT_FALSE(close().contains("exposed_share"));
 }
 
 TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {

@@ -89,6 +89,40 @@ TEST(SceneView, OrganFollowsItsState) {
   EXPECT_EQ(stage.renderer.updates, 1);
 }
 
+TEST(SceneView, TheGroundIsThePlaneThatOrgansFallOn) {
+  const auto height_in = [](const scene::Scene& scene) {
+    Stage stage(scene);
+    return stage.renderer.mesh_of(with_look(stage.frame({}), Look::kGround).at(0)).vertices[0].position.z();
+  };
+  scene::Scene scene = scene_with({});
+  EXPECT_NEAR(height_in(scene), -kRadius, 0.1 * kRadius) << "under the ball";
+  scene.obstacles = {{.shape = "plane", .centre = Vec3(1, 2, -0.3), .normal = Vec3::UnitX()},
+                     {.shape = "plane", .centre = Vec3(1, 2, -0.2)}};
+  EXPECT_NEAR(height_in(scene), -0.2, kFloat);
+}
+
+// A ball behind another one, as the scene's own camera sees them.
+TEST(SceneView, AnOrganIsExposedAsFarAsOthersAndToolsLeaveIt) {
+  scene::Scene scene = scene_with({"probe"});
+  scene.camera.eye = {0, -1, 0};
+  OrganShape front = ball_organ(kRadius, 3), behind = front;
+  for (Vec3& p : behind.rest) p.y() += 3 * kRadius;
+  RecordingRenderer renderer;
+  SceneView view(scene, {front, behind}, renderer);
+  ExposureRaster raster({160, 120});
+  std::vector<ToolNow> tools(1);
+  EXPECT_LT(*view.exposed_share(1, tools, raster), 0.05);
+  std::vector<float> aside;
+  for (std::size_t s = 0; s < front.rest.size(); ++s) aside.insert(aside.end(), {0.1f, 0, 0});
+  view.deform(0, aside);
+  EXPECT_EQ(view.exposed_share(1, tools, raster), 1.0);
+  tools[0] = tool_at(Vec3(0, -0.2, -kRadius), Vec3::Zero());
+  tools[0].q_WT.setIdentity();
+  const double beside_shaft = *view.exposed_share(1, tools, raster);
+  EXPECT_GT(beside_shaft, 0.5);
+  EXPECT_LT(beside_shaft, 0.99) << "the shaft is in front of it";
+}
+
 // A second ball beside the first one, with the look of a gallbladder.
 TEST(SceneView, TwoOrgansLookMoveAndAreDentedEachByItself) {
   const scene::Scene scene = scene_with({"probe"});

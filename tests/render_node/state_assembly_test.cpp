@@ -154,6 +154,24 @@ TEST(StateAssembly, ABlockThatContradictsItsStateIsAMisfit) {
   EXPECT_EQ(shown.take(too_many), StateAssembly::Outcome::kMisfit) << "more than the mesh has";
 }
 
+TEST(StateAssembly, TheFirstStateOfATubeIsShownWholeOrNotAtAll) {
+  // a lost block of places would be masses at the scene's origin
+  std::vector<AssembledState> shown;
+  StateAssembly tube(msg::KIND_TUBE, {kNodes, kNodes}, kReach_m);
+  const auto take = [&](std::uint64_t seq, std::uint32_t number) {
+    msg::OrganState places = block(seq, number, 1);
+    places.kind = msg::KIND_TUBE;
+    tube.take(places, [&](const AssembledState& state) { shown.push_back(state); });
+  };
+  take(1, 0);
+  for (std::uint32_t b = 0; b < kBlocks; ++b) take(2, b);
+  ASSERT_EQ(shown.size(), 1u);
+  EXPECT_EQ(shown[0].seq, 2u);
+  take(3, 0);
+  take(4, 0);
+  EXPECT_EQ(shown.size(), 2u) << "from then on a lost block keeps its places for one state";
+}
+
 TEST(StateAssembly, TakesStatesOfItsOwnKindOnly) {
   StateAssembly tube(msg::KIND_TUBE, {kPerBlock, kPerBlock}, kReach_m);
   msg::OrganState state = block(1, 0, 1);

@@ -51,6 +51,23 @@ TEST(SceneParts, RegionsThatSayTooLittleOrTooMuchAreRefused) {
   EXPECT_THAT(refusal("label = 1\nyuong_pa = 1"), HasSubstr("yuong_pa: found an unknown key"));
 }
 
+TEST(SceneParts, AScoreNamesTheOrganThatIsToBeExposed) {
+  const Scene scene = load_scene(write_scene(with("[[tools]]", "[[tools]]")));
+  EXPECT_TRUE(scene.score.exposed_organ.empty());
+  const std::string scored =
+      with("[[organs]]", "[score]\nexposed_organ = \"" + scene.organs[0].name + "\"\n[[organs]]");
+  EXPECT_EQ(load_scene(write_scene(scored)).score.exposed_organ, scene.organs[0].name);
+  EXPECT_THAT(message_of(write_scene(with("[[organs]]", "[score]\nexposed_organ = \"colon\"\n[[organs]]"))),
+              HasSubstr("score.exposed_organ: found \"colon\", expected the name of one of the [[organs]]"));
+  EXPECT_EQ(scene.score.from_s, 0);
+  EXPECT_EQ(load_scene(write_scene(with("[[organs]]", "[score]\nfrom_s = 4.5\n[[organs]]"))).score.from_s,
+            4.5);
+  EXPECT_THAT(message_of(write_scene(with("[[organs]]", "[score]\nfrom_s = -1\n[[organs]]"))),
+              HasSubstr("score.from_s: found -1"));
+  EXPECT_THAT(message_of(write_scene(with("[[organs]]", "[score]\nexposed = 1\n[[organs]]"))),
+              HasSubstr("score.exposed: found an unknown key"));
+}
+
 TEST(SceneParts, ACuttingToolHasAnEdgeAndAHandMayPressItsButton) {
   const std::string cutting = with("shape = \"probe\"", R"(shape = "probe"
 cuts = true

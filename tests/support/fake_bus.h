@@ -87,6 +87,7 @@ class FakeTopic {
 
   void add(FakeReader<M>& reader);
   void remove(FakeReader<M>& reader) { std::erase(readers_, &reader); }
+  int reader_count() const { return static_cast<int>(readers_.size()); }
   bool write(const M& sample, const transport::WriterId& writer) {
     if (on_write_) on_write_(sample);
     if (refuses_ || !transport::within_bounds(sample)) return false;
@@ -165,12 +166,16 @@ class FakeWriter final : public transport::Writer<M> {
     ++(written ? status_.samples : status_.rejected);
     return written;
   }
-  transport::EndpointStatus status() const override { return status_; }
+  transport::EndpointStatus status() const override {
+    transport::EndpointStatus status = status_;
+    status.matched = topic_.reader_count();
+    return status;
+  }
 
  private:
   FakeTopic<M>& topic_;
   transport::WriterId id_;
-  transport::EndpointStatus status_{.matched = 1};
+  transport::EndpointStatus status_;
 };
 
 template <class M>

@@ -97,6 +97,17 @@ TEST_F(FakeBusTest, WritersRefuseOnRequestAndBeyondTheBounds) {
   EXPECT_THAT(bus_.take_all<msg::SessionCommand>(), SizeIs(1));
 }
 
+TEST_F(FakeBusTest, AWriterSaysHowManyReadersItHas) {
+  const auto writer = participant_->writer<msg::ToolPose>();
+  EXPECT_EQ(writer->status().matched, 0);
+  {
+    std::vector<std::uint64_t> heard;
+    const auto reader = reader_of<msg::ToolPose>(heard);
+    EXPECT_EQ(writer->status().matched, 1);
+  }
+  EXPECT_EQ(writer->status().matched, 0);
+}
+
 TEST_F(FakeBusTest, ExpectationsConsumeOneSampleEach) {
   const auto writer = participant_->writer<msg::ToolPose>();
   bus_.watch<msg::ToolPose>();

@@ -2,6 +2,7 @@
 #include "tests/system/session_on_trial.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -51,6 +52,21 @@ bool holds_all(const msg::Topology& topology, const msg::Topology& earlier) {
                             [](unsigned now, unsigned before) { return (before & ~now) == 0; });
 }
 
+/// The largest change of the force on a hand, as a multiple of what the slew limit lets it change in the
+/// ticks between two samples.
+double steepest(const std::vector<msg::ToolForce>& forces) {
+  constexpr double kSlew_n_per_tick = 2000 * 0.001;  // scene::HapticsSpec's own, at its own rate
+  double most = 0;
+  for (std::size_t i = 1; i < forces.size(); ++i) {
+    const msg::Vec3 &now = forces[i].force, &before = forces[i - 1].force;
+    const double change_n = Eigen::Vector3d(now.x - before.x, now.y - before.y, now.z - before.z).norm();
+    if (forces[i].tick > forces[i - 1].tick)
+      most = std::max(
+          most, change_n / (kSlew_n_per_tick * static_cast<double>(forces[i].tick - forces[i - 1].tick)));
+  }
+  return most;
+}
+
 class CutSurvivalTest : public ::testing::TestWithParam<std::string> {
  protected:
   /// Of a deform_node that knows what the last one cut.
@@ -92,26 +108,45 @@ TEST_P(CutSurvivalTest, ADeformNodeThatIsKilledWhileItCutsGoesOnWithItsCuts) {
     return state && state->topology_version >= after.front().version;
   }));
   EXPECT_TRUE(session_["haptic_node"].running());
+  const std::vector<msg::ToolForce> felt = observer_.forces();
+  EXPECT_GT(felt.size(), 500u);
+  EXPECT_LE(steepest(felt), 1 + 1e-6) << "the hand was struck";
   observer_.forget();
   EXPECT_TRUE(comes_true([&] { return observer_.forces().size() > 500; })) << "haptic_node fell silent";
   EXPECT_EQ(session_["deform_node"].messages(), "");
 }
 
-TEST_P(CutSurvivalTest, AHandsNodeThatIsKilledWhileItCutsLeavesTheCutAsItIs) {
+TEST_P(CutSurvivalTest, AHandsNodeAPictureOrADeviceThatIsKilledWhileItCutsLeavesTheCutAsItIs) {
+  session_.start("render_node");
   session_.start("haptic_node");
   start_organ();
   session_.start("virtual_device");
   const auto before = half_cut();
   ASSERT_TRUE(before) << session_["virtual_device"].messages();
-  session_.kill("haptic_node");
-  session_.start("haptic_node");
+  for (const std::string name : {"haptic_node", "render_node", "virtual_device"}) {
+    session_.kill(name);
+    session_.start(name);
+  }
   observer_.forget();
   EXPECT_TRUE(comes_true([&] { return observer_.forces().size() > 500; })) << "the new node does not answer";
+  EXPECT_TRUE(comes_true([&] {
+    const auto status = observer_.status(msg::NODE_RENDER);
+    return status && !status->echoes.empty();
+  })) << "no state was drawn: "
+      << session_["render_node"].messages();
+  ASSERT_EQ(session_["render_node"].terminate(), 0) << session_["render_node"].messages();
+  int newest = removed(*before);
   for (const msg::Topology& heard : seen_.take()) {
     EXPECT_GE(heard.version, before->version);
     EXPECT_TRUE(holds_all(heard, *before));
+    newest = removed(heard);
   }
+  const auto picture = nlohmann::json::parse(read_text(session_.report_of("render_node")));
+  EXPECT_GE(picture["removed_tetrahedra"], removed(*before)) << "the new picture is of another organ";
+  EXPECT_LE(picture["removed_tetrahedra"], newest);
   EXPECT_TRUE(session_["deform_node"].running());
+  for (const std::string name : {"haptic_node", "virtual_device"})
+    EXPECT_TRUE(session_[name].running()) << session_[name].messages();
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, CutSurvivalTest, ::testing::Values("fast", "cyclone"),

@@ -100,5 +100,37 @@ TEST(DynamicExchange, ABladeWithinThePressCutsAndTheHandGoesOnFeeling) {
   EXPECT_GT(organ["removed_tetrahedra"], 2);
 }
 
+// It heard of no cut: what is left of the organ comes with the models alone.
+TEST(DynamicExchange, AHandThatJoinsAfterManyCutsFeelsTheSlitAsTheFirstOneDid) {
+  Session session(1000, 100, moving(kTensorMass));
+  session.begin();
+  const double whole = session.press().norm();
+  session.move_to(kPressed + Vec3(0.03, 0, 0), 0.6, true);
+  const auto felt = [&session] {
+    std::vector<double> felt_n;
+    for (const Vec3& aside : {Vec3(0.012, 0, 0), Vec3(0.02, 0.03, 0), Vec3(-0.02, 0.02, 0)}) {
+      session.move_to(kAbove + aside, 0.3);
+      session.move_to(kPressed + aside, 0.5);
+      felt_n.push_back(session.move_to(kPressed + aside, 0.5).norm());
+      session.move_to(kAbove + aside, 0.3);
+    }
+    return felt_n;
+  };
+  const std::vector<double> first = felt();
+  const auto before = session.bus().newest<msg::Topology>();
+  session.replace_hand();
+  session.begin();
+  const std::vector<double> late = felt();
+  EXPECT_LT(first[0], 0.5 * whole) << "in the slit";
+  EXPECT_GT(first[2], 0.5 * whole) << "beside it";
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_NEAR(late[i], first[i], 0.01 * whole) << i;
+  const auto after = session.bus().newest<msg::Topology>();
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(after->removed_bits, before->removed_bits) << "who joins cuts nothing";
+  session.move_to(kPressed + Vec3(-0.02, 0.02, 0), 0.5);
+  EXPECT_EQ(session.bus().newest<msg::Contact>()->topology_version, after->version);
+  EXPECT_EQ(session.hand_report()["faults"].size(), 0u);
+}
+
 }  // namespace
 }  // namespace omentum

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <memory>
 
 namespace omentum::test {
 
@@ -46,20 +47,22 @@ class Session {
   Session(double hand_hz, double organ_hz, const ExchangeScene& scene = {})
       : hand_hz_(hand_hz),
         organ_hz_(organ_hz),
-        hand_(hand_hz, hand_options(hand_hz, scene), bus_.opener()),
+        scene_(scene),
+        hand_(make_hand()),
         organ_(organ_hz, organ_options(organ_hz, scene), bus_.opener()) {}
 
   /// The hand's next tick with the tip there; the organ's, where one is due. The force on the hand.
   Vec3 step_to(const Vec3& tip, bool pressed = false) {
     msg::ToolPose pose{};
     pose.seq = ++poses_;
-    pose.stamp_ns = hand_.pace().now_ns();
+    pose.stamp_ns = hand_->pace().now_ns();
     pose.valid = true;
     pose.position = {tip.x(), tip.y(), tip.z()};
     pose.orientation.w = 1;
     pose.buttons = pressed ? msg::BUTTON_CUT : 0;
+    pose.grip = grip_rad_;
     bus_.post(pose);
-    hand_.tick();
+    hand_->tick();
     tip_ = tip;
     hand_s_ += 1 / hand_hz_;
     while (organ_lives_ && organ_s_ + 1 / organ_hz_ <= hand_s_ + 1e-9) {
@@ -101,12 +104,21 @@ class Session {
     move_to(kPressed, 1);
   }
 
+  /// Of the next poses: how far the jaws are open.
+  void open_jaws(double grip_rad) { grip_rad_ = grip_rad; }
   void stop_organ() { organ_lives_ = false; }
+  /// Another one in its place, which knows of nothing that was.
+  void replace_hand() {
+    EXPECT_EQ(hand_->end(), "");
+    hand_.reset();
+    hand_ = make_hand();
+    last_.setZero();
+  }
   double given_j() const { return given_j_; }
   double largest_step_n() const { return largest_step_n_; }
   nlohmann::json hand_report() {
-    EXPECT_EQ(hand_.end(), "");
-    return hand_.loop().report();
+    EXPECT_EQ(hand_->end(), "");
+    return hand_->loop().report();
   }
   nlohmann::json organ_report() {
     EXPECT_EQ(organ_.end(), "");
@@ -115,6 +127,10 @@ class Session {
   FakeBus& bus() { return bus_; }
 
  private:
+  std::unique_ptr<StagedLoop<haptic::HapticLoop>> make_hand() {
+    return std::make_unique<StagedLoop<haptic::HapticLoop>>(hand_hz_, hand_options(hand_hz_, scene_),
+                                                            bus_.opener());
+  }
   static haptic::HapticOptions hand_options(double rate_hz, const ExchangeScene& scene) {
     haptic::HapticOptions options;
     options.node.scene = scene.file;
@@ -132,11 +148,13 @@ class Session {
 
   double hand_hz_, organ_hz_, hand_s_ = 0, organ_s_ = 0;
   FakeBus bus_;
-  StagedLoop<haptic::HapticLoop> hand_;
+  ExchangeScene scene_;
+  std::unique_ptr<StagedLoop<haptic::HapticLoop>> hand_;
   StagedLoop<deform::DeformLoop> organ_;
   std::uint64_t poses_ = 0;
   Vec3 tip_ = kAbove, last_ = Vec3::Zero();
   bool organ_lives_ = true;
+  double grip_rad_ = 0;
   double given_j_ = 0, largest_step_n_ = 0;
 };
 

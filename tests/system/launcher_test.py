@@ -44,11 +44,11 @@ SHAPE = {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
                         "contacts": {"ticks_in_contact": int, "nodes_max": int},
                         "local_models": {"heard": int, "dropped": int, "gone": int}, "faults": list},
-        "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "steps": int, "removed_tetrahedra": int,
+        "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "stress_states": int, "steps": int, "removed_tetrahedra": int,
                         "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
                         "real_time_factor": float, "faults": list},
         "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
-                        "unmatched_states": int, "closed": bool, "faults": list},
+                        "unmatched_states": int, "removed_tetrahedra": int, "closed": bool, "faults": list},
         "virtual_device": {"dds": str, "exit": int, "round_trip_us": TIMES, "sent": int, "lost": int, "energy_j": float,
                            "faults": list},
     },
@@ -508,7 +508,8 @@ class Parts(unittest.TestCase):
         self.assertNotEqual(self.build("plane:y>0"), first)
 
     def test_a_users_organ_takes_the_place_of_the_first_alone(self):
-        specs = [{"file": "", "mesh": f"phantom:{kind}", "name": name, "metres_per_unit": 1, "fixed": "plane:y>0"}
+        specs = [{"has_file": True, "file": "", "mesh": f"phantom:{kind}", "name": name, "metres_per_unit": 1,
+                  "fixed": "plane:y>0"}
                  for kind, name in (("paper", "liver"), ("gallbladder", "sac"))]
         made = []
 
@@ -727,6 +728,22 @@ time.sleep({PATIENCE_S})"""), 0)
                 "lost": 3}
         row = report.node_row("virtual_device", node)
         self.assertEqual(row[4:], ["70 poses", "3 lost", "round trip", "180 us", "2.5 ms", "9.0 ms"])
+
+    def test_what_organs_lack_is_told_beside_what_it_cost(self):
+        organ = {**report.FIELDS["deform_node"], "removed_tetrahedra": 312, "repaired_tetrahedra": 4,
+                 "cuts": {"way_cm": 12.0, "lost_cm3": 3.5, "lost_cm3_per_cm": 0.29}}
+        self.assertEqual(report.removed_line(organ), "removed tetrahedra: 312; 4 went because they hung on a node or an "
+                         "edge; 3.5 cm^3 lost over 12.0 cm of cut")
+        torn = {**report.FIELDS["deform_node"], "removed_tetrahedra": 5}
+        self.assertEqual(report.removed_line(torn), "removed tetrahedra: 5")
+
+    def test_a_map_is_asked_of_render_node_alone(self):
+        made = session.Session.__new__(session.Session)
+        made.options = options.parse([str(HOLD), "--headless", "--map", "stress"])
+        made.scene, made.headless, made.domain = HOLD, True, mock.Mock(number=1)
+        made.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(made.folder.cleanup)
+        self.assertEqual([node.name for node in made.make_nodes() if "--map" in node.command], ["render_node"])
 
 
 class Refusals(LauncherTest):

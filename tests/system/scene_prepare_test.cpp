@@ -184,7 +184,7 @@ TEST_F(TwoOrgansTest, ABuiltOrganIsOfTheMaterialThatItWasBuiltOf) {
   const std::string first = box("a", -0.2), second = box("b", 0.2), scene = folder_ / "built.toml";
   const std::string built =
       "name = \"x\"\nmesh = \"b.h5\"\nyoung_pa = 12000\npoisson = 0.45\n"
-      "density_kg_m3 = 1060\nfixed = \"plane:z<0.01\"\n# end\n";
+      "density_kg_m3 = 1060\n# end\n";
   const auto write = [&](const std::string& from, const std::string& to) {
     std::string text = read_text(scene_);
     const std::size_t begin = text.find("name = \"gallbladder\""), end = text.find("[[tools]]");
@@ -199,6 +199,10 @@ TEST_F(TwoOrgansTest, ABuiltOrganIsOfTheMaterialThatItWasBuiltOf) {
   };
   write("12000", "12000");
   prepared({scene, "--keep-points", "--organ", first, "--organ", second});
+  write("young_pa = 12000\npoisson = 0.45\ndensity_kg_m3 = 1060\n", "");
+  const scene::Scene filled = prepared({scene, "--keep-points", "--organ", first, "--organ", second});
+  EXPECT_EQ(filled.organs[1].young_pa, 12000) << "what the scene leaves out is the file's";
+  EXPECT_EQ(filled.organs[1].density_kg_m3, 1060);
   std::filesystem::remove(fitted_);
   for (const auto& [from, to, says] : std::vector<std::array<std::string, 3>>{
            {"young_pa = 12000", "young_pa = 6000", "young_pa: found 6000, expected 12000: the organ file is"},

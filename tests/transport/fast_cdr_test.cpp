@@ -64,6 +64,18 @@ TEST(Cdr, ALocalModelTakesTheDatagramsThatAreStated) {
   EXPECT_GT(bytes_of(model).size(), (kLocalModelDatagrams - 1) * kFragment);
 }
 
+// It has the nodes of its state's block, which fills a datagram.
+TEST(Cdr, AnOrganStressBlockIsNoLargerThanItsStates) {
+  constexpr std::size_t kNodes = organ_block_floats(Profile::kLan) / 3;
+  msg::OrganState state;
+  state.echoes.resize(msg::MAX_TOOLS);
+  state.values.resize(3 * kNodes);
+  msg::OrganStress stress;
+  stress.strains.resize(kNodes);
+  stress.stresses.resize(kNodes);
+  EXPECT_LE(bytes_of(stress).size(), bytes_of(state).size());
+}
+
 TEST(Cdr, BytesThatEndEarlyAreRefused) {
   msg::for_each_topic(msg::AllTopics{}, []<class M>(msg::MessageTag<M>) {
     const M message = test::Filler(3, test::Lengths::kOne).make<M>();

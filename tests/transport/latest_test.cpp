@@ -1,5 +1,7 @@
 #include "transport/latest.h"
 
+#include "tests/support/milliseconds.h"
+
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -7,7 +9,7 @@
 namespace omentum::transport {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 
 TEST(SequenceTracker, CountsTheNumbersThatWereSkipped) {
   SequenceTracker tracker;

@@ -1,5 +1,7 @@
 #include "transport/reader_counters.h"
 
+#include "tests/support/milliseconds.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -8,7 +10,7 @@
 namespace omentum::transport {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 constexpr std::uint32_t kFirst = 0, kSecond = 1;
 
 TEST(DeadlineCounter, CountsWholePeriodsBetweenSamples) {

@@ -1,5 +1,6 @@
 #include "transport/standstill.h"
 
+#include "tests/support/milliseconds.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 namespace omentum::transport {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 constexpr std::chrono::milliseconds kLongest{500};
 
 TEST(Standstill, IsAGapBetweenTwoLooksThatIsLongerThanTheLongest) {

@@ -4,7 +4,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest_position;
 layout(location = 3) in float openness_in;
 layout(location = 4) in float charring_in;
-layout(location = 5) in float strain_in;
+layout(location = 5) in float share_in;
 uniform mat4 W_from_mesh;
 uniform mat4 clip_from_W;
 out vec3 p_W;
@@ -12,7 +12,7 @@ out vec3 n_W;
 out vec3 rest;
 out float openness;
 out float charring;
-out float strain;
+out float share;
 
 void main() {
   vec4 p = W_from_mesh * vec4(position, 1.0);
@@ -23,6 +23,6 @@ void main() {
   rest = rest_position;
   openness = openness_in;
   charring = charring_in;
-  strain = strain_in;
+  share = share_in;
   gl_Position = clip_from_W * p;
 }

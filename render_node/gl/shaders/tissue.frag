@@ -1,4 +1,5 @@
-// CUT is defined for an organ that was cut: heat may have charred it. BARED too for what lies bare of it: no capsule, but
+// GUT is defined for the wall of a gut, SHEET for its mesentery: `rest` is then on a straight tube along x, or on the sheet
+// unfolded, x along the gut and y away from it. CUT is defined for an organ that was cut: heat may have charred it. BARED too for what lies bare of it: no capsule, but
 // parenchyma, vessels, blood.
 // Wet organ: light that enters comes out reddened and spread around the edge of the shade; a film of water mirrors.
 in vec3 p_W;
@@ -21,7 +22,11 @@ const vec3 creep = vec3(0.26, 0.10, 0.08);
 const float scattered = 0.35;  // more, where light creeps: what entered elsewhere comes out there
 
 // The relief of the capsule: slopes of mottling and grain; grain is seen up to this many unit_lengths away.
+#ifdef GUT
+const float mottle_slope = 0.20, grain_slope = 0.06, grain_sight = 5.0;  // stretched over what it holds
+#else
 const float mottle_slope = 0.20, grain_slope = 0.13, grain_sight = 5.0;
+#endif
 const float soft_relief = 0.3;  // of it shades the body: light inside tissue does not see the capsule's grain
 
 #ifdef CUT
@@ -53,8 +58,42 @@ float off_vessel(vec2 p) {
 }
 #endif
 
+#ifdef GUT
+// Fine vessels under the serosa, where a slow noise of this period crosses its middle; their half width, m, their tint,
+// and how strongly they show.
+const float web_period = 0.17, web_width = 0.0003, web_share = 0.4;
+const vec3 web_tint = vec3(0.20, 0.030, 0.030);
+#endif
+
+#ifdef SHEET
+// A tree of vessels: trunks at the root, each parting into two from belt to belt on its way to the gut. The belts' width, m,
+// the distance of the last branches, the half width of a branch there and how much it grows away from the gut, 1/m; an
+// artery and, beside it, a vein. Fat stands along them, lobed, and thins out in between to a reddish film.
+const float belt = 0.036, branch_spacing = 0.021, branch_width = 0.00055, branch_growth = 14.0;
+const float meander_period = 0.26, meander_reach = 0.028;
+const vec3 artery_tint = vec3(0.25, 0.035, 0.028), vein_tint = vec3(0.090, 0.034, 0.060);
+const float vein_beside = 3.4;  // half widths
+const vec3 film_tint = vec3(0.37, 0.185, 0.130);
+const float fat_reach = 0.2;    // of the way from a branch to the next
+const float lobe_period = 0.026, lobe_slope = 0.34, lobe_weight = 0.45;
+
+// How far along the gut a place is from the nearest branch, m, and from the next one, as the share of half their distance.
+vec2 off_branch(vec2 p) {
+  float level = clamp(floor(p.y / belt), 0.0, 4.0);
+  float parent = 2.0 * branch_spacing * exp2(level);
+  float x = (fract(p.x / parent) - 0.5) * parent;
+  float parted = level < 4.0 ? 1.0 - smoothstep(0.0, 1.0, p.y / belt - level) : 0.0;
+  float off = abs(x) - 0.25 * parent * parted;
+  return vec2(off, abs(off) / (0.25 * parent));
+}
+#endif
+
 // The pattern's share in the colour, and the tint of spots where blood stands.
+#if defined(GUT) || defined(SHEET)
+const float mottle_weight = 1.2, grain_weight = 0.8, contrast = 0.20;
+#else
 const float mottle_weight = 1.7, grain_weight = 0.8, contrast = 0.38;
+#endif
 const vec3 blood_tint = vec3(0.78, 0.74, 1.15);
 
 const vec3 shade_light = vec3(0.15, 0.04, 0.03);  // of the key light, through the tissue beside a shadow
@@ -91,6 +130,10 @@ void main() {
   vec4 lobules = texture(pattern, rest.zxy / lobule_period);
   slope += (lobules.gbr - 0.5) * lobule_slope * near;
 #endif
+#ifdef SHEET
+  vec4 lobes = texture(pattern, rest / lobe_period);
+  slope += (lobes.rgb - 0.5) * lobe_slope * near;
+#endif
   vec3 n = normalize(n0 - (slope - n0 * dot(slope, n0)));
   vec3 n_soft = normalize(mix(n0, n, soft_relief));
 
@@ -98,6 +141,24 @@ void main() {
   float spot = (mottle.a - 0.5) * mottle_weight + (fine.a - 0.5) * grain_weight;
   vec3 albedo = material_colour * (1.0 + contrast * spot);
   albedo = mix(albedo, albedo * blood_tint, clamp(-spot, 0.0, 1.0));
+#ifdef GUT
+  float crossing = texture(pattern, rest.zxy / web_period).a - 0.5, from_pixel = fwidth(crossing);
+  float half_width = web_width * max(from_pixel, 1e-4) / max(length(fwidth(p_W)), 1e-6);
+  float thread = 1.0 - smoothstep(half_width, half_width + from_pixel, abs(crossing));
+  albedo = mix(albedo, web_tint, web_share * thread * smoothstep(0.40, 0.65, mottle.a));
+#endif
+#ifdef SHEET
+  vec2 sway = vec2(texture(pattern, rest / meander_period).a, texture(pattern, rest.yxz / meander_period + 0.37).a);
+  vec2 bent = rest.xy + meander_reach * (sway - 0.5);
+  vec2 off = off_branch(bent);
+  float width = branch_width * (1.0 + branch_growth * max(0.0, rest.y));
+  albedo *= 1.0 + lobe_weight * (lobes.a - 0.5);
+  float fat = 1.0 - smoothstep(fat_reach, 1.1, off.y + 0.8 * (lobes.a - 0.5));
+  albedo = mix(film_tint, albedo, fat);
+  float blur = fwidth(bent.x) + 0.0001, beside = off.x - vein_beside * width;
+  albedo = mix(vein_tint, albedo, 0.35 + 0.65 * smoothstep(width, width + blur, abs(beside)));
+  albedo = mix(artery_tint, albedo, 0.25 + 0.75 * smoothstep(width, width + blur, abs(off.x)));
+#endif
 #ifdef BARED
   albedo *= 1.0 + lobule_weight * (lobules.a - 0.5);
   vec3 bent = rest + meander * (mottle.rgb - 0.5);

@@ -1,6 +1,7 @@
 #include "physics/dynamics/corotational.h"
 
 #include "physics/stiffness.h"
+#include "tests/physics/dynamics/law_tissue.h"
 #include "tests/physics/dynamics/motions.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
@@ -15,11 +16,6 @@ namespace {
 
 using namespace omentum::test;
 
-const Material kTissue{5000, 0.4, 1000};
-constexpr double kEdge = 0.01;  // m, of the boxes' cubes
-constexpr double kStep = 1e-5 * kEdge;
-constexpr double kDifferences =
-    1e-7;  // what central differences with kStep leave: 1e-10 + 1e-16 / 1e-5, with room
 constexpr double kRounding = 1e-12;  // relative: a few hundred operations
 
 Eigen::Matrix3d turned(double degrees, const Vec3& axis) {

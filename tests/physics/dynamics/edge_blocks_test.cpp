@@ -1,5 +1,6 @@
 #include "physics/dynamics/edge_blocks.h"
 
+#include "tests/physics/dynamics/tensor_tissue.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -8,9 +9,6 @@
 
 namespace omentum::physics {
 namespace {
-
-const Material kMaterial{5000, 0.45, 1000};
-constexpr double kFloatRounding = 2e-6;  // relative: sums of some twenty products in float
 
 // In double, from the books: f_a -= K_ab (u_b - u_a), f_b += K_ab^T (u_b - u_a).
 std::vector<Vec3> expected_forces(const TensorBooks& books, const std::vector<double>& u) {

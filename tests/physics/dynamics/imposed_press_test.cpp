@@ -62,6 +62,24 @@ TEST(ImposedPressTest, NoPressPullsAndNoneIsMoreThanTwiceAsStrong) {
   EXPECT_EQ(imposed.impose(stepper, std::array{press_of(kTop, up, f)}, state)[0], 0);
   EXPECT_EQ(at(state.u, kTop), Vec3(0, 0, 0));
   EXPECT_EQ(imposed.impose(stepper, std::array{press_of(kTop, far, f)}, state)[0], 2);
+  Press of_silent_hand = press_of(kTop, far, f);
+  of_silent_hand.most_strength = 0.5;
+  EXPECT_EQ(imposed.impose(stepper, std::array{of_silent_hand}, state)[0], 0.5);
+}
+
+TEST(ImposedPressTest, APlaceWithAWallOfItsOwnIsDeeperByWhatThatYields) {
+  const HeldBody body = test::held_box();
+  ImplicitStep stepper(body.mesh, test::kTissue, body.inertia, {.step_s = 0.005});
+  ImposedPress imposed(body.mesh.positions.size(), 1);
+  BodyState state = state_at_rest(body.mesh.positions.size());
+  const Vec3 u(0, 0, -kPressed_m), f(0, 0, -0.1);
+  const double wall_m_n = 0.02;
+  Press press = press_of(kTop, u, f);
+  press.own_yield_j = wall_m_n * f.squaredNorm();
+  const double strength = imposed.impose(stepper, std::array{press}, state)[0];
+  EXPECT_GT(strength, 0.1);
+  EXPECT_LT(strength, Press::kMostStrength);
+  EXPECT_NEAR(at(state.u, kTop).z() + strength * wall_m_n * f.z(), -kPressed_m, 1e-6 * kPressed_m);
 }
 
 TEST(ImposedPressTest, TakesNoMemory) {

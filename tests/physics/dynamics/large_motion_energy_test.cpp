@@ -4,6 +4,7 @@
 #include "physics/dynamics/spring_mesh.h"
 #include "physics/dynamics/stable_step.h"
 #include "physics/dynamics/warped_step.h"
+#include "tests/physics/dynamics/law_tissue.h"
 #include "tests/physics/dynamics/motions.h"
 #include "tests/support/effort.h"
 #include "tests/support/meshes.h"
@@ -18,8 +19,6 @@ namespace {
 
 using namespace omentum::test;
 
-const Material kTissue{5000, 0.4, 1000};
-constexpr double kEdge = 0.01;   // m, of the boxes' cubes
 constexpr double kShare = 0.9;   // of the stable step at rest
 constexpr double kLongRun = 60;  // s, simulated
 

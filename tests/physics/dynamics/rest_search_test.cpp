@@ -12,7 +12,7 @@ namespace {
 using test::HeldBody;
 using test::Values;
 
-KeptFactor kept(const HeldBody& body) {
+KeptFactor kept_for_rest(const HeldBody& body) {
   return {body.mesh, test::kTissue, body.inertia.fixed, body.inertia.mass, {1, 1}};
 }
 
@@ -34,7 +34,7 @@ double imbalance(const HeldBody& body, ForceLaw& law, const Values& u, const Val
 }
 
 void expect_rest(const HeldBody& body, ForceLaw& law, double gravity) {
-  KeptFactor factor = kept(body);
+  KeptFactor factor = kept_for_rest(body);
   const Values weight = weight_of(body, gravity);
   Values u(body.components());
   ASSERT_TRUE(search_rest(law, factor, weight, u));
@@ -55,7 +55,7 @@ TEST(RestSearchTest, EveryLawRestsUnderItsWeight) {
 TEST(RestSearchTest, ABodyThatTurnsFarAndWasCutRests) {
   const HeldBody body = test::held_box();
   Corotational law(body.mesh, test::kTissue);
-  KeptFactor factor = kept(body);
+  KeptFactor factor = kept_for_rest(body);
   const std::vector<geometry::TetId> order = body.any_order();
   ASSERT_TRUE(factor.remove({order.data(), 3}));
   for (int i = 0; i < 3; ++i) law.remove(order[i]);
@@ -68,7 +68,7 @@ TEST(RestSearchTest, ABodyThatTurnsFarAndWasCutRests) {
 TEST(RestSearchTest, WhatHeldComponentsAreGivenTheyKeep) {
   const HeldBody body = test::held_box();
   Corotational law(body.mesh, test::kTissue);
-  KeptFactor factor = kept(body);
+  KeptFactor factor = kept_for_rest(body);
   Values u(body.components());
   for (std::size_t c = 0; c < u.size(); ++c) u[c] = body.held(c) ? 1e-3 : 0;
   ASSERT_TRUE(search_rest(law, factor, Values(u.size()), u));
@@ -82,7 +82,7 @@ TEST(RestSearchTest, WhatHeldComponentsAreGivenTheyKeep) {
 TEST(RestSearchTest, ALoadBeyondAllNumbersHasNoRest) {
   const HeldBody body = test::held_box();
   Corotational law(body.mesh, test::kTissue);
-  KeptFactor factor = kept(body);
+  KeptFactor factor = kept_for_rest(body);
   Values u(body.components());
   EXPECT_FALSE(search_rest(law, factor, Values(u.size(), std::numeric_limits<double>::infinity()), u));
 }

@@ -1,5 +1,6 @@
 #include "physics/dynamics/spring_mesh.h"
 
+#include "tests/physics/dynamics/law_tissue.h"
 #include "tests/physics/dynamics/motions.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
@@ -13,11 +14,7 @@ namespace {
 
 using namespace omentum::test;
 
-const Material kTissue{5000, 0.4, 1000};
-constexpr double kEdge = 0.01;  // m, of the boxes' cubes
-constexpr double kStep = 1e-5 * kEdge;
-constexpr double kDifferences = 1e-7;  // as in corotational_test.cpp
-constexpr double kRounding = 1e-12;
+constexpr double kSpringRounding = 1e-12;  // relative
 
 Corners regular_tetrahedron() {
   return {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 1), Vec3(1, 0, 1)};
@@ -76,15 +73,15 @@ TEST_F(SpringMeshTest, ForceIsMinusEnergyGradient) {
 TEST_F(SpringMeshTest, HasNoForceAtRestAndUnderRigidMotion) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(2, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   const double stiff_force = kTissue.young_pa * kEdge * kEdge;
-  EXPECT_LE(force_of(law, Vector::Zero(size)).cwiseAbs().maxCoeff(), kRounding * stiff_force);
+  EXPECT_LE(force_of(law, Vector::Zero(size)).cwiseAbs().maxCoeff(), kSpringRounding * stiff_force);
   EXPECT_LE(force_of(law, affine(mesh, R, Vec3(0.1, 0, 0))).cwiseAbs().maxCoeff(),
-            100 * kRounding * stiff_force);
+            100 * kSpringRounding * stiff_force);
 }
 
 TEST_F(SpringMeshTest, HasNoNetForceOrTorque) {
   const Vector u = random_vector(size, 0.2 * kEdge, 5);
-  expect_momentum_is_kept(law, values_of(u), kRounding);
-  expect_no_torque(law, mesh, u, kRounding);
+  expect_momentum_is_kept(law, values_of(u), kSpringRounding);
+  expect_no_torque(law, mesh, u, kSpringRounding);
 }
 
 TEST_F(SpringMeshTest, AddingUndoesRemoving) {
@@ -100,7 +97,7 @@ TEST_F(SpringMeshTest, RemovedTetrahedraAreOut) {
   SpringMesh of_cut(cut, kTissue);
   const Vector u = random_vector(size, 0.2 * kEdge, 6);
   const Vector f = force_of(of_cut, u);
-  EXPECT_LE((force_of(law, u) - f).norm(), kRounding * f.norm());
+  EXPECT_LE((force_of(law, u) - f).norm(), kSpringRounding * f.norm());
 }
 
 TEST_F(SpringMeshTest, NodesOfRemovedTetrahedraMayBeAnywhere) {
@@ -123,8 +120,9 @@ TEST_F(SpringMeshTest, EveryVectorUnitFindsTheSame) {
   const Vector u = random_vector(size, 0.2 * kEdge, 8), f = force_of(law, u);
   for (const kernels::LawKernels* const* unit = kernels::law_kernels(); *unit != nullptr; ++unit) {
     SpringMesh other(mesh, kTissue, SpringFit::kLeastSquares, **unit);
-    EXPECT_LE((force_of(other, u) - f).norm(), kRounding * f.norm()) << (*unit)->name;
-    EXPECT_NEAR(other.energy(view(u)), law.energy(view(u)), kRounding * law.energy(view(u))) << (*unit)->name;
+    EXPECT_LE((force_of(other, u) - f).norm(), kSpringRounding * f.norm()) << (*unit)->name;
+    EXPECT_NEAR(other.energy(view(u)), law.energy(view(u)), kSpringRounding * law.energy(view(u)))
+        << (*unit)->name;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "physics/dynamics/tensor_books.h"
 
+#include "tests/physics/dynamics/tensor_tissue.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 namespace omentum::physics {
 namespace {
 
-const Material kMaterial{5000, 0.45, 1000};
 constexpr double kRestored = 1e-12;  // relative: what a thousand additions and subtractions may leave
 
 // The largest difference of two tensors at one place, relative to the largest tensor.

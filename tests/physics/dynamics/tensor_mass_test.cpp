@@ -3,6 +3,7 @@
 #include "physics/dynamics/body_state.h"
 #include "physics/stiffness.h"
 #include "tests/physics/dynamics/force_law_properties.h"
+#include "tests/physics/dynamics/tensor_tissue.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
 
@@ -17,9 +18,7 @@ namespace {
 using Arithmetic = TensorMass::Arithmetic;
 
 // lambda and mu far apart, so that a transposed tensor shows.
-const Material kMaterial{5000, 0.45, 1000};
-constexpr double kRounding = 1e-12;      // relative: sums of a few hundred tensors in double
-constexpr double kFloatRounding = 2e-6;  // relative: sums of some twenty products in float
+constexpr double kRounding = 1e-12;  // relative: sums of a few hundred tensors in double
 constexpr double kDisplacement_m = 1e-3;
 
 std::vector<double> rotated(const geometry::TetraMesh& mesh, const Vec3& axis) {

@@ -1,6 +1,7 @@
 #include "physics/dynamics/warped_step.h"
 
 #include "physics/dynamics/implicit_step.h"
+#include "tests/physics/dynamics/law_tissue.h"
 #include "tests/physics/dynamics/motions.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
@@ -14,10 +15,8 @@ namespace {
 
 using namespace omentum::test;
 
-const Material kTissue{5000, 0.4, 1000};
-constexpr double kEdge = 0.01;   // m, of the boxes' cubes
-constexpr double kStep = 0.01;   // s
-constexpr double kFloat = 1e-5;  // the factor's arithmetic, with what its condition makes of it
+constexpr double kTick_s = 0.01;  // s
+constexpr double kFloat = 1e-5;   // the factor's arithmetic, with what its condition makes of it
 
 enum class Held { kNowhere, kAtOneEnd };
 
@@ -36,7 +35,7 @@ class WarpedStepTest : public testing::Test {
   }
 
   WarpedStep stepper(const Inertia& body, double tolerance = 1e-6) const {
-    return {mesh, kTissue, body, Corotational(mesh, kTissue), {.step_s = kStep, .tolerance = tolerance}};
+    return {mesh, kTissue, body, Corotational(mesh, kTissue), {.step_s = kTick_s, .tolerance = tolerance}};
   }
 
   BodyState moving(const Vector& u, const Vector& v) const { return {values_of(u), values_of(v)}; }
@@ -53,7 +52,7 @@ TEST_F(WarpedStepTest, IsTheLinearStepWhereNothingTurns) {
   Inertia body = inertia(Held::kAtOneEnd);
   body.stiffness_damping_s = 0.003;
   WarpedStep warped = stepper(body, 1e-9);
-  ImplicitStep linear(mesh, kTissue, body, {.step_s = kStep});
+  ImplicitStep linear(mesh, kTissue, body, {.step_s = kTick_s});
   BodyState a = state_at_rest(mesh.positions.size()), b = a;
   const Vector force = weight(body, 1e-6);
   for (int i = 0; i < 20; ++i) {
@@ -195,6 +194,69 @@ TEST_F(WarpedStepTest, AForceThatIsNoNumberIsSaidAndNotKept) {
   ASSERT_TRUE(stepped.step(a, view(force)));
   ASSERT_TRUE(fresh.step(b, view(force)));
   EXPECT_EQ(a.u, b.u);
+}
+
+TEST_F(WarpedStepTest, ALookAheadEndsWhereTheStepDoesAndChangesNoStep) {
+  Inertia body = inertia(Held::kAtOneEnd);
+  body.stiffness_damping_s = 0.003;
+  WarpedStep looking = stepper(body), blind = stepper(body);
+  const Vector force = weight(body, 5);
+  BodyState a = moving(Vector::Zero(size), Vector::Zero(size)), b = a;
+  std::vector<double> u(a.u.size());
+  for (int i = 0; i < 30; ++i) {
+    looking.foresee(a, view(force), u);
+    ASSERT_TRUE(looking.step(a, view(force)));
+    ASSERT_TRUE(blind.step(b, view(force)));
+    ASSERT_LE(norm(sum(u, -1, a.u)), 1e-5 * norm(a.u)) << i;
+  }
+  EXPECT_EQ(a.u, b.u);
+}
+
+TEST_F(WarpedStepTest, AStepAfterARemovalIsOfWhatIsLeftWhateverWasForeseen) {
+  const Inertia body = inertia(Held::kAtOneEnd);
+  WarpedStep looking = stepper(body), blind = stepper(body);
+  const Vector force = weight(body, 5);
+  BodyState a = moving(random_vector(size, 0.01 * kEdge, 6), Vector::Zero(size));
+  for (std::size_t c = 0; c < a.u.size(); ++c)
+    if (body.fixed[c / 3] != 0) a.u[c] = 0;
+  BodyState b = a;
+  std::vector<double> u(a.u.size());
+  looking.foresee(a, view(force), u);
+  const std::vector<geometry::TetId> gone{geometry::TetId(100), geometry::TetId(150)};
+  ASSERT_TRUE(looking.remove(gone));
+  ASSERT_TRUE(blind.remove(gone));
+  ASSERT_TRUE(looking.step(a, view(force)));
+  ASSERT_TRUE(blind.step(b, view(force)));
+  EXPECT_EQ(a.u, b.u);
+}
+
+TEST_F(WarpedStepTest, AGuessMakesAYieldCheaperNotOther) {
+  const Inertia body = inertia(Held::kAtOneEnd);
+  WarpedStep warped = stepper(body);
+  BodyState state = moving(random_vector(size, 0.01 * kEdge, 7), Vector::Zero(size));
+  const Vector nothing = Vector::Zero(size), forces = random_vector(size, 0.1, 8);
+  ASSERT_TRUE(warped.step(state, view(nothing)));
+  std::vector<double> yield(state.u.size());
+  warped.yield_to(view(forces), yield);
+  const int from_nothing = warped.iterations();
+  std::vector<double> again = yield, other = values_of(random_vector(size, 1, 9));
+  for (std::size_t c = 0; c < other.size(); ++c)
+    if (body.fixed[c / 3] != 0) other[c] = 0;
+  warped.yield_to(view(forces), again);
+  EXPECT_GT(from_nothing, 1);
+  EXPECT_LE(warped.iterations(), 1);
+  warped.yield_to(view(forces), other);
+  EXPECT_LE(norm(sum(again, -1, yield)), kFloat * norm(yield));
+  EXPECT_LE(norm(sum(other, -1, yield)), kFloat * norm(yield));
+}
+
+TEST_F(WarpedStepTest, AYieldThatIsNoNumberIsNoGuess) {
+  WarpedStep warped = stepper(inertia(Held::kAtOneEnd));
+  std::vector<double> yield(static_cast<std::size_t>(size));
+  Vector forces = random_vector(size, 0.1, 8);
+  forces[size - 2] = std::numeric_limits<double>::quiet_NaN();
+  warped.yield_to(view(forces), yield);
+  EXPECT_EQ(norm(yield), 0);
 }
 
 TEST_F(WarpedStepTest, StepAllocatesNothing) {

@@ -1,0 +1,294 @@
+#include "deform_node/gut_model.h"
+
+#include "deform_node/gut_gauge.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace omentum::deform {
+
+using geometry::GutSkin;
+using geometry::MassId;
+
+namespace {
+
+// A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
+constexpr double kStepRounding = 1e-9;
+// A press that is as strong as its hand says, to this share, leaves the step as it is.
+constexpr double kAsSaid = 1e-6;
+// Below this a triangle of the skin is folded up, where the gut bends sharply, and no place to touch, m^2.
+constexpr double kLeastArea_m2 = 1e-6;
+
+std::span<double> components(std::vector<Vec3>& x) {
+  return {x.front().data(), 3 * x.size()};
+}
+
+std::vector<Vec3> places_of(const GutSkin& skin, std::span<const Vec3> x) {
+  std::vector<Vec3> places(skin.node_count());
+  skin.place(x, places);
+  return places;
+}
+
+/// What the gut yields to forces on its masses.
+class GutYielding final : public physics::Yielding {
+ public:
+  explicit GutYielding(const physics::GutSystem& gut) : gut_(gut) {}
+  double step_s() const override { return gut_.settings().step_s; }
+  void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override {
+    const std::size_t masses = forces.size() / 3;
+    gut_.yield_to({reinterpret_cast<const Vec3*>(forces.data()), masses},
+                  {reinterpret_cast<Vec3*>(yield.data()), masses});
+  }
+
+ private:
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const physics::GutSystem& gut_;
+};
+
+/// The skin as it lies. Where it is folded, on the inner side of a sharp bend, it has no faces.
+struct SkinFaces {
+  const GutSkin& skin;
+  std::span<const Vec3> places, x;
+
+  std::size_t count() const noexcept { return skin.triangles().size(); }
+  const auto& corners(std::size_t f) const noexcept { return skin.triangles()[f]; }
+  const Vec3& place(NodeId n) const noexcept { return places[static_cast<std::size_t>(n)]; }
+  bool is_one(std::size_t f) const noexcept {
+    const auto& [a, b, c] = corners(f);
+    const Vec3 normal = (place(b) - place(a)).cross(place(c) - place(a));
+    if (!(normal.norm() > 2 * kLeastArea_m2)) return false;
+    return std::ranges::all_of(corners(f), [&](NodeId n) {
+      const Vec3 out = place(n) - weighted(skin.node(n), x);
+      return out.isZero() || normal.dot(out) > 0;
+    });
+  }
+};
+
+}  // namespace
+
+GutModel::GutModel(GutParts parts)
+    : system_(std::move(parts.system)),
+      felt_(std::move(parts.felt)),
+      obstacles_(std::move(parts.obstacles)),
+      is_felt_in_its_own_steps_(system_->settings().step_s == felt_->settings().step_s),
+      skin_(system_->shape()),
+      presses_(skin_, places_of(skin_, system_->shape().positions), parts.wall_m_n),
+      imposed_(system_->shape().positions.size(), kMaxTools),
+      wanted_(system_->state()),
+      values_(3 * system_->shape().positions.size()),
+      look_(std::make_unique<Felt>(skin_, system_->shape().positions.size())),
+      meeting_(std::make_unique<GutMeeting>(*felt_)) {
+  status_.collisions.emplace();
+  show();
+}
+
+GutModel::Felt::Felt(const GutSkin& skin, std::size_t all)
+    : places(skin.node_count()),
+      dented(skin.node_count()),
+      next(skin.node_count()),
+      ahead(all),
+      wanted(all),
+      forces(all),
+      block(kMostPatchMasses * kMostPatchMasses),
+      choice(skin.node_count(), skin.triangles().size(), kPatchNodes) {
+  masses.reserve(kMostPatchMasses);
+}
+
+ModelSizes GutModel::sizes() const {
+  return {.values = values_.size(),
+          .removed_bytes = 0,
+          .local_nodes = kPatchNodes,
+          .spheres = meeting_->most_spheres(),
+          // a step of the springs foresees less of a longer push than comes: a loop that rests would tremble
+          .most_scale = 1};
+}
+
+void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
+  const double step_s = system_->settings().step_s;
+  ahead_s_ += dt_s;
+  const auto steps = static_cast<int>(ahead_s_ / step_s + kStepRounding);
+  ahead_s_ -= steps * step_s;
+  if (steps == 0) return;
+  look();
+  presses_.press(loads.presses, look_->places, system_->state().x);
+  until_felt_s_ = 0;
+  meeting_->act(steps * step_s);
+  for (int i = 0; i < steps && !status_.diverged; ++i) advance();
+  meeting_->put_down();
+  show();
+}
+
+void GutModel::advance() noexcept {
+  const double step_s = system_->settings().step_s;
+  const std::int64_t held_back = system_->report().collisions.bound_acted;
+  if (!is_felt_in_its_own_steps_) press_ahead();
+  system_->step(loads());
+  if (is_felt_in_its_own_steps_) impose();
+  ++status_.steps;
+  status_.simulated_s += step_s;
+  status_.diverged = system_->report().diverged;
+  note_collisions(held_back);
+}
+
+void GutModel::note_collisions(std::int64_t held_back_before) noexcept {
+  const physics::GutCollisionReport& now = system_->report().collisions;
+  CollisionAccount& account = *status_.collisions;
+  account.contacts += static_cast<std::uint64_t>(now.contacts);
+  account.held_back +=
+      static_cast<std::uint64_t>(std::max<std::int64_t>(now.bound_acted - held_back_before, 0));
+  account.deepest_m = std::max(account.deepest_m, now.deepest_m);
+}
+
+physics::GutLoads GutModel::loads() const noexcept {
+  return {.forces_n = forces(), .obstacles = obstacles_};
+}
+
+std::span<const Vec3> GutModel::forces() const noexcept {
+  const std::span<const Vec3> of_organs = meeting_->forces();
+  if (of_organs.empty()) return presses_.forces();
+  std::ranges::transform(presses_.forces(), of_organs, look_->forces.begin(), std::plus{});
+  return look_->forces;
+}
+
+// Of a gut that was stepped under the hands' own forces: how strong they would have to be.
+std::span<const double> GutModel::strengths_on(const physics::GutSystem& gut) noexcept {
+  std::ranges::copy(gut.state().x, wanted_.x.begin());
+  std::ranges::copy(gut.state().v, wanted_.v.begin());
+  GutYielding yielding(gut);
+  return imposed_.impose(yielding, presses_.presses(), components(wanted_.x), components(wanted_.v), 1);
+}
+
+void GutModel::impose() noexcept {
+  if (presses_.presses().empty()) return;
+  const std::span<const double> strengths = strengths_on(*system_);
+  presses_.act(strengths);
+  if (std::ranges::all_of(strengths, [](double s) { return std::abs(s - 1) < kAsSaid; })) return;
+  system_->move_to(wanted_, loads());
+}
+
+// Steps are short: hands are told, and answered, only now and then, and between hold their strengths.
+void GutModel::press_ahead() noexcept {
+  until_felt_s_ -= system_->settings().step_s;
+  if (until_felt_s_ > 0 || presses_.presses().empty()) return;
+  until_felt_s_ = felt_->settings().step_s;
+  presses_.act(1);
+  felt_->take_up(*system_);
+  felt_->step(loads());
+  presses_.act(strengths_on(*felt_));
+}
+
+void GutModel::reset() noexcept {
+  system_->reset();
+  felt_->reset();
+  presses_.forget();
+  meeting_->reset();
+  ahead_s_ = until_felt_s_ = 0;
+  status_.diverged = false;
+  show();
+}
+
+void GutModel::show() noexcept {
+  look_->is_seen = look_->is_foreseen = look_->is_next_seen = false;
+  float* value = values_.data();
+  for (const Vec3& x : system_->state().x)
+    for (int axis = 0; axis < 3; ++axis) *value++ = static_cast<float>(x[axis]);
+}
+
+OrganView GutModel::view() const noexcept {
+  return {.kind = StateKind::kTube, .topology_version = 0, .values = values_};
+}
+
+std::unique_ptr<StrainGauge> GutModel::strain_gauge() const {
+  return std::make_unique<GutGauge>(system_->shape());
+}
+
+void GutModel::look() const noexcept {
+  if (std::exchange(look_->is_seen, true)) return;
+  skin_.place(system_->state().x, look_->places);
+  std::ranges::copy(look_->places, look_->dented.begin());
+  presses_.dent(look_->dented);
+}
+
+void GutModel::foresee() const noexcept {
+  if (std::exchange(look_->is_foreseen, true)) return;
+  felt_->take_up(*system_);
+  felt_->step(loads());
+  for (std::size_t m = 0; m < look_->ahead.size(); ++m)
+    look_->ahead[m] = (felt_->state().x[m] - system_->state().x[m]) / felt_->settings().step_s;
+}
+
+// As its own steps move it. The longer one that is felt foresees a gut that lies on something as moving: its
+// springs answer the same pushes otherwise.
+void GutModel::look_ahead() const noexcept {
+  if (std::exchange(look_->is_next_seen, true)) return;
+  const double step_s = felt_->settings().step_s;
+  std::ranges::transform(system_->state().x, system_->state().v, look_->wanted.begin(),
+                         [step_s](const Vec3& x, const Vec3& v) -> Vec3 { return x + step_s * v; });
+  skin_.place(look_->wanted, look_->next);
+}
+
+std::span<const CollisionSphere> GutModel::collidable() const noexcept {
+  if (!meeting_->looks_ahead()) return meeting_->collidable(system_->state().x, system_->state().v);
+  foresee();
+  return meeting_->collidable(system_->state().x, look_->ahead);
+}
+
+void GutModel::respond(std::span<const OrganContact> contacts) noexcept {
+  foresee();
+  meeting_->respond(contacts, system_->state(), presses_.forces(), look_->ahead);
+  look_->is_next_seen = false;
+}
+
+bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
+  look();
+  const SkinFaces faces{skin_, look_->dented, system_->state().x};
+  PatchPlace around = place;
+  // what is held must not leave the patch where a hand is ahead of a gut that falls behind the clock
+  around.centre = presses_.middle(place.tool, look_->dented).value_or(place.centre);
+  if (!look_->choice.choose(around, faces, patch)) return false;
+  look_ahead();
+  patch.topology_version = 0;
+  const std::span<const NodeId> nodes = look_->choice.nodes();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto n = static_cast<std::size_t>(nodes[i]);
+    patch.nodes[i] = static_cast<std::uint32_t>(n);
+    patch.velocities[i] = (look_->next[n] - look_->places[n]) / felt_->settings().step_s;
+    patch.positions[i] = look_->dented[n] + ahead_s_ * patch.velocities[i];
+    patch.forces[i] = presses_.of_tool(place.tool, nodes[i]);
+  }
+  find_compliance(nodes, patch.compliance);
+  return true;
+}
+
+// C = J A^-1 J^T + wall, alike in all directions: J has the weights by which masses carry nodes.
+void GutModel::find_compliance(std::span<const NodeId> nodes, std::span<float> upper) const noexcept {
+  std::vector<MassId>& masses = look_->masses;
+  std::array<std::array<std::size_t, GutSkin::kMostWeights>, kPatchNodes> place_of{};
+  masses.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const GutSkin::Node& node = skin_.node(nodes[i]);
+    for (std::size_t k = 0; k < GutSkin::kMostWeights; ++k) {
+      if (node.weight[k] == 0) continue;
+      place_of[i][k] = static_cast<std::size_t>(std::ranges::find(masses, node.mass[k]) - masses.begin());
+      if (place_of[i][k] == masses.size()) masses.push_back(node.mass[k]);
+    }
+  }
+  const std::size_t m = masses.size();
+  const std::span<double> block = std::span(look_->block).first(m * m);
+  felt_->compliance(masses, block);
+  const auto between = [&](std::size_t i, std::size_t j) {
+    double sum = i == j ? presses_.wall_m_n() : 0;
+    for (std::size_t k = 0; k < GutSkin::kMostWeights; ++k)
+      for (std::size_t l = 0; l < GutSkin::kMostWeights; ++l)
+        sum += skin_.node(nodes[i]).weight[k] * skin_.node(nodes[j]).weight[l] *
+               block[place_of[i][k] * m + place_of[j][l]];
+    return static_cast<float>(sum);
+  };
+  float* value = upper.data();
+  for (std::size_t row = 0; row < 3 * nodes.size(); ++row)
+    for (std::size_t column = row; column < 3 * nodes.size(); ++column)
+      *value++ = row % 3 == column % 3 ? between(row / 3, column / 3) : 0.0F;
+}
+
+}  // namespace omentum::deform

@@ -1,0 +1,84 @@
+#include "render_node/tube_drawing.h"
+
+#include "geometry/precondition.h"
+#include "render_node/sheet_skin.h"
+#include "render_node/tube_skin.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace omentum::render {
+namespace {
+
+std::span<const geometry::Vec3> axis_of(const geometry::GutLayout& layout,
+                                        std::span<const geometry::Vec3> masses) {
+  return masses.first(static_cast<std::size_t>(layout.columns));
+}
+
+class TubeDrawing final : public OrganDrawing {
+ public:
+  TubeDrawing(const geometry::GutShape& rest, const Material& wall)
+      : layout_(rest.layout),
+        wall_(wall),
+        masses_(rest.positions),
+        tube_(axis_of(layout_, masses_), rest.tube_radius_m),
+        sheet_(rest) {
+    sheet_.deform(masses_, tube_.shade());
+  }
+
+  // Of the mesentery its lowest place alone: the tube shades the ground, but nothing may lie below it.
+  Outline outline() const override;
+  bool wanders() const override { return true; }
+  void deform(std::span<const float> values) override;
+  [[nodiscard]] bool map(std::span<const float> shares) override;
+  const MeshData& mesh() const override { return tube_.mesh(); }
+  Material material() const override { return wall_; }
+  Look look() const override { return Look::kGut; }
+  std::vector<OrganPart> parts() const override {
+    return {{&sheet_.mesh(), Look::kMesentery, tissue_material("mesentery")}};
+  }
+  double length_m() const override { return tube_.length_m(); }
+
+ private:
+  geometry::GutLayout layout_;
+  Material wall_;
+  std::vector<geometry::Vec3> masses_;  // of the last state
+  TubeSkin tube_;
+  SheetSkin sheet_;
+};
+
+Outline TubeDrawing::outline() const {
+  Outline outline;
+  for (const Vertex& vertex : tube_.mesh().vertices) {
+    outline.points.push_back(vertex.position.cast<double>());
+    outline.normals.push_back(vertex.normal);
+  }
+  const auto height = [](const Vertex& vertex) { return vertex.position.z(); };
+  const Vertex lowest = *std::ranges::min_element(sheet_.mesh().vertices, {}, height);
+  outline.points.push_back(lowest.position.cast<double>());
+  outline.normals.push_back(Vec3f::Zero());
+  outline.area_m2 = 2 * std::numbers::pi * tube_.radius_m() * tube_.length_m();
+  return outline;
+}
+
+void TubeDrawing::deform(std::span<const float> values) {
+  geometry::require(values.size() == 3 * masses_.size(), "three values for each mass");
+  for (std::size_t m = 0; m < masses_.size(); ++m)
+    masses_[m] = {values[3 * m], values[3 * m + 1], values[3 * m + 2]};
+  tube_.deform(axis_of(layout_, masses_));
+  sheet_.deform(masses_, tube_.shade());
+}
+
+bool TubeDrawing::map(std::span<const float> shares) {
+  tube_.map(shares.first(static_cast<std::size_t>(layout_.columns)));
+  sheet_.map(shares);
+  return true;
+}
+
+}  // namespace
+
+std::unique_ptr<OrganDrawing> make_tube_drawing(const geometry::GutShape& rest, const Material& wall) {
+  return std::make_unique<TubeDrawing>(rest, wall);
+}
+
+}  // namespace omentum::render

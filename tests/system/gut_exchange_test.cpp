@@ -1,0 +1,141 @@
+// The hand's loop and the organ's with an intestine between them.
+#include "geometry/gut_anatomy.h"
+#include "geometry/gut_skin.h"
+#include "tests/support/process.h"
+#include "tests/system/exchange_session.h"
+
+#include <fstream>
+
+namespace omentum {
+namespace {
+
+using geometry::Vec3;
+using test::Session;
+
+// Of a step in a force that is felt anyway: a hand tells a tenth of a newton apart at best.
+constexpr double kUnnoticed_n = 0.1;
+constexpr double kDeep_m = 0.006, kSettles_s = 12;
+
+/// An intestine that comes to rest on a plane below where sessions begin.
+class GutExchange : public testing::Test {
+ protected:
+  GutExchange() : gut_(geometry::make_gut(anatomy())), skin_(gut_) {}
+
+  test::ExchangeScene scene(const std::string& keys = "") {
+    const std::filesystem::path file = folder_ / "scene.toml";
+    std::ofstream(file)
+        << "name = \"gut\"\n[[organs]]\nname = \"gut\"\nmodel = \"intestine\"\norigin = [0, 0, -0.3]\n"
+        << keys
+        << "\n[[obstacles]]\nshape = \"plane\"\ncentre = [0, 0, -0.43]\nnormal = [0, 0, 1]\n"
+           "[[tools]]\nid = 0\nname = \"grasper\"\nshape = \"grasper\"\n"
+           "points = [[0,0,0], [0.003,0,0.001]]\n[haptics]\nfriction = 0.5\n";
+    return {.file = file, .felt = scene::kOrganModels, .moved = deform::model_table()};
+  }
+  std::vector<Vec3> skin_now(Session& session) {
+    const auto state = session.bus().newest<msg::OrganState>();
+    std::vector<Vec3> x, places(skin_.node_count());
+    for (std::size_t i = 0; state && i < state->values.size(); i += 3)
+      x.emplace_back(state->values[i], state->values[i + 1], state->values[i + 2]);
+    EXPECT_EQ(x.size(), gut_.positions.size());
+    skin_.place(x, places);
+    return places;
+  }
+  double nearest_m(Session& session, const Vec3& p) {
+    double nearest = 1;
+    for (const Vec3& place : skin_now(session)) nearest = std::min(nearest, (place - p).norm());
+    return nearest;
+  }
+  /// Of its skin.
+  Vec3 highest(Session& session) {
+    const std::vector<Vec3> places = skin_now(session);
+    return *std::ranges::max_element(places, {}, [](const Vec3& p) { return p.z(); });
+  }
+  /// Comes down onto its highest place, once the gut lies still, and stays there.
+  Vec3 press(Session& session, double settles_s = kSettles_s) {
+    session.move_to(test::kAbove, settles_s);
+    top_ = highest(session);
+    session.move_to(above(), 0.5);
+    session.move_to(pressed(), 0.5);
+    return session.move_to(pressed(), 1.5);
+  }
+  Vec3 above() const { return top_ + Vec3(0, 0, 0.02); }
+  Vec3 pressed() const { return top_ - Vec3(0, 0, kDeep_m); }
+
+  static geometry::GutAnatomy anatomy() {
+    geometry::GutAnatomy anatomy;
+    anatomy.origin = {0, 0, -0.3};
+    return anatomy;
+  }
+
+  test::ScratchFolder folder_;
+  geometry::GutShape gut_;
+  geometry::GutSkin skin_;
+  Vec3 top_ = Vec3::Zero();
+};
+
+// Of a gut that has one place to be: stiff and without weight. How soft folds come to lie hangs on the way
+// there.
+TEST_F(GutExchange, AHeldPressDoesNotDependOnTheHandsRate) {
+  const std::string stiff = "gravity_m_s2 = [0, 0, 0]\ngut_bending_n_m2 = 2\nmesentery_stretch_n_m = 5000";
+  Session fast(1000, 100, scene(stiff)), slow(300, 100, scene(stiff));
+  const double expected = press(fast, 1).norm();
+  EXPECT_GT(expected, 0.02);
+  EXPECT_LT(expected, 3 * kDeep_m * 300) << "the wall of three nodes in front of a gut that does not move";
+  EXPECT_NEAR(press(slow, 1).norm(), expected, 0.03 * expected);
+  for (Session* session : {&fast, &slow}) {
+    const auto hand = session->hand_report(), organ = session->organ_report();
+    EXPECT_EQ(hand["faults"].size(), 0u) << hand["faults"];
+    EXPECT_EQ(organ["faults"].size(), 0u) << organ["faults"];
+  }
+}
+
+TEST_F(GutExchange, APressThatGoesGivesTheHandNoEnergyAndItsForceMakesNoStep) {
+  Session session(1000, 100, scene());
+  press(session);
+  const double put_in_j = -session.given_j();
+  EXPECT_GT(put_in_j, 1e-4);
+  session.move_to(pressed() + Vec3(0, 0.005, 0), 0.5);
+  session.move_to(above(), 0.5);
+  EXPECT_LT(session.given_j(), 0.02 * put_in_j) << "of " << put_in_j << " J";
+  EXPECT_LT(session.largest_step_n(), kUnnoticed_n);
+}
+
+TEST_F(GutExchange, AGraspedLoopIsLiftedAndComesDownWhenItIsLetGo) {
+  Session session(1000, 100, scene());
+  session.open_jaws(0.5);
+  session.move_to(test::kAbove, kSettles_s);
+  top_ = highest(session);
+  session.move_to(above(), 0.5);
+  session.move_to(top_ - Vec3(0, 0, 0.003), 0.5);
+  session.open_jaws(0);
+  session.move_to(top_ - Vec3(0, 0, 0.003), 0.2);
+  const Vec3 lifted = top_ + Vec3(0, 0, 0.06);
+  session.move_to(lifted, 1);
+  const Vec3 force = session.move_to(lifted, 1);
+  EXPECT_LT(force.z(), -0.2) << "its weight, and its mesentery, " << session.given_j();
+  EXPECT_LT(nearest_m(session, lifted), 0.02);
+  session.open_jaws(0.5);
+  EXPECT_LT(session.move_to(lifted, 1).norm(), 0.01);
+  EXPECT_GT(nearest_m(session, lifted), 0.02);
+  const auto hand = session.hand_report(), organ = session.organ_report();
+  EXPECT_EQ(hand["faults"].size(), 0u) << hand["faults"];
+  EXPECT_EQ(organ["faults"].size(), 0u) << organ["faults"];
+}
+
+TEST_F(GutExchange, AProbeThatTeleportsThroughTheGutLeavesItWhole) {
+  Session session(1000, 100, scene());
+  session.move_to(test::kAbove, kSettles_s);
+  top_ = highest(session);
+  session.move_to(above(), 0.5);
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 where = i / 20 % 2 == 0 ? Vec3(top_ - Vec3(0, 0, 0.06)) : above();
+    EXPECT_TRUE(session.step_to(where).allFinite());
+  }
+  session.move_to(above(), 1);
+  const auto organ = session.organ_report();
+  for (const auto& fault : organ["faults"])
+    EXPECT_EQ(fault.dump().find("diverged"), std::string::npos) << fault;
+}
+
+}  // namespace
+}  // namespace omentum
