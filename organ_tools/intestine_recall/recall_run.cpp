@@ -17,7 +17,6 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kFloor_m = -0.02;  // of the plane, below the gut's lowest place at the start
-constexpr double kWatched = 0.02;   // of the least reach: what GutCollisions asks for, too
 
 // What is known of a region that lives on from step to step.
 struct History {
@@ -43,7 +42,7 @@ class Watcher {
   }
 
   std::set<IndexPair> find(std::span<const Vec3> x, std::span<const double> way_m) {
-    finder_->find(x, way_m, kWatched * parts_.least_reach_m(), near_);
+    finder_->find(x, way_m, physics::GutCollisions::kWatched * parts_.least_reach_m(), near_);
     std::set<IndexPair> found;
     for (const physics::NearPair& pair : near_.pairs) {
       found.insert(parts_.is_segment(pair.part)

@@ -14,9 +14,6 @@ namespace {
 using geometry::MassId;
 using geometry::Vec3;
 
-// Contacts that the passes may close are watched from this part of the least reach on.
-constexpr double kWatched = 0.02;
-
 // Room for contacts: with walls and balls for each mass, of pairs for each part. A gut at rest has one for
 // four parts; what finds no room is not corrected, but held apart by the bound.
 constexpr std::size_t kContactsPerMass = 4, kContactsPerPart = 16;

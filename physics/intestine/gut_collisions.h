@@ -39,6 +39,9 @@ struct GutCollisionReport {
 /// at a time; no allocation after construction; the same calls give the same results bit for bit.
 class GutCollisions {
  public:
+  /// Contacts that the passes may close are watched from this part of the least reach on.
+  static constexpr double kWatched = 0.02;
+
   /// `masses_kg`: [masses], > 0 but for held ones (GutLayout), which never move. Throws std::invalid_argument
   /// where a number is out of its range, in words.
   GutCollisions(const geometry::GutShape& shape, std::span<const double> masses_kg, double step_s,

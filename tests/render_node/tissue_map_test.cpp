@@ -75,7 +75,9 @@ TEST_F(TissueMapDrawing, SkinAndCutHaveTheirNodesShares) {
     EXPECT_EQ(item.look, Look::kMap);
     const MeshData& mesh = renderer_.mesh_of(item);
     for (const MeshTriangle& t : mesh.triangles) {
-      if (t[0] != t[1]) EXPECT_FLOAT_EQ(mesh.vertices[t[0]].share, 0.4f);
+      if (t[0] != t[1]) {
+        EXPECT_FLOAT_EQ(mesh.vertices[t[0]].share, 0.4f);
+      }
     }
   }
 }

@@ -49,8 +49,8 @@ class SessionLoopsTest : public testing::Test {
     return std::make_unique<test::StagedLoop<Loop>>(rate_hz, options, bus_.opener());
   }
   std::unique_ptr<test::StagedLoop<deform::DeformLoop>> start_deform() {
-    return start<deform::DeformLoop>(deform::DeformOptions{.node = options(), .rate_hz = kOrganRate_hz},
-                                     kOrganRate_hz);
+    return start<deform::DeformLoop>(
+        deform::DeformOptions{.node = options(), .journal = {}, .rate_hz = kOrganRate_hz}, kOrganRate_hz);
   }
 
   /// A millisecond, in which the hand is at `tip`.
