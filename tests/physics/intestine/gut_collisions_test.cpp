@@ -2,6 +2,7 @@
 
 #include "physics/intestine/active_pairs.h"
 #include "tests/physics/intestine/restless_gut.h"
+#include "tests/support/effort.h"
 #include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ TEST(GutCollisions, CompleteMethodMissesNothingInAnyStep) {
   GutState state = test::state_of(shape);
   std::mt19937_64 random(5);
   std::size_t overlaps = 0;
-  for (int step = 0; step < 150; ++step) {
+  for (int step = 0; step < test::tried(150); ++step) {
     const std::vector<Vec3> before = state.x;
     const geometry::GutOverlaps all = geometry::all_overlaps(parts.layout, before, parts.reach, parts.near);
     test::shake(parts.layout, 0.3, kStep_s, random, state);
@@ -45,7 +46,7 @@ TEST(GutCollisions, CompleteMethodMissesNothingInAnyStep) {
       EXPECT_TRUE(pairs.contains({sheet.segment, sheet.other + parts.layout.segment_count()}));
     overlaps += all.tube.size() + all.mesentery.size();
   }
-  EXPECT_GT(overlaps, 1000U);
+  EXPECT_GT(overlaps, test::tried(1000U));
 }
 
 class GutSearch : public ::testing::TestWithParam<GutPairMethod> {};
@@ -93,11 +94,12 @@ TEST(GutCollisions, StochasticSearchFindsNearlyAllWithAFewTests) {
   std::mt19937_64 random(9);
   std::size_t there = 0, known = 0;
   std::int64_t tests = 0, pairs = 0;
-  for (int step = 0; step < 300; ++step) {
+  constexpr int kFinding = 200, kCounted = test::tried(100);
+  for (int step = 0; step < kFinding + kCounted; ++step) {
     std::vector<Vec3> x = shape.positions;
     for (Vec3& p : x) p += test::random_vector(random, 0.001);
     search.find(x, ways, 0, near);
-    if (step < 200) continue;
+    if (step < kFinding) continue;
     tests += search.distance_tests();
     pairs += geometry::exhaustive_tests(parts.layout, parts.near);
     const geometry::GutOverlaps all = geometry::all_overlaps(parts.layout, x, parts.reach, parts.near);
@@ -108,7 +110,7 @@ TEST(GutCollisions, StochasticSearchFindsNearlyAllWithAFewTests) {
       known += names.count({sheet.segment, sheet.other + parts.layout.segment_count()});
     there += all.tube.size() + all.mesentery.size();
   }
-  EXPECT_GT(there, 1000U);
+  EXPECT_GT(there, test::tried(1000U));
   EXPECT_GE(static_cast<double>(known), 0.99 * static_cast<double>(there));
   EXPECT_LE(static_cast<double>(tests), 0.05 * static_cast<double>(pairs));
 }
