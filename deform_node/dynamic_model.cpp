@@ -64,7 +64,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       felt_(std::make_unique<Felt>()),
       meeting_(std::make_unique<BodyMeeting>(mesh_, inertia_)) {
   felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
-  felt_->u.resize(state_.u.size());
+  felt_->ahead.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
   fallen_.reserve(mesh_.tetrahedra.size());
 }
@@ -219,6 +219,7 @@ std::span<const CollisionSphere> DynamicModel::collidable() const noexcept {
 
 void DynamicModel::respond(std::span<const OrganContact> contacts) noexcept {
   meeting_->respond(contacts, state_, *stepper_, loads_.external());
+  felt_->is_foreseen = false;
 }
 
 OrganView DynamicModel::view() const noexcept {
@@ -235,16 +236,27 @@ std::unique_ptr<StrainGauge> DynamicModel::strain_gauge() const {
   return std::make_unique<BodyGauge>(mesh_, material_, stress_);
 }
 
+// What others push is not among the forces before the next step.
+void DynamicModel::look_ahead() const noexcept {
+  if (std::exchange(felt_->is_foreseen, true)) return;
+  const std::span<const double> pushed = meeting_->ahead();
+  if (!pushed.empty()) {
+    std::ranges::copy(pushed, felt_->ahead.begin());
+    return;
+  }
+  stepper_->foresee(state_, loads_.external(), felt_->ahead);
+  for (std::size_t c = 0; c < state_.u.size(); ++c)
+    felt_->ahead[c] = (felt_->ahead[c] - state_.u[c]) / stepper_->felt_s();
+}
+
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   if (!stepper_->is_felt() || !gatherer_->gather(place, editor_, state_.u, patch)) return false;
   const std::span<const NodeId> nodes = gatherer_->nodes();
-  if (!felt_->is_foreseen) stepper_->foresee(state_, loads_.external(), felt_->u);
-  felt_->is_foreseen = true;
+  look_ahead();
   patch.topology_version = version_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec3 u = at(state_.u, nodes[i]);
-    patch.velocities[i] = (at(felt_->u, nodes[i]) - u) / stepper_->felt_s();
-    patch.positions[i] = mesh_.positions[nodes[i]] + u + ahead_s_ * patch.velocities[i];
+    patch.velocities[i] = at(felt_->ahead, nodes[i]);
+    patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]) + ahead_s_ * patch.velocities[i];
     patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
   }
   const std::size_t rows = 3 * nodes.size();

@@ -61,6 +61,7 @@ class DynamicModel final : public OrganModel {
   /// False: the energy afterwards cannot be.
   bool run(int steps, Step step) noexcept;
   void show() noexcept;
+  void look_ahead() const noexcept;
 
   const geometry::TetraMesh& mesh_;
   const physics::MaterialMap& material_;
@@ -85,7 +86,7 @@ class DynamicModel final : public OrganModel {
   // workspace of local_model()
   struct Felt {
     std::vector<float> compliance;  // [3 kPatchNodes squared]
-    std::vector<double> u;          // [3N] after one more step under the same forces ...
+    std::vector<double> ahead;      // [3N] velocities, m/s, of one more step under the same forces ...
     bool is_foreseen = false;       // ... from where the body is now
   };
   std::unique_ptr<PatchGatherer> gatherer_;

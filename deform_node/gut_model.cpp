@@ -3,6 +3,7 @@
 #include "deform_node/gut_gauge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -70,6 +71,7 @@ struct SkinFaces {
 GutModel::GutModel(GutParts parts)
     : system_(std::move(parts.system)),
       felt_(std::move(parts.felt)),
+      ahead_(std::move(parts.ahead)),
       obstacles_(std::move(parts.obstacles)),
       is_felt_in_its_own_steps_(system_->settings().step_s == felt_->settings().step_s),
       skin_(system_->shape()),
@@ -212,18 +214,22 @@ void GutModel::look() const noexcept {
 
 void GutModel::foresee() const noexcept {
   if (std::exchange(look_->is_foreseen, true)) return;
-  felt_->take_up(*system_);
-  felt_->step(loads());
+  physics::GutSystem& gut = ahead_ ? *ahead_ : *felt_;
+  const double step_s = gut.settings().step_s;
+  const auto steps = static_cast<int>(std::lround(felt_->settings().step_s / step_s));
+  gut.take_up(*system_);
+  for (int i = 0; i < steps; ++i) gut.step(loads());
   for (std::size_t m = 0; m < look_->ahead.size(); ++m)
-    look_->ahead[m] = (felt_->state().x[m] - system_->state().x[m]) / felt_->settings().step_s;
+    look_->ahead[m] = (gut.state().x[m] - system_->state().x[m]) / (steps * step_s);
 }
 
-// As its own steps move it. The longer one that is felt foresees a gut that lies on something as moving: its
-// springs answer the same pushes otherwise.
+// A hand adds what it presses more than now to what is told of now: so that has to be where the gut goes
+// under the same press, not how fast it is.
 void GutModel::look_ahead() const noexcept {
   if (std::exchange(look_->is_next_seen, true)) return;
+  foresee();
   const double step_s = felt_->settings().step_s;
-  std::ranges::transform(system_->state().x, system_->state().v, look_->wanted.begin(),
+  std::ranges::transform(system_->state().x, look_->ahead, look_->wanted.begin(),
                          [step_s](const Vec3& x, const Vec3& v) -> Vec3 { return x + step_s * v; });
   skin_.place(look_->wanted, look_->next);
 }

@@ -9,10 +9,11 @@
 
 namespace omentum::deform {
 
-/// What an intestine consists of. `felt` is the same gut in steps that a hand feels one of: it looks a step
-/// ahead, and says what yields within it.
+/// What an intestine consists of. `felt` is the same gut in steps that a hand feels one of: it says what
+/// yields within it. `ahead` looks that far ahead, in the gut's own steps or no longer ones than a pile lies
+/// still in: it would be foreseen as moving. None where `felt` has such steps.
 struct GutParts {
-  std::unique_ptr<physics::GutSystem> system, felt;
+  std::unique_ptr<physics::GutSystem> system, felt, ahead{};
   std::vector<physics::GutObstacle> obstacles{};
   double wall_m_n = 1.0 / 300;  // what a place of the skin yields to a force, beside the masses, m/N
 };
@@ -55,7 +56,7 @@ class GutModel final : public OrganModel {
   void look_ahead() const noexcept;
   void find_compliance(std::span<const NodeId> nodes, std::span<float> upper) const noexcept;
 
-  std::unique_ptr<physics::GutSystem> system_, felt_;
+  std::unique_ptr<physics::GutSystem> system_, felt_, ahead_;
   std::vector<physics::GutObstacle> obstacles_;
   bool is_felt_in_its_own_steps_;
   geometry::GutSkin skin_;
@@ -70,10 +71,10 @@ class GutModel final : public OrganModel {
   static constexpr std::size_t kMostPatchMasses = kPatchNodes * geometry::GutSkin::kMostWeights;
   struct Felt {
     Felt(const geometry::GutSkin& skin, std::size_t masses);
-    // [nodes of the skin] now, with the dents that tools press, and a step later under the same forces
+    // [nodes of the skin] now, with the dents that tools press, and a felt step later under the same forces
     std::vector<Vec3> places, dented, next;
     bool is_seen = false, is_foreseen = false, is_next_seen = false;
-    std::vector<Vec3> ahead;               // [masses] velocities at the end of that step, m/s
+    std::vector<Vec3> ahead;               // [masses] velocities on the way there, m/s
     std::vector<Vec3> wanted;              // [masses] places there, m
     std::vector<Vec3> forces;              // [masses] of tools and other organs, N
     std::vector<geometry::MassId> masses;  // that carry a patch

@@ -58,6 +58,47 @@ TEST(GutModel, WhatLiesStillIsToldToLieStill) {
 
 // ---- touch
 
+/// What a patch says of one of its nodes.
+struct ToldNode {
+  Vec3 place, speed, force;
+  double yields_m_n;
+
+  Vec3 after(double t_s, const Vec3& other_force) const {
+    return place + t_s * speed + yields_m_n * (other_force - force);
+  }
+};
+
+ToldNode told_of(const GutModel& model, NodeId node, const Vec3& around) {
+  LocalPatch patch(GutModel::kPatchNodes);
+  EXPECT_TRUE(model.local_model({0, around, 0.015}, patch));
+  const auto number = static_cast<std::uint32_t>(std::int32_t{node});
+  const auto at = static_cast<std::size_t>(std::ranges::find(patch.nodes, number) - patch.nodes.begin());
+  EXPECT_LT(at, patch.node_count);
+  const std::size_t row = 3 * at, rows = 3 * patch.node_count;
+  return {patch.positions[at], patch.velocities[at], patch.forces[at],
+          patch.compliance[row * rows - row * (row - 1) / 2]};
+}
+
+// A press that has just begun moves the gut faster and faster, and a hand that goes along has to know.
+TEST(GutModel, ALocalModelForetellsWhereItsOwnPressTakesTheGut) {
+  GutModel model = gut_model({.step_s = 0.0025});
+  const NodeId node = highest_node();
+  const Vec3 begin = skin_places(model)[static_cast<std::size_t>(std::int32_t{node})], pull(0, 0.3, 0.5);
+  ToldNode told = told_of(model, node, begin);
+  for (int tick = 0; tick < 10; ++tick) {
+    const Vec3 hand = told.after(kGutTick_s, pull), way = hand - begin;
+    const ToolLoad load{.tool = 0, .nodes = {&node, 1}, .displacements = {&way, 1}, .forces = {&pull, 1}};
+    model.step({.presses = {&load, 1}, .cuts = {}}, kGutTick_s);
+    const ToldNode now = told_of(model, node, hand);
+    const double went_m = (now.place - told.place).norm();
+    // at first the gut yields more than the constant matrix of a step says
+    if (tick > 1) {
+      EXPECT_LT((now.place - told.after(kGutTick_s, now.force)).norm(), 0.05 * went_m) << tick;
+    }
+    told = now;
+  }
+}
+
 struct Rates {
   double step_s, hand_hz;
 };

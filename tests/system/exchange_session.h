@@ -80,6 +80,7 @@ class Session {
       const Vec3 before = tip_;
       force = step_to(from + (tip - from) * i / ticks, pressed);
       given_j_ += 0.5 * (force + last_).dot(tip_ - before);
+      most_given_j_ = std::max(most_given_j_, given_j_);
       largest_step_n_ = std::max(largest_step_n_, (force - last_).norm());
       last_ = force;
     }
@@ -107,6 +108,11 @@ class Session {
   /// Of the next poses: how far the jaws are open.
   void open_jaws(double grip_rad) { grip_rad_ = grip_rad; }
   void stop_organ() { organ_lives_ = false; }
+  /// A busy machine takes the organ's next ticks away.
+  void take_organ_ticks(int count) {
+    organ_.pace().stall(std::llround(1e9 * count / organ_hz_));
+    organ_s_ += count / organ_hz_;
+  }
   /// Another one in its place, which knows of nothing that was.
   void replace_hand() {
     EXPECT_EQ(hand_->end(), "");
@@ -115,6 +121,7 @@ class Session {
     last_.setZero();
   }
   double given_j() const { return given_j_; }
+  double most_given_j() const { return most_given_j_; }
   double largest_step_n() const { return largest_step_n_; }
   nlohmann::json hand_report() {
     EXPECT_EQ(hand_->end(), "");
@@ -155,7 +162,7 @@ class Session {
   Vec3 tip_ = kAbove, last_ = Vec3::Zero();
   bool organ_lives_ = true;
   double grip_rad_ = 0;
-  double given_j_ = 0, largest_step_n_ = 0;
+  double given_j_ = 0, most_given_j_ = 0, largest_step_n_ = 0;
 };
 
 /// What the tensors say of a press that is held, N: a hand that has them feels it.
