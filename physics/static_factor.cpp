@@ -35,6 +35,8 @@ StaticFactor::StaticFactor(const geometry::TetraMesh& mesh, const MaterialMap& m
       anchor_n_m_(mean_diagonal(mesh, material)),
       kept_(mesh, material, fixed, std::vector<double>(mesh.positions.size()), {1, 1}, most_compliance_nodes),
       stays_(mesh.tetrahedra.size()),
+      residual_(3 * mesh.positions.size()),
+      correction_(residual_.size()),
       is_settled_(mesh.positions.size()) {
   taken_.reserve(stays_.size());
   whole_.reserve(stays_.size());
@@ -89,6 +91,14 @@ bool StaticFactor::follow(const MeshEditor& editor, std::span<const TetId> gone)
 bool StaticFactor::hold(std::span<const NodeId> nodes) noexcept {
   for (const NodeId n : nodes) is_settled_[n] = true;
   return kept_.add_mass(nodes, anchor_n_m_);
+}
+
+void StaticFactor::solve_exactly(std::span<const double> f, std::span<double> u) noexcept {
+  kept_.solve(f, u);
+  kept_.multiply(u, residual_);
+  for (std::size_t c = 0; c < f.size(); ++c) residual_[c] = is_held(c) ? 0 : f[c] - residual_[c];
+  kept_.solve(residual_, correction_);
+  for (std::size_t c = 0; c < f.size(); ++c) u[c] += correction_[c];
 }
 
 void StaticFactor::restore() noexcept {

@@ -35,6 +35,9 @@ class StaticFactor {
 
   /// u = K^-1 f of what is left, m of N; nodes that lost everything answer as their anchors do.
   void solve(std::span<const double> f, std::span<double> u) noexcept { kept_.solve(f, u); }
+  /// The same to rounding, for twice the work: residuals are taken in double, and K need not be far from
+  /// singular.
+  void solve_exactly(std::span<const double> f, std::span<double> u) noexcept;
   /// f = K u, without anchors, N.
   void holding_forces(std::span<const double> u, std::span<double> f) const noexcept {
     kept_.holding_forces(u, f);
@@ -47,6 +50,7 @@ class StaticFactor {
 
   /// What an anchor answers, in each direction, N/m: a mean of K's diagonal.
   double anchor_n_m() const { return anchor_n_m_; }
+  std::int32_t node_count() const { return kept_.node_count(); }
   /// Entries of the factor.
   std::size_t entry_count() const { return kept_.entry_count(); }
   /// Whether a support holds component `c` of the [3N].
@@ -65,6 +69,7 @@ class StaticFactor {
   std::vector<geometry::NodeId> loose_;                  // to be anchored, capacity N
   enum class Stay : std::uint8_t { kNo, kFound, kYes };  // kFound: not yet of a piece
   std::vector<Stay> stays_;                              // [T] of what is gone: in K all the same
+  std::vector<double> residual_, correction_;            // [3N]
   std::vector<bool> is_settled_;                         // [N] anchored, or of a piece that is
 };
 
