@@ -6,7 +6,6 @@
 
 namespace omentum::physics {
 
-using geometry::MeshEditor;
 using geometry::NodeId;
 using geometry::TetId;
 
@@ -32,6 +31,7 @@ double mean_diagonal(const geometry::TetraMesh& mesh, const MaterialMap& materia
 StaticFactor::StaticFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
                            const FixedComponents& fixed, int most_compliance_nodes)
     : links_(held(mesh, fixed).tetrahedra, mesh.positions.size()),
+      left_(links_),
       anchor_n_m_(mean_diagonal(mesh, material)),
       kept_(mesh, material, fixed, std::vector<double>(mesh.positions.size()), {1, 1}, most_compliance_nodes),
       stays_(mesh.tetrahedra.size()),
@@ -64,8 +64,9 @@ void StaticFactor::keep_piece(TetId first) noexcept {
   }
 }
 
-void StaticFactor::part(const MeshEditor& editor, std::span<const TetId> gone) noexcept {
-  const auto is_used = [&](NodeId n) { return editor.uses(n) > 0; };
+void StaticFactor::part(std::span<const TetId> gone) noexcept {
+  const auto is_used = [&](NodeId n) { return left_.uses(n) > 0; };
+  for (const TetId t : gone) left_.take(t);
   taken_.clear();
   whole_.clear();
   loose_.clear();
@@ -81,8 +82,8 @@ void StaticFactor::part(const MeshEditor& editor, std::span<const TetId> gone) n
       if (!is_used(n)) anchor(n);
 }
 
-bool StaticFactor::follow(const MeshEditor& editor, std::span<const TetId> gone) noexcept {
-  part(editor, gone);
+bool StaticFactor::remove(std::span<const TetId> tetrahedra) noexcept {
+  part(tetrahedra);
   // anchors first: then nothing on the way is singular
   const bool is_anchored = kept_.add_mass(loose_, anchor_n_m_);
   return kept_.remove(taken_) && is_anchored;
@@ -103,6 +104,8 @@ void StaticFactor::solve_exactly(std::span<const double> f, std::span<double> u)
 
 void StaticFactor::restore() noexcept {
   kept_.restore();
+  for (std::size_t t = 0; t < stays_.size(); ++t)
+    if (!left_.has(TetId(t))) left_.put_back(TetId(t));
   std::ranges::fill(stays_, Stay::kNo);
   std::fill(is_settled_.begin(), is_settled_.end(), false);
 }

@@ -2,7 +2,7 @@
 // answers after a cut.
 #pragma once
 
-#include "geometry/mesh_editor.h"
+#include "geometry/remaining_tetrahedra.h"
 #include "physics/dynamics/kept_factor.h"
 
 namespace omentum::physics {
@@ -23,11 +23,13 @@ class StaticFactor {
   StaticFactor(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
                int most_compliance_nodes = 24);
 
-  /// `gone` are no longer in `editor`, and were there at the last call. Precondition: what is left is held
-  /// (UnheldPieces), by supports or by hold(). False: it hangs together so loosely that nothing is known to
-  /// working precision; to be answered with restore().
-  [[nodiscard]] bool follow(const geometry::MeshEditor& editor,
-                            std::span<const geometry::TetId> gone) noexcept;
+  StaticFactor(const StaticFactor&) = delete;  // its books refer to each other
+  StaticFactor& operator=(const StaticFactor&) = delete;
+
+  /// Takes tetrahedra off. Preconditions: each is there; what is left is held (UnheldPieces), by supports or
+  /// by hold(). False: it hangs together so loosely that nothing is known to working precision; to be
+  /// answered with restore().
+  [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   /// Anchors nodes; they differ, and none is anchored already.
   [[nodiscard]] bool hold(std::span<const geometry::NodeId> nodes) noexcept;
   /// As constructed.
@@ -57,11 +59,12 @@ class StaticFactor {
   bool is_held(std::size_t c) const { return kept_.is_held(c); }
 
  private:
-  void part(const geometry::MeshEditor& editor, std::span<const geometry::TetId> gone) noexcept;
+  void part(std::span<const geometry::TetId> gone) noexcept;
   void keep_piece(geometry::TetId first) noexcept;
   void anchor(geometry::NodeId n) noexcept;
 
   geometry::TetraLinks links_;
+  geometry::RemainingTetrahedra left_;
   double anchor_n_m_;
   KeptFactor kept_;
   std::vector<geometry::TetId> taken_;                   // off K by this call, capacity T

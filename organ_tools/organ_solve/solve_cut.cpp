@@ -35,7 +35,7 @@ class CutSolver {
     editor.set_removed(bits);
     for (const physics::ImposedDisplacement& i : imposed)
       for (int axis = 0; axis < 3; ++axis) add(3 * i.node + axis, i.displacement[axis], false);
-    if (!anchor_unheld(organ, editor) || !factor_.follow(editor, cut.removed))
+    if (!anchor_unheld(organ, editor) || !factor_.remove(cut.removed))
       throw InputError("--remove: what is left hangs together too loosely to be solved");
   }
 

@@ -46,7 +46,7 @@ struct CutBody {
     const std::vector<TetId> also = take(std::vector<TetId>(floating.begin(), floating.end()));
     now.insert(now.end(), also.begin(), also.end());
     gone.insert(gone.end(), now.begin(), now.end());
-    return factor.follow(editor, now);
+    return factor.remove(now);
   }
 
   std::vector<TetId> take(std::span<const TetId> tetrahedra) {
@@ -185,7 +185,7 @@ TEST(StaticFactorTest, AllAtOnceIsAsOneAfterTheOther) {
   ASSERT_TRUE(slow.cut(first));
   ASSERT_TRUE(slow.cut(second));
   fast.editor.set_removed(slow.editor.removed_bits());
-  ASSERT_TRUE(fast.factor.follow(fast.editor, slow.gone));
+  ASSERT_TRUE(fast.factor.remove(slow.gone));
   fast.gone = slow.gone;
   EXPECT_LE(fast.error_around({0.04, 0, 0}), kTold);
 }
@@ -229,7 +229,7 @@ TEST(StaticFactorTest, NothingIsTakenFromTheHeap) {
   std::vector<double> f(cut.body.components(), 1), u(f.size());
   const std::size_t before = test::heap_allocations();
   const geometry::Removal removal = cut.editor.remove(away);
-  const bool is_known = cut.factor.follow(cut.editor, removal.asked);
+  const bool is_known = cut.factor.remove(removal.asked);
   const std::size_t floating = cut.unheld.find(cut.editor).size();
   cut.factor.compliance(nodes, block);
   cut.factor.solve(f, u);
