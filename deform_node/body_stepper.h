@@ -65,6 +65,10 @@ std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, doub
 /// Backward Euler for co-rotational tissue (physics/dynamics/warped_step.h).
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s);
 
+/// No masses: equilibrium in every step, under presses that are imposed (physics/static_factor.h). What is
+/// removed leaves nothing that floats.
+std::unique_ptr<BodyStepper> make_static_stepper(const SteppedBody& body, double step_s);
+
 /// Explicit steps. Presses are made as strong as would bring the body where hands want it within kFeltStep_s.
 /// Nothing yields within one of them, and none has an equation whose solution would say how: what a hand
 /// feels of the body is the compliance at rest over kFeltStep_s, the time between two local models, s.

@@ -39,6 +39,7 @@ physics::Inertia inertia_of(const organ::Organ& organ, const scene::DynamicsSpec
 struct Stepping {
   std::unique_ptr<BodyStepper> stepper;
   double energy_margin = 2;  // backward Euler's: it loses energy
+  bool is_static = false;
 };
 
 // By the scene's own step, or a share of what the mesh allows.
@@ -69,6 +70,7 @@ std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::O
   Stepping stepping = step(parts.body, dynamics);
   parts.stepper = std::move(stepping.stepper);
   parts.energy_margin = stepping.energy_margin;
+  parts.is_static = stepping.is_static;
   parts.gravity_m_s2 = dynamics.gravity_m_s2;
   parts.tears = tear_limits_of(organ, spec);
   parts.cut_delay_s = dynamics.cut_delay_s;
@@ -100,6 +102,14 @@ std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, c
                 if (const auto scheme = scheme_of(dynamics.integrator))
                   return step_explicitly(body, dynamics, *scheme, law_of<physics::Corotational>(body));
                 return {make_warped_stepper(body, dynamics.step_s.value_or(kImplicitStep_s))};
+              });
+}
+
+std::unique_ptr<OrganModel> make_quasi_static_cut(const node::OrganSource& source,
+                                                  const scene::OrganSpec& spec) {
+  return make(source, spec, StressLaw::kLinear,
+              [](const SteppedBody& body, const scene::DynamicsSpec&) -> Stepping {
+                return {.stepper = make_static_stepper(body, kImplicitStep_s), .is_static = true};
               });
 }
 

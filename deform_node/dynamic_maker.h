@@ -13,6 +13,9 @@ namespace omentum::deform {
 /// "FILE:LINE: ..." for a step that the mesh does not allow.
 std::unique_ptr<OrganModel> make_tensor_mass(const node::OrganSource& source, const scene::OrganSpec& spec);
 std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, const scene::OrganSpec& spec);
+/// In equilibrium at every moment, cut or not.
+std::unique_ptr<OrganModel> make_quasi_static_cut(const node::OrganSource& source,
+                                                  const scene::OrganSpec& spec);
 std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, const scene::OrganSpec& spec);
 
 }  // namespace omentum::deform

@@ -41,13 +41,20 @@ void stiffen_supports(std::span<float> compliance, std::size_t rows) {
   for (std::size_t r = 0; r < rows; ++r) compliance[r * rows + r] = std::max(compliance[r * rows + r], held);
 }
 
+// Of a body that no push moves, nor its speed.
+physics::Inertia without_motion(physics::Inertia inertia) {
+  std::ranges::fill(inertia.mass, 0.0);
+  std::ranges::fill(inertia.fixed, physics::kPinned);
+  return inertia;
+}
+
 }  // namespace
 
 DynamicModel::DynamicModel(DynamicParts parts)
     : mesh_(parts.body.mesh),
       material_(parts.body.material),
       stress_(parts.stress),
-      inertia_(std::move(parts.body.inertia)),
+      inertia_(parts.is_static ? without_motion(parts.body.inertia) : parts.body.inertia),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
       loads_(mesh_, parts.body.material, parts.gravity_m_s2),
       state_(physics::state_at_rest(mesh_.positions.size())),
@@ -57,6 +64,8 @@ DynamicModel::DynamicModel(DynamicParts parts)
       swept_(mesh_),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
+      unheld_(parts.is_static ? std::make_unique<physics::UnheldPieces>(mesh_, parts.body.inertia.fixed)
+                              : nullptr),
       reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
@@ -123,15 +132,20 @@ void DynamicModel::drop_what_fell() noexcept {
 
 std::span<const TetId> DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
   if (tetrahedra.empty()) return {};
-  const geometry::Removal removal = editor_.remove(tetrahedra);
-  gone_.assign(removal.asked.begin(), removal.asked.end());
-  gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
-  gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
+  gone_.clear();
+  add_gone(editor_.remove(tetrahedra));
   if (gone_.empty()) return {};
+  if (unheld_) add_gone(editor_.remove(unheld_->find(editor_)));
   ++version_;
-  status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
   forgo_gone();
   return gone_;
+}
+
+void DynamicModel::add_gone(const geometry::Removal& removal) noexcept {
+  gone_.insert(gone_.end(), removal.asked.begin(), removal.asked.end());
+  gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
+  gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
+  status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
 }
 
 void DynamicModel::forgo_gone() noexcept {
@@ -218,7 +232,7 @@ std::span<const CollisionSphere> DynamicModel::collidable() const noexcept {
 }
 
 void DynamicModel::respond(std::span<const OrganContact> contacts) noexcept {
-  meeting_->respond(contacts, state_, *stepper_, loads_.external());
+  if (!unheld_) meeting_->respond(contacts, state_, *stepper_, loads_.external());
   felt_->is_foreseen = false;
 }
 

@@ -11,6 +11,7 @@
 #include "physics/dynamics/swept_cut.h"
 #include "physics/dynamics/tearing.h"
 #include "physics/nodal_stress.h"
+#include "physics/unheld_pieces.h"
 
 namespace omentum::deform {
 
@@ -25,6 +26,9 @@ struct DynamicParts {
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
   physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
+  // Always in equilibrium: it weighs nothing that could swing, what supports do not hold is dropped as it is
+  // cut off, and for other organs it is a wall that moves.
+  bool is_static = false;
 };
 
 /// Steps of its own fixed length as the clock goes on; strokes burn through, what is loaded too much tears, a
@@ -53,6 +57,7 @@ class DynamicModel final : public OrganModel {
   void drop_what_fell() noexcept;
   /// Those that are there, and what then has to go. Returns them all.
   std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
+  void add_gone(const geometry::Removal& removal) noexcept;
   /// What the editor took, `gone_`, goes off the body.
   void forgo_gone() noexcept;
   void list_removed() noexcept;
@@ -75,9 +80,10 @@ class DynamicModel final : public OrganModel {
   physics::SweptCut swept_;
   CutQueue burning_;
   physics::Tearing tearing_;
-  double reach_m_;            // farther nothing falls
-  double ahead_s_ = 0;        // of the clock's time, not yet stepped
-  double until_check_s_ = 0;  // of tearing
+  std::unique_ptr<physics::UnheldPieces> unheld_;  // null: what floats falls
+  double reach_m_;                                 // farther nothing falls
+  double ahead_s_ = 0;                             // of the clock's time, not yet stepped
+  double until_check_s_ = 0;                       // of tearing
   std::uint64_t version_ = 0;
   ModelStatus status_;
   std::vector<geometry::TetId> gone_, fallen_;  // workspace, capacity T

@@ -21,6 +21,16 @@ void read_integrator(TomlSection& s, const std::string& model, std::string& inte
   s.read_word("integrator", integrator, kOptional, words);
 }
 
+// What has masses swings and tears.
+void read_motion(TomlSection& s, const std::string& model, DynamicsSpec& dynamics) {
+  read_integrator(s, model, dynamics.integrator);
+  s.read("step_s", dynamics.step_s, kStep_s);
+  s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
+  s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);
+  dynamics.tears = read_tears(s);
+  dynamics.where = s.place("step_s");
+}
+
 }  // namespace
 
 TearSpec read_tears(TomlSection& s) {
@@ -32,18 +42,17 @@ TearSpec read_tears(TomlSection& s) {
   return tears;
 }
 
+bool has_masses(const std::string& model) {
+  return model != "quasi-static-cut";
+}
+
 DynamicsSpec read_dynamics(TomlSection& s, const std::string& model) {
   DynamicsSpec dynamics;
-  read_integrator(s, model, dynamics.integrator);
-  s.read("step_s", dynamics.step_s, kStep_s);
-  s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
-  s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);
+  if (has_masses(model)) read_motion(s, model, dynamics);
   s.read("gravity_m_s2", dynamics.gravity_m_s2, kOptional);
-  dynamics.tears = read_tears(s);
   s.read("cut_delay_s", dynamics.cut_delay_s, kOptional, kDelay_s);
   s.read("cut_rate_per_s", dynamics.cut_rate_per_s, kOptional, kPositive);
   s.read("smallest_piece_m3", dynamics.smallest_piece_m3, kOptional, kNotNegative);
-  dynamics.where = s.place("step_s");
   return dynamics;
 }
 

@@ -110,7 +110,7 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   s.read("density_kg_m3", organ.density_kg_m3, need, kPositive);
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions"))
-    organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
+    organ.regions.push_back(read_region(region, organ.dynamics && has_masses(organ.model)));
   s.read_word("look", organ.look, kOptional, {"liver", "gallbladder", "colon"});
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();

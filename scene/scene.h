@@ -44,6 +44,7 @@ struct OrganModelWord {
 };
 inline constexpr std::array kOrganModels{
     OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh},
+    OrganModelWord{"quasi-static-cut", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
     OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
@@ -74,7 +75,7 @@ struct OrganSpec {
   std::vector<RegionSpec> regions;         // of several that overlap the last one holds
   std::string fixed;                       // as organ_build --fixed takes it; of an organ file empty
   std::string look = "liver";              // "liver", "gallbladder" or "colon"; of a tube "gut"
-  std::optional<DynamicsSpec> dynamics;    // of a mesh whose model moves it by itself
+  std::optional<DynamicsSpec> dynamics;    // of a mesh whose model moves it by itself, or that is cut
   std::optional<IntestineSpec> intestine;  // of a tube
   std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
 };

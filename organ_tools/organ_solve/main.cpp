@@ -6,6 +6,7 @@
 #include "organ_tools/organ_solve/move_to_rest.h"
 #include "organ_tools/organ_solve/removed_csv.h"
 #include "organ_tools/organ_solve/solution_csv.h"
+#include "organ_tools/organ_solve/solve_cut.h"
 #include "organ_tools/organ_solve/solve_models.h"
 #include "runtime/command_line.h"
 
@@ -31,7 +32,8 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
       .type_name("FILE");
   organ_tools::add_numbering_option(line, command.numbering);
   line.option("--model", command.model,
-              "tensors, direct, or one that moves until it rests: tensor-mass, corotational, spring-mass")
+              "tensors, direct, cut (the whole organ's factor, downdated), or one that moves until it rests: "
+              "tensor-mass, corotational, spring-mass")
       .type_name("MODEL")
       .show_default();
   line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
@@ -50,10 +52,11 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
 
 void require_offered(const SolveCommand& command) {
   const bool tensors = command.model == "tensors";
-  if (!tensors && command.model != "direct" && !organ_tools::is_dynamic_model(command.model)) {
-    throw geometry::InputError(
-        "--model " + command.model +
-        ": not part of this version; expected tensors, direct, tensor-mass, corotational or spring-mass");
+  if (!tensors && command.model != "direct" && command.model != "cut" &&
+      !organ_tools::is_dynamic_model(command.model)) {
+    throw geometry::InputError("--model " + command.model +
+                               ": not part of this version; expected tensors, direct, cut, tensor-mass, "
+                               "corotational or spring-mass");
   }
   if (tensors && !command.removed.empty()) {
     throw geometry::InputError("--remove " + command.removed.string() +
@@ -92,6 +95,7 @@ physics::StaticSolution answer(const SolveCommand& command, const organ::Organ& 
                                const organ_tools::CutOrgan& cut, organ_tools::Imposed imposed,
                                const geometry::Vec3& gravity, std::string& warning) {
   if (command.model == "direct") return organ_tools::solve_directly(organ, cut, imposed, gravity);
+  if (command.model == "cut") return organ_tools::solve_cut(organ, cut, imposed, gravity);
   if (command.model != "tensors")
     return organ_tools::move_to_rest(command.model, organ, cut, imposed, gravity);
   return organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity, command.numbering, warning);

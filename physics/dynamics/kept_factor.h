@@ -31,14 +31,17 @@ inline SystemWeights weights_of(const Inertia& inertia, double dt) {
 /// All memory is taken at construction; one thread at a time.
 class KeptFactor {
  public:
-  /// `mass`: [N], kg, positive. Throws FloatingError when A is not positive definite, std::runtime_error when
-  /// memory runs out. `mesh` outlives it.
+  /// `mass`: [N], kg, not negative. Throws FloatingError when A is not positive definite, std::runtime_error
+  /// when memory runs out. `mesh` outlives it.
   KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
              const std::vector<double>& mass, const SystemWeights& weights, int most_compliance_nodes = 24);
 
   /// Takes tetrahedra off K and off the factor. Precondition: each is there. False: what is left is not
   /// positive definite to working precision; to be answered with restore() or a new factor.
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept;
+  /// Puts more mass on nodes, kg each, positive; on the factor too. Precondition: nodes differ. False as
+  /// remove().
+  [[nodiscard]] bool add_mass(std::span<const geometry::NodeId> nodes, double mass) noexcept;
   /// As constructed.
   void restore() noexcept;
 
@@ -70,11 +73,15 @@ class KeptFactor {
              const SystemWeights& weights, int most_compliance_nodes, const Assembled& assembled);
   void subtract_element(geometry::TetId t) noexcept;
   RankSix root_of(geometry::TetId t) const noexcept;
+  RankSix root_of_masses(std::span<const geometry::NodeId> nodes, double mass) const noexcept;
+  bool apply(std::span<const RankSix> roots) noexcept;
   void mark_ways(std::span<const geometry::NodeId> nodes) noexcept;
+  void begin_columns(std::span<const geometry::NodeId> nodes) noexcept;
+  void forward_columns(const FactorPanels::Supernode& s, std::size_t first) noexcept;
 
   const geometry::TetraMesh& mesh_;
   MaterialMap material_;
-  std::vector<double> mass_;  // [N]
+  std::vector<double> mass_, uncut_mass_;  // [N]
   SystemWeights weights_;
   using Blocks = std::vector<Eigen::Matrix3d, HugePages<Eigen::Matrix3d>>;
   std::vector<std::int32_t> start_, neighbour_;  // rows of K (Stiffness)
@@ -90,10 +97,12 @@ class KeptFactor {
   std::vector<Row> scratch_;
   std::vector<float> x_;                       // [n]
   std::vector<double> residual_, correction_;  // [3N]
-  std::vector<float> columns_;                 // [3 most_compliance_nodes][n]
+  std::vector<float> columns_;                 // [3 most_compliance_nodes][n], those on the ways first
+  std::vector<Row> together_;                  // [kTogether][most_rows]
   KnownBlocks known_blocks_;                   // of what is left
   std::vector<std::int32_t> ways_;             // supernodes
-  std::vector<std::uint8_t> on_way_;           // [S]
+  std::int32_t way_length_ = 0;                // columns of all those
+  std::vector<std::int32_t> place_;            // [S] of its first column in columns_; -1: not on a way
 };
 
 }  // namespace omentum::physics
