@@ -41,18 +41,18 @@ struct KeptFactor::Assembled {
   std::optional<StiffnessFactor> factor;  // none where everything is held
 
   Assembled(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
-            std::span<const double> mass, const SystemWeights& weights)
-      : free(free_dofs(fixed)), stiffness(assemble_stiffness(mesh, material)) {
-    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free);
+            std::span<const double> mass, const SystemWeights& weights, const AddedStiffness& added)
+      : free(free_dofs(fixed)), stiffness(with_added(assemble_stiffness(mesh, material), added)) {
+    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free, added.nodes);
   }
   Supernodes supernodes() const { return factor ? factor->supernodes() : Supernodes{}; }
 };
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
                        const FixedComponents& fixed, const std::vector<double>& mass,
-                       const SystemWeights& weights, int most_compliance_nodes)
+                       const SystemWeights& weights, int most_compliance_nodes, const AddedStiffness& added)
     : KeptFactor(mesh, material, mass, weights, most_compliance_nodes,
-                 Assembled(mesh, material, fixed, mass, weights)) {}
+                 Assembled(mesh, material, fixed, mass, weights, added)) {}
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
                        const std::vector<double>& mass, const SystemWeights& weights,
@@ -177,21 +177,46 @@ void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
   for (const std::int32_t s : ways_) on_way_[s] = 0;
 }
 
-// With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
 void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
   if (known_blocks_.find(nodes, block)) return;
-  const FlushTiny flush;
+  const std::size_t width = 3 * nodes.size();
   mark_ways(nodes);
-  const std::size_t width = 3 * nodes.size(), n = x_.size();
+  clear_columns(width);
   for (std::size_t r = 0; r < width; ++r) {
-    float* z = columns_.data() + r * n;
+    const std::int32_t p = position_[3 * nodes[r / 3] + static_cast<std::int32_t>(r % 3)];
+    if (p >= 0) columns_[r * x_.size() + static_cast<std::size_t>(p)] = 1;
+  }
+  square_columns(width, block);
+  known_blocks_.keep(nodes, block);
+}
+
+void KeptFactor::project_inverse(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                                 std::span<float> block) noexcept {
+  const std::size_t width = nodes.empty() ? 0 : rows.size() / (3 * nodes.size());
+  mark_ways(nodes);
+  clear_columns(width);
+  for (std::size_t c = 0; c < 3 * nodes.size(); ++c) {
+    const std::int32_t p = position_[3 * nodes[c / 3] + static_cast<std::int32_t>(c % 3)];
+    for (std::size_t r = 0; p >= 0 && r < width; ++r)
+      columns_[r * x_.size() + static_cast<std::size_t>(p)] = rows[c * width + r];
+  }
+  square_columns(width, block);
+}
+
+// On the ways that are marked.
+void KeptFactor::clear_columns(std::size_t width) noexcept {
+  for (std::size_t r = 0; r < width; ++r) {
     for (const std::int32_t s : ways_) {
       const FactorPanels::Supernode& node = panels_.supernodes()[s];
-      std::fill_n(z + node.first, node.width, 0.0f);
+      std::fill_n(columns_.data() + r * x_.size() + node.first, node.width, 0.0f);
     }
-    const std::int32_t p = position_[3 * nodes[r / 3] + static_cast<std::int32_t>(r % 3)];
-    if (p >= 0) z[p] = 1;
   }
+}
+
+// With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
+void KeptFactor::square_columns(std::size_t width, std::span<float> block) noexcept {
+  const FlushTiny flush;
+  const std::size_t n = x_.size();
   std::fill_n(block.begin(), width * width, 0.0f);
   for (const std::int32_t s : ways_) {
     const FactorPanels::Supernode& node = panels_.supernodes()[s];
@@ -209,7 +234,6 @@ void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::spa
   for (std::size_t r = 0; r < width; ++r) {
     for (std::size_t q = 0; q < r; ++q) block[q * width + r] = block[r * width + q];
   }
-  known_blocks_.keep(nodes, block);
 }
 
 }  // namespace omentum::physics
