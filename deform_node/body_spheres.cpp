@@ -18,7 +18,9 @@ double mass_at(const geometry::Tetrahedron& nodes, const Eigen::Vector4d& weight
                const physics::Inertia& inertia) {
   double yield = 0;  // of the centre to an impulse, 1/kg
   for (std::size_t c = 0; c < 4; ++c) {
-    if (inertia.fixed[nodes[c]] != 0) return std::numeric_limits<double>::infinity();
+    // of a precomputed part that nothing but its own tools moves
+    if (inertia.fixed[nodes[c]] != 0 || inertia.mass[nodes[c]] == 0)
+      return std::numeric_limits<double>::infinity();
     const double weight = weights[static_cast<Eigen::Index>(c)];
     yield += weight * weight / inertia.mass[nodes[c]];
   }

@@ -4,6 +4,7 @@
 #include "deform_node/body_loads.h"
 #include "physics/dynamics/explicit_step.h"
 #include "physics/dynamics/force_law.h"
+#include "physics/dynamics/large_step.h"
 
 #include <memory>
 #include <optional>
@@ -61,6 +62,10 @@ class BodyStepper {
 /// Backward Euler for linear elasticity; presses are imposed (physics/dynamics/imposed_press.h). Throws as
 /// physics::ImplicitStep does, like the others.
 std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s);
+
+/// Any other large step of a body of so many nodes.
+std::unique_ptr<BodyStepper> make_large_stepper(std::size_t node_count,
+                                                std::unique_ptr<physics::LargeStep> step);
 
 /// Backward Euler for co-rotational tissue (physics/dynamics/warped_step.h).
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s);

@@ -54,18 +54,21 @@ DynamicModel::DynamicModel(DynamicParts parts)
     : mesh_(parts.body.mesh),
       material_(parts.body.material),
       stress_(parts.stress),
-      inertia_(parts.is_static ? without_motion(parts.body.inertia) : parts.body.inertia),
-      editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
+      gauge_(std::move(parts.gauge)),
+      inertia_(parts.is_static ? without_motion(parts.body.inertia) : std::move(parts.body.inertia)),
+      editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3,
+                      .uncut_surface = parts.uncut_surface,
+                      .kept = parts.precomputed}),
       loads_(mesh_, parts.body.material, parts.gravity_m_s2),
       state_(physics::state_at_rest(mesh_.positions.size())),
       before_(state_),
       stepper_(std::move(parts.stepper)),
       watch_(parts.energy_margin, kUnnoticed_j),
       swept_(mesh_),
+      precomputed_(std::move(parts.precomputed)),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
-      unheld_(parts.is_static ? std::make_unique<physics::UnheldPieces>(mesh_, parts.body.inertia.fixed)
-                              : nullptr),
+      unheld_(parts.is_static ? std::make_unique<physics::UnheldPieces>(mesh_, inertia_.fixed) : nullptr),
       reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
@@ -76,6 +79,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
   felt_->ahead.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
   fallen_.reserve(mesh_.tetrahedra.size());
+  met_.reserve(mesh_.tetrahedra.size());
 }
 
 ModelSizes DynamicModel::sizes() const {
@@ -103,7 +107,7 @@ void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
 void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
   if (!strokes.empty()) swept_.follow(state_.u);
   for (const CutStroke& stroke : strokes) {
-    const std::span<const TetId> met = swept_.find({stroke.from, stroke.to});
+    const std::span<const TetId> met = those_that_can_go(swept_.find({stroke.from, stroke.to}));
     burning_.meet(met, editor_);
     if (!met.empty())
       status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
@@ -111,6 +115,13 @@ void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept
   const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
   for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
   for (const TetId t : remove(burnt)) status_.cuts.lost_m3 += volume_of(mesh_, t);
+}
+
+std::span<const TetId> DynamicModel::those_that_can_go(std::span<const TetId> met) noexcept {
+  if (precomputed_.empty()) return met;
+  met_.clear();
+  std::ranges::copy_if(met, std::back_inserter(met_), [&](TetId t) { return precomputed_[t] == 0; });
+  return met_;
 }
 
 void DynamicModel::check(double dt_s) noexcept {
@@ -247,7 +258,7 @@ OrganView DynamicModel::view() const noexcept {
 }
 
 std::unique_ptr<StrainGauge> DynamicModel::strain_gauge() const {
-  return std::make_unique<BodyGauge>(mesh_, material_, stress_);
+  return gauge_ ? gauge_() : std::make_unique<BodyGauge>(mesh_, material_, stress_);
 }
 
 // What others push is not among the forces before the next step.

@@ -13,6 +13,8 @@
 #include "physics/nodal_stress.h"
 #include "physics/unheld_pieces.h"
 
+#include <functional>
+
 namespace omentum::deform {
 
 /// What a dynamic organ consists of.
@@ -25,10 +27,12 @@ struct DynamicParts {
   std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
+  std::vector<std::uint8_t> precomputed{};  // [T] other than 0: nothing takes it away; empty: none is
   physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
   // Always in equilibrium: it weighs nothing that could swing, what supports do not hold is dropped as it is
   // cut off, and for other organs it is a wall that moves.
   bool is_static = false;
+  std::function<std::unique_ptr<StrainGauge>()> gauge{};  // of another kind than a body's; or empty
 };
 
 /// Steps of its own fixed length as the clock goes on; strokes burn through, what is loaded too much tears, a
@@ -53,6 +57,7 @@ class DynamicModel final : public OrganModel {
 
  private:
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
+  std::span<const geometry::TetId> those_that_can_go(std::span<const geometry::TetId> met) noexcept;
   void check(double dt_s) noexcept;
   void drop_what_fell() noexcept;
   /// Those that are there, and what then has to go. Returns them all.
@@ -71,6 +76,7 @@ class DynamicModel final : public OrganModel {
   const geometry::TetraMesh& mesh_;
   const physics::MaterialMap& material_;
   physics::StressLaw stress_;
+  std::function<std::unique_ptr<StrainGauge>()> gauge_;
   physics::Inertia inertia_;
   geometry::MeshEditor editor_;
   BodyLoads loads_;
@@ -78,6 +84,7 @@ class DynamicModel final : public OrganModel {
   std::unique_ptr<BodyStepper> stepper_;
   physics::EnergyWatch watch_;
   physics::SweptCut swept_;
+  std::vector<std::uint8_t> precomputed_;  // [T] or empty
   CutQueue burning_;
   physics::Tearing tearing_;
   std::unique_ptr<physics::UnheldPieces> unheld_;  // null: what floats falls
@@ -86,9 +93,9 @@ class DynamicModel final : public OrganModel {
   double until_check_s_ = 0;                       // of tearing
   std::uint64_t version_ = 0;
   ModelStatus status_;
-  std::vector<geometry::TetId> gone_, fallen_;  // workspace, capacity T
-  std::vector<std::uint8_t> burnt_;             // bits, of what edges burnt away
-  std::vector<float> values_;                   // [3N], of them 3 for each node of the surface
+  std::vector<geometry::TetId> gone_, fallen_, met_;  // workspace, capacity T
+  std::vector<std::uint8_t> burnt_;                   // bits, of what edges burnt away
+  std::vector<float> values_;                         // [3N], of them 3 for each node of the surface
   // workspace of local_model()
   struct Felt {
     std::vector<float> compliance;  // [3 kPatchNodes squared]

@@ -23,6 +23,7 @@ constexpr std::array kTable{
     ModelEntry{"tensor-mass", organ::Load::kMeshOnly, make_tensor_mass},
     ModelEntry{"corotational", organ::Load::kMeshOnly, make_corotational},
     ModelEntry{"spring-mass", organ::Load::kMeshOnly, make_spring_mass},
+    ModelEntry{"hybrid", organ::Load::kWithPart, make_hybrid},
     ModelEntry{"intestine", organ::Load::kMeshOnly, make_intestine},
 };
 

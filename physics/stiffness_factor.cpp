@@ -84,10 +84,15 @@ std::vector<int> order_nodes(const Stiffness& stiffness, Cholmod& cholmod) {
   return order;
 }
 
-std::vector<int> order_dofs(const Stiffness& stiffness, const FreeDofs& free, Cholmod& cholmod) {
+std::vector<int> order_dofs(const Stiffness& stiffness, const FreeDofs& free, std::span<const NodeId> last,
+                            Cholmod& cholmod) {
   std::vector<int> order;
   order.reserve(free.count);
-  for (const int n : order_nodes(stiffness, cholmod)) {
+  std::vector<int> nodes = order_nodes(stiffness, cholmod);
+  std::vector<bool> is_last(nodes.size());
+  for (const NodeId n : last) is_last[n] = true;
+  std::ranges::stable_partition(nodes, [&](int n) { return !is_last[static_cast<std::size_t>(n)]; });
+  for (const int n : nodes) {
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t dof = free.of(NodeId(n), axis);
       if (dof >= 0) order.push_back(dof);
@@ -129,10 +134,11 @@ struct StiffnessFactor::Impl {
   ~Impl() { cholmod_free_factor(&factor, cholmod.get()); }
 };
 
-StiffnessFactor::StiffnessFactor(const Stiffness& stiffness, const FreeDofs& free)
+StiffnessFactor::StiffnessFactor(const Stiffness& stiffness, const FreeDofs& free,
+                                 std::span<const NodeId> last)
     : impl_(std::make_unique<Impl>()) {
   Cholmod& cholmod = impl_->cholmod;
-  std::vector<int> order = order_dofs(stiffness, free, cholmod);
+  std::vector<int> order = order_dofs(stiffness, free, last, cholmod);
   Compressed K = free_part(stiffness, free);
   cholmod_sparse matrix = K.view(kLowerTriangle);
 

@@ -90,7 +90,7 @@ void read_supports(TomlSection& s, OrganSpec& organ) {
 }
 
 void refuse_what_is_built(TomlSection& s) {
-  for (const char* key : {"metres_per_unit", "fixed"})
+  for (const char* key : {"metres_per_unit", "fixed", "dynamic"})
     if (s.has(key)) s.refuse(key, "one beside an organ file", "none: the file is built with its own");
 }
 
@@ -102,6 +102,7 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   } else {
     s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
     read_supports(s, organ);
+    if (organ.model == "hybrid") s.read("dynamic", organ.dynamics->dynamic_part, kRequired);
   }
   // a scene that is prepared names the file, and says what that is of
   const TomlSection::Need need = is_organ_file(organ.mesh) && !s.has("file") ? kOptional : kRequired;

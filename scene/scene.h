@@ -48,6 +48,7 @@ inline constexpr std::array kOrganModels{
     OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
     OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
+    OrganModelWord{"hybrid", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"intestine", OrganKind::kTube, Feel::kLocalModels, Trusted::kAlways},
 };
 

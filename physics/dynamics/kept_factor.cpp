@@ -46,18 +46,18 @@ struct KeptFactor::Assembled {
   std::optional<StiffnessFactor> factor;  // none where everything is held
 
   Assembled(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
-            std::span<const double> mass, const SystemWeights& weights)
-      : free(free_dofs(fixed)), stiffness(assemble_stiffness(mesh, material)) {
-    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free);
+            std::span<const double> mass, const SystemWeights& weights, const AddedStiffness& added)
+      : free(free_dofs(fixed)), stiffness(with_added(assemble_stiffness(mesh, material), added)) {
+    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free, added.nodes);
   }
   Supernodes supernodes() const { return factor ? factor->supernodes() : Supernodes{}; }
 };
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
                        const FixedComponents& fixed, const std::vector<double>& mass,
-                       const SystemWeights& weights, int most_compliance_nodes)
+                       const SystemWeights& weights, int most_compliance_nodes, const AddedStiffness& added)
     : KeptFactor(mesh, material, mass, weights, most_compliance_nodes,
-                 Assembled(mesh, material, fixed, mass, weights)) {}
+                 Assembled(mesh, material, fixed, mass, weights, added)) {}
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
                        const std::vector<double>& mass, const SystemWeights& weights,
@@ -224,16 +224,15 @@ void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
   way_length_ = place;
 }
 
-void KeptFactor::begin_columns(std::span<const geometry::NodeId> nodes) noexcept {
-  for (std::size_t r = 0; r < whole_groups(3 * nodes.size()); ++r) {
-    float* z = columns_.data() + r * x_.size();
-    std::fill_n(z, way_length_, 0.0f);
-    if (r >= 3 * nodes.size()) continue;
-    const std::int32_t p = position_[3 * nodes[r / 3] + static_cast<std::int32_t>(r % 3)];
-    if (p < 0) continue;
-    const std::int32_t s = panels_.supernode_of(p);
-    z[place_[s] + p - panels_.supernodes()[s].first] = 1;
-  }
+// On the ways that are marked.
+void KeptFactor::clear_columns(std::size_t width) noexcept {
+  for (std::size_t r = 0; r < whole_groups(width); ++r)
+    std::fill_n(columns_.data() + r * x_.size(), way_length_, 0.0f);
+}
+
+std::size_t KeptFactor::place_on_way(std::int32_t position) const noexcept {
+  const std::int32_t s = panels_.supernode_of(position);
+  return static_cast<std::size_t>(place_[s] + position - panels_.supernodes()[s].first);
 }
 
 // Columns first to first + kTogether of D^(-1/2) L^-1 E, as far as supernode `s` goes.
@@ -259,13 +258,36 @@ void KeptFactor::forward_columns(const FactorPanels::Supernode& s, std::size_t f
   }
 }
 
-// With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
 void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
   if (known_blocks_.find(nodes, block)) return;
-  const FlushTiny flush;
-  const std::size_t width = 3 * nodes.size(), n = x_.size();
+  const std::size_t width = 3 * nodes.size();
   mark_ways(nodes);
-  begin_columns(nodes);
+  clear_columns(width);
+  for (std::size_t c = 0; c < width; ++c) {
+    const std::int32_t p = position_[3 * nodes[c / 3] + static_cast<std::int32_t>(c % 3)];
+    if (p >= 0) columns_[c * x_.size() + place_on_way(p)] = 1;
+  }
+  square_columns(width, block);
+  known_blocks_.keep(nodes, block);
+}
+
+void KeptFactor::project_inverse(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                                 std::span<float> block) noexcept {
+  const std::size_t width = nodes.empty() ? 0 : rows.size() / (3 * nodes.size());
+  mark_ways(nodes);
+  clear_columns(width);
+  for (std::size_t c = 0; c < 3 * nodes.size(); ++c) {
+    const std::int32_t p = position_[3 * nodes[c / 3] + static_cast<std::int32_t>(c % 3)];
+    for (std::size_t r = 0; p >= 0 && r < width; ++r)
+      columns_[r * x_.size() + place_on_way(p)] = rows[c * width + r];
+  }
+  square_columns(width, block);
+}
+
+// With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
+void KeptFactor::square_columns(std::size_t width, std::span<float> block) noexcept {
+  const FlushTiny flush;
+  const std::size_t n = x_.size();
   for (const std::int32_t s : ways_) {
     for (std::size_t first = 0; first < width; first += kernels::kTogether)
       forward_columns(panels_.supernodes()[s], first);
@@ -276,7 +298,6 @@ void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::spa
           kernels::column_dot(columns_.data() + r * n, columns_.data() + q * n, way_length_);
     }
   }
-  known_blocks_.keep(nodes, block);
 }
 
 }  // namespace omentum::physics

@@ -31,10 +31,11 @@ inline SystemWeights weights_of(const Inertia& inertia, double dt) {
 /// All memory is taken at construction; one thread at a time.
 class KeptFactor {
  public:
-  /// `mass`: [N], kg, not negative. Throws FloatingError when A is not positive definite, std::runtime_error
-  /// when memory runs out. `mesh` outlives it.
+  /// `mass`: [N], kg, not negative; `added` is a part of K that no removal takes. Throws FloatingError when A
+  /// is not positive definite, std::runtime_error when memory runs out. `mesh` outlives it.
   KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
-             const std::vector<double>& mass, const SystemWeights& weights, int most_compliance_nodes = 24);
+             const std::vector<double>& mass, const SystemWeights& weights, int most_compliance_nodes = 24,
+             const AddedStiffness& added = {});
 
   /// Takes tetrahedra off K and off the factor. Precondition: each is there. False: what is left is not
   /// positive definite to working precision; to be answered with restore() or a new factor.
@@ -57,6 +58,10 @@ class KeptFactor {
   /// The rows and columns of A^-1 that belong to `nodes`, [3n x 3n], symmetric. Only the ways from them to
   /// the root of the elimination tree are visited. Precondition: at most `most_compliance_nodes`.
   void inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept;
+  /// E^T A^-1 E, [w x w], of columns E that are zero but at `nodes`: `rows` [3 nodes][w] of them. Visits the
+  /// ways from all nodes. Precondition: w is at most 3 `most_compliance_nodes`.
+  void project_inverse(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                       std::span<float> block) noexcept;
 
   /// What A is made of, and entries of its factor.
   const SystemWeights& weights() const { return weights_; }
@@ -76,8 +81,10 @@ class KeptFactor {
   RankSix root_of_masses(std::span<const geometry::NodeId> nodes, double mass) const noexcept;
   bool apply(std::span<const RankSix> roots) noexcept;
   void mark_ways(std::span<const geometry::NodeId> nodes) noexcept;
-  void begin_columns(std::span<const geometry::NodeId> nodes) noexcept;
+  void clear_columns(std::size_t width) noexcept;
+  std::size_t place_on_way(std::int32_t position) const noexcept;
   void forward_columns(const FactorPanels::Supernode& s, std::size_t first) noexcept;
+  void square_columns(std::size_t width, std::span<float> block) noexcept;
 
   const geometry::TetraMesh& mesh_;
   MaterialMap material_;
