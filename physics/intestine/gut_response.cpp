@@ -22,6 +22,11 @@ void add(const Row& row, const Vec3& impulse, std::span<Vec3> to) {
   for (std::int32_t i = 0; i < row.count; ++i) to[row.mass[i]] += row.yield[i] * impulse;
 }
 
+// What of a vector lies in the plane of a normal.
+Vec3 across(const Vec3& vector, const Vec3& normal) {
+  return vector - vector.dot(normal) * normal;
+}
+
 // What of a wish stays within a disc around 0.
 Vec3 within(const Vec3& wish, double radius) {
   const double length = wish.norm();
@@ -35,7 +40,8 @@ GutResponse::GutResponse(std::size_t most_contacts, std::int32_t passes, double 
   rows_.reserve(most_contacts);
 }
 
-GutResponse::Row GutResponse::prepared(const GutContact& contact, const MovingMasses& masses) const noexcept {
+GutResponse::Row GutResponse::prepared(const GutContact& contact, std::span<const Vec3> before,
+                                       std::span<const double> inverse_mass) const noexcept {
   Row row;
   double D = 0;
   const auto take = [&](const GutPoint& point, double sign) {
@@ -43,7 +49,7 @@ GutResponse::Row GutResponse::prepared(const GutContact& contact, const MovingMa
       const auto k = static_cast<std::size_t>(row.count++);
       row.mass[k] = point.mass[i];
       row.weight[k] = sign * point.weight[i];
-      row.yield[k] = row.weight[k] * masses.inverse_mass[point.mass[i]];
+      row.yield[k] = row.weight[k] * inverse_mass[point.mass[i]];
       D += row.weight[k] * row.yield[k];
     }
   };
@@ -55,47 +61,76 @@ GutResponse::Row GutResponse::prepared(const GutContact& contact, const MovingMa
   row.offset = contact.reach_m + (at_wall ? contact.place.dot(contact.normal) : 0);
   row.wall_velocity = contact.velocity;
   row.rubbed_way = row.rubbed_speed = Vec3::Zero();
+  row.before = weighted(row, before);
   return row;
 }
 
-void GutResponse::correct(Row& row, const MovingMasses& masses) const noexcept {
-  const double open = weighted(row, masses.x).dot(row.normal) - row.offset;
+void GutResponse::correct_places(Row& row, std::span<Vec3> x) const noexcept {
+  const double open = weighted(row, x).dot(row.normal) - row.offset;
   const double g = std::max(0.0, row.g - open * row.per_D);
-  if (g != row.g) add(row, (g - row.g) * row.normal, masses.x);
+  if (g != row.g) add(row, (g - row.g) * row.normal, x);
   row.g = g;
-  if (g <= 0 && row.f <= 0) return;
-  const double speed = (weighted(row, masses.v) - row.wall_velocity).dot(row.normal);
+}
+
+void GutResponse::correct_speeds(Row& row, std::span<Vec3> v) const noexcept {
+  if (row.g <= 0 && row.f <= 0) return;
+  const double speed = (weighted(row, v) - row.wall_velocity).dot(row.normal);
   const double f = std::max(0.0, row.f - speed * row.per_D);
-  if (f != row.f) add(row, (f - row.f) * row.normal, masses.v);
+  if (f != row.f) add(row, (f - row.f) * row.normal, v);
   row.f = f;
 }
 
-void GutResponse::rub(Row& row, const MovingMasses& masses) const noexcept {
-  if (row.g <= 0 && row.f <= 0) return;
-  const auto along = [&](const Vec3& way) -> Vec3 { return way - way.dot(row.normal) * row.normal; };
-  const Vec3 way = along(weighted(row, masses.x) - weighted(row, masses.before));
+void GutResponse::rub_places(Row& row, std::span<Vec3> x) const noexcept {
+  if (row.g <= 0 && row.rubbed_way.isZero()) return;
+  const Vec3 way = across(weighted(row, x) - row.before, row.normal);
   const Vec3 taken = within(row.rubbed_way - way * row.per_D, friction_ * row.g);
-  add(row, taken - row.rubbed_way, masses.x);
+  add(row, taken - row.rubbed_way, x);
   row.rubbed_way = taken;
-  const Vec3 speed = along(weighted(row, masses.v) - row.wall_velocity);
-  const Vec3 given = within(row.rubbed_speed - speed * row.per_D, friction_ * row.f);
-  add(row, given - row.rubbed_speed, masses.v);
-  row.rubbed_speed = given;
 }
 
-void GutResponse::solve(std::span<const GutContact> contacts, std::span<const double> warm, double step_s,
-                        const MovingMasses& masses) noexcept {
+void GutResponse::rub_speeds(Row& row, std::span<Vec3> v) const noexcept {
+  if (row.f <= 0 && row.rubbed_speed.isZero()) return;
+  const Vec3 speed = across(weighted(row, v) - row.wall_velocity, row.normal);
+  const Vec3 taken = within(row.rubbed_speed - speed * row.per_D, friction_ * row.f);
+  add(row, taken - row.rubbed_speed, v);
+  row.rubbed_speed = taken;
+}
+
+void GutResponse::begin_with(Row& row, const Vec3& warm, double step_s) const noexcept {
+  row.f = warm.dot(row.normal);
+  row.g = row.f * step_s;
+  row.rubbed_speed = across(warm, row.normal);
+  row.rubbed_way = row.rubbed_speed * step_s;
+}
+
+void GutResponse::prepare(std::span<const GutContact> contacts, std::span<const Vec3> before,
+                          std::span<const double> inverse_mass) noexcept {
   rows_.clear();
-  for (std::size_t c = 0; c < std::min(contacts.size(), rows_.capacity()); ++c) {
-    rows_.push_back(prepared(contacts[c], masses));
-    if (warm.empty()) continue;
-    rows_.back().f = warm[c];
-    rows_.back().g = warm[c] * step_s;
-  }
+  for (std::size_t c = 0; c < std::min(contacts.size(), rows_.capacity()); ++c)
+    rows_.push_back(prepared(contacts[c], before, inverse_mass));
+}
+
+void GutResponse::solve(std::span<const GutContact> contacts, std::span<const Vec3> warm, double step_s,
+                        const MovingMasses& masses) noexcept {
+  prepare(contacts, masses.before, masses.inverse_mass);
+  for (std::size_t c = 0; c < std::min(warm.size(), rows_.size()); ++c) begin_with(rows_[c], warm[c], step_s);
   for (std::int32_t pass = 0; pass < passes_; ++pass) {
     for (Row& row : rows_) {
-      correct(row, masses);
-      if (friction_ > 0) rub(row, masses);
+      correct_places(row, masses.x);
+      correct_speeds(row, masses.v);
+      if (friction_ <= 0) continue;
+      rub_places(row, masses.x);
+      rub_speeds(row, masses.v);
+    }
+  }
+}
+
+void GutResponse::part(std::span<const Vec3> warm, double step_s, std::span<Vec3> x) noexcept {
+  for (std::size_t c = 0; c < rows_.size(); ++c) begin_with(rows_[c], warm[c], step_s);
+  for (std::int32_t pass = 0; pass < passes_; ++pass) {
+    for (Row& row : rows_) {
+      correct_places(row, x);
+      if (friction_ > 0) rub_places(row, x);
     }
   }
 }
@@ -103,6 +138,11 @@ void GutResponse::solve(std::span<const GutContact> contacts, std::span<const do
 Vec3 GutResponse::impulse(std::size_t contact) const noexcept {
   if (contact >= rows_.size()) return Vec3::Zero();
   return rows_[contact].f * rows_[contact].normal + rows_[contact].rubbed_speed;
+}
+
+Vec3 GutResponse::shift(std::size_t contact) const noexcept {
+  if (contact >= rows_.size()) return Vec3::Zero();
+  return rows_[contact].g * rows_[contact].normal + rows_[contact].rubbed_way;
 }
 
 std::int32_t GutResponse::pushing() const noexcept {

@@ -128,6 +128,79 @@ TEST(GutCollisions, WhatIsNotFiniteGoesNoFartherThanItMay) {
   EXPECT_LT((state.x[lost] - shape.positions[lost]).norm(), collisions.parts().reach.tube_m);
 }
 
+// Every mass wants far into the corner of a box in which the gut just lies.
+TEST(GutCollisions, TheCornerOfABoxHoldsWithBothItsWalls) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s, {.passes = 40});
+  GutObstacle box{.kind = GutObstacle::Kind::kInsideBox};
+  for (const Vec3& p : shape.positions)
+    box.half_axes_m = box.half_axes_m.cwiseMax(p.cwiseAbs() + Vec3::Constant(shape.tube_radius_m));
+  GutState state = test::state_of(shape);
+  for (int step = 0; step < 60; ++step) {
+    const std::vector<Vec3> before = state.x;
+    for (std::size_t m = 0; m < state.x.size(); ++m) {
+      if (!shape.layout.is_held(MassId(m))) state.x[m] += Vec3::Constant(0.004);
+    }
+    collisions.resolve(before, state, std::span(&box, 1), {});
+  }
+  double deepest = 0;
+  for (std::int32_t c = 1; c < shape.layout.columns - 1; ++c) {
+    for (const WallPlace& wall : faces_within(box, state.x[static_cast<std::size_t>(c)], 1).near())
+      deepest = std::max(deepest, shape.tube_radius_m - wall.depth_m);
+  }
+  EXPECT_LT(deepest, 0.05 * shape.tube_radius_m);
+}
+
+// Before and behind the springs and behind the contacts: it is still one mass that was held back.
+TEST(GutCollisions, AMassThatTheBoundHoldsCountsOnceAStep) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s);
+  GutState state = test::state_of(shape);
+  const std::vector<Vec3> before = state.x;
+  for (std::size_t m = 0; m < state.x.size(); ++m)
+    if (!shape.layout.is_held(MassId(m))) state.x[m].z() += 0.5;
+  collisions.resolve(before, state, {}, {});
+  EXPECT_EQ(collisions.report().bound_acted, (shape.layout.rows - 1) * (shape.layout.columns - 2));
+}
+
+TEST(GutCollisions, SpheresThatFindNoRoomAreTold) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s, {.most_spheres = 2});
+  GutState state = test::state_of(shape);
+  const std::vector<MovingSphere> spheres(5, MovingSphere{.radius_m = 0.001});
+  collisions.resolve(shape.positions, state, {}, spheres);
+  EXPECT_EQ(collisions.report().left_out, 3);
+  EXPECT_EQ(collisions.outcomes().size(), 2U);
+}
+
+// Walls come last and keep their room when all masses meet many.
+TEST(GutCollisions, ContactsThatFindNoRoomAreTold) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s);
+  GutState state = test::state_of(shape);
+  const GutObstacle floor{.centre = Vec3(0, 0, 1)};
+  const std::vector<GutObstacle> few(4, floor), many(400, floor);
+  collisions.resolve(shape.positions, state, few, {});
+  EXPECT_EQ(collisions.report().left_out, 0);
+  collisions.resolve(shape.positions, state, many, {});
+  EXPECT_GT(collisions.report().left_out, 0);
+}
+
+// A correction is no step: a mass that the bound stops keeps the velocity that its step gave it.
+TEST(GutCollisions, ABoundCorrectionLeavesTheVelocityOfTheStep) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s);
+  GutState state = test::state_of(shape);
+  const MassId far = shape.layout.mass(0, 40);
+  const std::vector<Vec3> carried(state.x.size(), Vec3(0, 0, 0.01));
+  state.v = carried;
+  state.x[far].z() += 1;
+  collisions.resolve(shape.positions, state, {}, {}, nullptr, carried);
+  const Vec3 way = state.x[far] - shape.positions[far];
+  EXPECT_LT(way.norm(), 0.02);
+  EXPECT_LT((state.v[far] - carried[far] - way / kStep_s).norm(), 1e-9);
+}
+
 TEST(GutCollisions, SaysWhatIsExpected) {
   const geometry::GutShape shape = test::folded_gut();
   const std::vector<double> masses = even_masses(shape);
