@@ -120,7 +120,7 @@ void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept
 std::span<const TetId> DynamicModel::those_that_can_go(std::span<const TetId> met) noexcept {
   if (precomputed_.empty()) return met;
   met_.clear();
-  std::ranges::copy_if(met, std::back_inserter(met_), [&](TetId t) { return precomputed_[t] == 0; });
+  std::ranges::copy_if(met, std::back_inserter(met_), [&](TetId t) { return can_go(t); });
   return met_;
 }
 
@@ -136,7 +136,8 @@ void DynamicModel::drop_what_fell() noexcept {
   const auto is_gone = [&](NodeId n) { return !(at(state_.u, n).squaredNorm() < reach_m_ * reach_m_); };
   fallen_.clear();
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
-    if (!editor_.is_removed(TetId(t)) && std::ranges::any_of(mesh_.tetrahedra[t], is_gone))
+    if (can_go(TetId(t)) && !editor_.is_removed(TetId(t)) &&
+        std::ranges::any_of(mesh_.tetrahedra[t], is_gone))
       fallen_.push_back(TetId(t));
   remove(fallen_);
 }

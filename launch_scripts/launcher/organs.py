@@ -112,7 +112,7 @@ def foreign_terms(options, spec):
     fixed = options.fixed or support_spec(measured, scale, spec["fixed"])
     if not options.fixed:
         print(f"run: {options.organ.name} is supported at {fixed} (--fixed says otherwise)", flush=True)
-    dynamic = spec["dynamic"] and dynamic_spec(measured, scale, spec["fixed"])
+    dynamic = spec.get("dynamic", "") and dynamic_spec(measured, scale, spec["fixed"])
     if dynamic:
         print(f"run: {options.organ.name} moves by itself and can be cut at {dynamic}", flush=True)
     return scale, fixed, dynamic
@@ -130,7 +130,7 @@ def relative_to(scene, fixed):
     return fixed if fixed.startswith(NO_FILE) else str(scene.parent / fixed)
 
 
-def build_organ(options, cache, mesh, name, spec, scale, fixed, dynamic):
+def build_organ(options, cache, mesh, name, spec, scale, fixed, dynamic=""):
     program = options.programs / "organ_build"
     terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
              "--scale", scale, "--fixed", fixed, *(part for region in spec["regions"] for part in ("--region", region)),
@@ -164,7 +164,7 @@ def organ_file(options, cache, spec):
     mesh = phantom_mesh(options, cache, size) if kind == "phantom" else pathlib.Path(spec["mesh"])
     return build_organ(options, cache, mesh, spec["name"], spec, spec["metres_per_unit"],
                        relative_to(options.scene, spec["fixed"]),
-                       spec["dynamic"] and relative_to(options.scene, spec["dynamic"]))
+                       spec.get("dynamic", "") and relative_to(options.scene, spec["dynamic"]))
 
 
 def organ_files(options, cache, specs):

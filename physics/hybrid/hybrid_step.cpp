@@ -79,6 +79,7 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
       w_(3 * static_cast<std::size_t>(part_.mobile_count())),
       known_(most_compliance_nodes) {
   weights_ = std::move(body.weights);
+  removed_.reserve(body.split.dynamic.tetrahedron.size());
   for (std::int32_t s = 0; s < part_.mobile_count(); ++s) {
     const NodeId n = body.split.precomputed.node[body.surface.node[static_cast<std::size_t>(s)]];
     surface_node_.push_back(n);
@@ -144,7 +145,7 @@ bool HybridStep::step(BodyState& state, std::span<const double> external) noexce
   scatter(own_.u, state.u);
   scatter(own_.v, state.v);
   lead(own_.u, own_.v);
-  part_.follow(w_c_, loads(), Sag::kWith, w_);
+  part_.follow(w_c_, loads(), Sag::kWith, f_c_, w_);
   for (std::size_t s = 0; s < surface_node_.size(); ++s) {
     if (!surface_of_[surface_node_[s]].valid()) continue;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -164,7 +165,7 @@ void HybridStep::foresee(const BodyState& state, std::span<const double> externa
   dynamic_.foresee(own_, own_external_, own_yield_);
   for (std::size_t c = 0; c < own_yield_.size(); ++c) own_.v[c] = (own_yield_[c] - own_.u[c]) / step_s();
   lead(own_yield_, own_.v);
-  part_.follow(w_c_, loads(), Sag::kWith, w_);
+  part_.follow(w_c_, loads(), Sag::kWith, f_c_, w_);
   std::ranges::copy(state.u, u.begin());
   scatter(own_yield_, u);
   const double share = step_s() / (step_s() + viscosity_s_);
@@ -183,7 +184,7 @@ void HybridStep::yield_to(std::span<const double> forces, std::span<double> yiel
   const double share = step_s() / (step_s() + viscosity_s_);
   for (std::size_t k = 0; k < connection_.size(); ++k)
     for (std::size_t i = 0; i < 3; ++i) w_c_[3 * k + i] = own_yield_[at(connection_[k]) + i] / share;
-  part_.follow(w_c_, loads(), Sag::kWithout, w_);
+  part_.follow(w_c_, loads(), Sag::kWithout, f_c_, w_);
   std::ranges::fill(yield, 0.0);
   scatter(own_yield_, yield);
   for (std::size_t s = 0; s < surface_node_.size(); ++s) {
@@ -205,12 +206,10 @@ double HybridStep::work(std::span<const double> external, std::span<const double
 
 bool HybridStep::remove(std::span<const TetId> tetrahedra) noexcept {
   known_.forget();
-  bool sound = true;
-  for (const TetId t : tetrahedra) {
-    const TetId own = own_tetrahedron_[t];
-    sound &= own.valid() && dynamic_.remove({&own, 1});
-  }
-  return sound;
+  removed_.clear();
+  for (const TetId t : tetrahedra)
+    if (own_tetrahedron_[t].valid()) removed_.push_back(own_tetrahedron_[t]);
+  return dynamic_.remove(removed_);
 }
 
 void HybridStep::restore() noexcept {

@@ -27,8 +27,8 @@ struct HybridBody {
 /// dt.
 ///
 /// Vectors are [3N] of the whole mesh. Nodes inside the precomputed part have no tensors: theirs stay as they
-/// are, and forces on them beside `weights` do nothing. Only tetrahedra of the dynamic part are removed. All
-/// memory is taken at construction; one thread at a time.
+/// are, and forces on them beside `weights` do nothing. Only tetrahedra of the dynamic part are removed,
+/// others passed over. All memory is taken at construction; one thread at a time.
 class HybridStep final : public LargeStep {
  public:
   /// Throws as KeptFactor, StiffnessFactor and PrecomputedPart do.
@@ -81,6 +81,7 @@ class HybridStep final : public LargeStep {
   std::vector<double> w_;             // [3 mobile], m
   std::vector<SurfaceId> loaded_;     // capacity mobile
   std::vector<Vec3> loads_;
+  std::vector<geometry::TetId> removed_;  // workspace, capacity of the dynamic part
   // workspace of compliance(): p nodes, of them q of the precomputed part's own
   std::vector<SurfaceId> touched_;         // [q]
   std::vector<geometry::NodeId> support_;  // connection, then other dynamic nodes

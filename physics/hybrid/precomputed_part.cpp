@@ -25,35 +25,37 @@ PrecomputedPart::PrecomputedPart(const SurfaceCompliance& compliance, std::vecto
       connection_(std::move(connection)),
       sag_(std::move(sag)),
       S_(stiffness_of(compliance, connection_)),
-      away_(S_.rows()),
+      sag_force_(Eigen::VectorXd::Zero(S_.rows())),
+      lifted_(S_.rows()),
       reaction_(S_.rows()),
       tiled_(static_cast<std::size_t>(3 * kLanes * compliance.cluster_count())) {
   const auto most = static_cast<std::size_t>(compliance.mobile_count()) + connection_.size();
   pushed_.reserve(most);
   pushes_.reserve(most);
-}
-
-// Where the connection nodes would be if nothing held them.
-void PrecomputedPart::lift(const Loads& loads, Sag sag) noexcept {
-  for (std::size_t k = 0; k < connection_.size(); ++k) {
-    const bool sags = sag == Sag::kWith && !sag_.empty();
-    Vec3 u = sags ? sag_[static_cast<std::size_t>(connection_[k])] : Vec3::Zero().eval();
-    for (std::size_t q = 0; q < loads.nodes.size(); ++q)
-      u += compliance_.block(connection_[k], loads.nodes[q]) * loads.forces[q];
-    away_.segment<3>(row(k)) = u;
-  }
+  if (sag_.empty()) return;
+  for (std::size_t k = 0; k < connection_.size(); ++k)
+    lifted_.segment<3>(row(k)) = sag_[static_cast<std::size_t>(connection_[k])];
+  sag_force_ = S_ * lifted_;
 }
 
 void PrecomputedPart::condense(const Loads& loads, Sag sag, std::span<double> f_c) noexcept {
-  lift(loads, sag);
-  Eigen::Map<Eigen::VectorXd>(f_c.data(), away_.size()).noalias() = S_ * away_;
+  Eigen::Map<Eigen::VectorXd> force(f_c.data(), S_.rows());
+  force.setZero();
+  if (sags(sag)) force = sag_force_;
+  if (loads.nodes.empty()) return;
+  for (std::size_t k = 0; k < connection_.size(); ++k) {
+    Vec3 u = Vec3::Zero();
+    for (std::size_t q = 0; q < loads.nodes.size(); ++q)
+      u += compliance_.block(connection_[k], loads.nodes[q]) * loads.forces[q];
+    lifted_.segment<3>(row(k)) = u;
+  }
+  force.noalias() += S_ * lifted_;
 }
 
 void PrecomputedPart::follow(std::span<const double> w_c, const Loads& loads, Sag sag,
-                             std::span<double> w) noexcept {
-  lift(loads, sag);
-  away_ = Eigen::Map<const Eigen::VectorXd>(w_c.data(), away_.size()) - away_;
-  reaction_.noalias() = S_ * away_;
+                             std::span<const double> f_c, std::span<double> w) noexcept {
+  reaction_.noalias() = S_ * Eigen::Map<const Eigen::VectorXd>(w_c.data(), S_.rows());
+  reaction_ -= Eigen::Map<const Eigen::VectorXd>(f_c.data(), S_.rows());
   pushed_.assign(loads.nodes.begin(), loads.nodes.end());
   pushes_.assign(loads.forces.begin(), loads.forces.end());
   for (std::size_t k = 0; k < connection_.size(); ++k) {
@@ -63,10 +65,9 @@ void PrecomputedPart::follow(std::span<const double> w_c, const Loads& loads, Sa
   superpose_surface(compliance_, pushed_, pushes_, tiled_);
   for (std::int32_t n = 0; n < mobile_count(); ++n) {
     const float* lane = tiled_.data() + static_cast<std::ptrdiff_t>(3 * kLanes * (n / kLanes)) + n % kLanes;
-    const bool sags = sag == Sag::kWith && !sag_.empty();
     for (int i = 0; i < 3; ++i)
       w[static_cast<std::size_t>(3 * n + i)] =
-          static_cast<double>(lane[i * kLanes]) + (sags ? sag_[static_cast<std::size_t>(n)][i] : 0.0);
+          static_cast<double>(lane[i * kLanes]) + (sags(sag) ? sag_[static_cast<std::size_t>(n)][i] : 0.0);
   }
 }
 
@@ -74,8 +75,8 @@ void PrecomputedPart::passed_on(std::span<const SurfaceId> nodes, Eigen::Ref<Eig
   for (std::size_t p = 0; p < nodes.size(); ++p) {
     for (int axis = 0; axis < 3; ++axis) {
       for (std::size_t k = 0; k < connection_.size(); ++k)
-        away_.segment<3>(row(k)) = compliance_.block(connection_[k], nodes[p]).col(axis);
-      B.col(row(p) + axis).noalias() = S_ * away_;
+        lifted_.segment<3>(row(k)) = compliance_.block(connection_[k], nodes[p]).col(axis);
+      B.col(row(p) + axis).noalias() = S_ * lifted_;
     }
   }
 }

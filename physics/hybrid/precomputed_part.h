@@ -40,10 +40,11 @@ class PrecomputedPart {
   std::span<const SurfaceId> connection() const { return connection_; }
   std::int32_t mobile_count() const { return compliance_.mobile_count(); }
 
-  /// f_c, [3c], N.
+  /// f_c, [3c], N. Without loads it is known.
   void condense(const Loads& loads, Sag sag, std::span<double> f_c) noexcept;
-  /// w, [3 mobile], m, for w_c, [3c].
-  void follow(std::span<const double> w_c, const Loads& loads, Sag sag, std::span<double> w) noexcept;
+  /// w, [3 mobile], m, for w_c, [3c], and what condense() said of the same loads and sag.
+  void follow(std::span<const double> w_c, const Loads& loads, Sag sag, std::span<const double> f_c,
+              std::span<double> w) noexcept;
 
   /// How forces at nodes P pass to the connection nodes: B = S C_cP, [3c x 3p]; its transpose is how far P is
   /// taken along by them. Precondition: as many columns as B has.
@@ -53,14 +54,15 @@ class PrecomputedPart {
                   Eigen::Ref<Eigen::MatrixXd> yield) noexcept;
 
  private:
-  void lift(const Loads& loads, Sag sag) noexcept;
+  bool sags(Sag sag) const { return sag == Sag::kWith && !sag_.empty(); }
 
   const SurfaceCompliance& compliance_;
   std::vector<SurfaceId> connection_;
   std::vector<Vec3> sag_;
   Eigen::MatrixXd S_;
-  Eigen::VectorXd away_, reaction_;  // [3c]
-  std::vector<SurfaceId> pushed_;    // A, then c
+  Eigen::VectorXd sag_force_;          // [3c] S sag_c
+  Eigen::VectorXd lifted_, reaction_;  // [3c]
+  std::vector<SurfaceId> pushed_;      // A, then c
   std::vector<Vec3> pushes_;
   std::vector<float> tiled_;  // as superpose_surface writes it
 };

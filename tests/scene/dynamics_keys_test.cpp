@@ -111,6 +111,14 @@ tear_stress_pa = 50
   EXPECT_THAT(message_of(scene_of("quasi-static")), HasSubstr("organs[1].regions[0].tear_stress_pa"));
 }
 
+TEST(DynamicsKeys, AHybridOrganSaysWhichPartMovesAndStepsImplicitly) {
+  const std::string hybrid = "model = \"hybrid\"\n", part = "dynamic = \"plane:x>0.02\"\n";
+  EXPECT_EQ(load_scene(with(hybrid + part)).organs[0].dynamics->dynamic_part, "plane:x>0.02");
+  EXPECT_THAT(message_of(with(hybrid)), HasSubstr("dynamic: found nothing"));
+  EXPECT_THAT(message_of(with("model = \"tensor-mass\"\n" + part)), HasSubstr("dynamic"));
+  EXPECT_THAT(message_of(with(hybrid + part + "integrator = \"rk4\"")), HasSubstr("one of \"implicit\""));
+}
+
 TEST(DynamicsKeys, MachinesCompareThem) {
   const auto values = scene_values(load_scene(with("model = \"tensor-mass\"\ncut_delay_s = 0.25")));
   EXPECT_THAT(values, Contains("organs[0].cut_delay_s = 0.25"));

@@ -392,14 +392,14 @@ class Parts(unittest.TestCase):
         environment.start()
         self.addCleanup(environment.stop)
 
-    def build(self, fixed, name="liver", mesh=None, regions=()):
+    def build(self, fixed, name="liver", mesh=None, regions=(), dynamic=""):
         """What build_organ would take from the cache, made by a stand-in for organ_build."""
         mesh = mesh or self.folder / "liver.msh"
         mesh.touch()
         options = mock.Mock(programs=self.folder)
         spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": list(regions)}
         with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
-            return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed)
+            return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed, dynamic)
 
     def test_a_node_without_a_report_has_every_field_all_the_same(self):
         seen_by_the_launcher = {"dds", "exit", "restarts"}
@@ -424,6 +424,22 @@ class Parts(unittest.TestCase):
             self.assertEqual(self.build(fixed), first)
             nodes.write_text("1\n3\n")
             self.assertNotEqual(self.build(fixed), first, fixed)
+
+    def test_a_dynamic_part_and_what_its_file_lists_make_another_organ(self):
+        plain = self.build("plane:x<0")
+        self.assertNotEqual(self.build("plane:x<0", dynamic="plane:x>1"), plain)
+        listed = self.folder / "tetrahedra.csv"
+        listed.write_text("1\n2\n")
+        first = self.build("plane:x<0", dynamic=str(listed))
+        listed.write_text("1\n3\n")
+        self.assertNotEqual(self.build("plane:x<0", dynamic=str(listed)), first)
+        self.assertEqual(organs.support_files("label:3"), [])
+
+    def test_a_foreign_mesh_moves_at_the_end_that_is_not_held(self):
+        measured = {"min": [0, -30, 0], "max": [90, 30, 30]}
+        self.assertEqual(organs.dynamic_spec(measured, 0.001, "plane:x<0.01"), "plane:x>0.06")
+        self.assertEqual(organs.dynamic_spec(measured, 0.001, "plane:y>0.01"), "plane:y<-0.01")
+        self.assertEqual(organs.dynamic_spec(measured, 0.001, "nodes.csv"), "plane:z>0.02")
 
     def test_each_region_is_told_to_organ_build_and_makes_another_organ(self):
         told = []
