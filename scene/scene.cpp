@@ -280,6 +280,14 @@ void find_pressed_organs(Scene& scene, std::vector<TomlSection>& sections) {
   }
 }
 
+void give_to_intestines(const TomlSection& root, const std::vector<ObstacleSpec>& obstacles,
+                        std::vector<OrganSpec>& organs) {
+  bool given = false;
+  for (OrganSpec& organ : organs)
+    if (organ.intestine) organ.intestine->obstacles = obstacles, given = true;
+  refuse_wrong_obstacles(root, obstacles.size(), given);
+}
+
 void refuse_wrong_count(const TomlSection& root, const std::string& key, std::size_t count,
                         std::size_t most) {
   if (count >= 1 && count <= most) return;
@@ -311,8 +319,7 @@ Scene load_scene(const std::filesystem::path& file) {
 
   for (TomlSection& s : organs) scene.organs.push_back(read_organ(s, file));
   for (TomlSection& s : obstacles) scene.obstacles.push_back(read_obstacle(s));
-  for (OrganSpec& organ : scene.organs)
-    if (organ.intestine) organ.intestine->obstacles = scene.obstacles;
+  give_to_intestines(root, scene.obstacles, scene.organs);
   for (TomlSection& s : tools) scene.tools.push_back(read_tool(s));
   for (TomlSection& s : hands) scene.hands.push_back(read_hand(s));
   refuse_wrong_count(root, "organs", organs.size(), msg::MAX_ORGANS);
