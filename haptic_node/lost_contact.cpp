@@ -1,6 +1,7 @@
 #include "haptic_node/lost_contact.h"
 
 #include "haptic_node/contact_list.h"
+#include "haptic_node/jaws.h"
 
 #include <cmath>
 #include <limits>
@@ -44,11 +45,13 @@ bool is_through(const ToolState& tool, const ToolContact& contact, Body& body) {
   return body.tissue_ahead(contact.held, at_the_surface(contact, tool.before)) < kThrough;
 }
 
-// Whether the same body pushes another point of the tool the other way.
-bool is_opposed(const HapticState& state, const ToolContact& contact) {
+// Whether the same body pushes another point of the tool the other way: one that is on the other jaw, or one
+// that is not.
+bool is_opposed(const ToolModel& tool, const HapticState& state, const ToolContact& contact, bool jaws) {
   return std::ranges::any_of(state.active(), [&](const ToolContact& other) {
     return other.tool == contact.tool && other.body == contact.body && other.touches() &&
-           other.place.normal.dot(contact.place.normal) < kOpposed;
+           other.place.normal.dot(contact.place.normal) < kOpposed &&
+           (jaw_of(tool, tool.points[other.point]) * jaw_of(tool, tool.points[contact.point]) < 0) == jaws;
   });
 }
 
@@ -60,6 +63,14 @@ bool is_behind(const ToolState& tool, const ToolContact& contact) {
   double radius_m = 0;
   for (const Vec3& p : tool.before) radius_m = std::max(radius_m, (p - middle).norm());
   return (tool.before[contact.point] - middle).dot(contact.place.normal) > kBehind * radius_m;
+}
+
+// Whether a contact that presses is no longer on its own side of the organ.
+bool went_through(const ToolModel& model, const HapticState& state, const ToolContact& contact, Body& body) {
+  const ToolState& tool = state.tools[contact.tool];
+  if (is_opposed(model, state, contact, true)) return false;
+  return is_through(tool, contact, body) ||
+         (is_opposed(model, state, contact, false) && is_behind(tool, contact));
 }
 
 // What of a tool's depth is no press: as if the tool had moved out, along the mean normal of its points
@@ -123,7 +134,7 @@ void meet_appeared_in(BodyId id, std::size_t tool_index, HapticState& state, Bod
 
 }  // namespace
 
-void leave_astray(HapticState& state, Bodies& bodies) noexcept {
+void leave_astray(const HapticModel& model, HapticState& state, Bodies& bodies) noexcept {
   const std::uint32_t pressing = pressing_tools(state);
   std::uint64_t turn = state.ticks;
   std::array<bool, physics::kMaxContacts> left{};
@@ -133,8 +144,7 @@ void leave_astray(HapticState& state, Bodies& bodies) noexcept {
     ToolState& tool = state.tools[contact.tool];
     Body& body = bodies[contact.body];
     const bool idle = contact.sunken_m > 0 && (pressing >> contact.tool & 1) == 0;
-    const bool through = contact.touches() && (is_through(tool, contact, body) ||
-                                               (is_opposed(state, contact) && is_behind(tool, contact)));
+    const bool through = contact.touches() && went_through(model.tools[contact.tool], state, contact, body);
     const bool to_ask = is_astray(tool, contact, body) || (idle && ++turn % kAskPeriod == 0);
     if (!through && !to_ask) continue;
     left[i] = true;

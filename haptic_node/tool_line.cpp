@@ -136,7 +136,7 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   force_.echo_stamp_ns = heard.pose.stamp_ns;
   force_.force = to_message(safe.wrench.force);
   force_.torque = to_message(safe.wrench.torque);
-  force_.grip_torque = 0;  // rigid jaws: the tissue between them does not push them open
+  force_.grip_torque = safe.wrench.grip_torque;
   force_.valid_for_s = stale_after(heard.interval_s, limits_);
   force_.state = safe.state;
   return force_;
@@ -146,10 +146,11 @@ SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, doubl
   const HeardPose& heard = poses_.value();
   const ToolFrame frame = frame_of(heard.pose);
   SafetyInput input;
-  input.model = {output.force, output.torque};
+  input.model = {output.force, output.torque, output.grip_torque};
   input.stored_j = output.stored_j;
   input.tip = frame.p_WT;
   input.orientation = frame.q_WT;
+  input.grip = heard.pose.grip;
   input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
   input.pose_interval_s = heard.interval_s;
   input.way_s = way_s_;

@@ -4,6 +4,7 @@
 #include "scene/dynamics_keys.h"
 #include "scene/hand_way_keys.h"
 #include "scene/intestine_keys.h"
+#include "scene/score_keys.h"
 #include "scene/toml_section.h"
 
 #include <algorithm>
@@ -36,6 +37,9 @@ constexpr Range kRamp_s{.minimum = 0.02, .maximum = 10};
 constexpr Range kStale_s{.minimum = 0, .maximum = 0.025, .above = true};
 // Faster is a blow, slower pushes a hand that has let go, or whose device is dead.
 constexpr Range kDecay_s{.minimum = 0.002, .maximum = 0.05};
+
+// Less does not lift a fold of gut; more tears any tissue before it slips.
+constexpr Range kGrip_n{.minimum = 0.1, .maximum = 50};
 
 // No instrument's edge is longer: more is a wrong unit.
 constexpr double kLongestEdge_m = 0.2;
@@ -157,6 +161,7 @@ ToolSpec read_tool(TomlSection& s) {
   s.read("shaft_radius_m", tool.shaft_radius_m, kOptional, kPositive);
   s.read("shaft_length_m", tool.shaft_length_m, kOptional, kPositive);
   s.read("trocar", tool.trocar);
+  if (tool.shape == "grasper") s.read("grip_force_n", tool.grip_force_n, kOptional, kGrip_n);
   read_edge(s, tool);
   s.refuse_unknown_keys();
   return tool;
@@ -222,17 +227,6 @@ CameraSpec read_camera(TomlSection s, bool given) {
   s.read("field_of_view_deg", camera.field_of_view_deg, kOptional, kFieldOfView);
   s.refuse_unknown_keys();
   return camera;
-}
-
-ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs) {
-  ScoreSpec score;
-  s.read("exposed_organ", score.exposed_organ, kOptional);
-  s.read("from_s", score.from_s, kOptional, kNotNegative);
-  const auto is_exposed = [&](const OrganSpec& organ) { return organ.name == score.exposed_organ; };
-  if (s.has("exposed_organ") && std::ranges::none_of(organs, is_exposed))
-    s.refuse("exposed_organ", "\"" + score.exposed_organ + "\"", "the name of one of the [[organs]]");
-  s.refuse_unknown_keys();
-  return score;
 }
 
 void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {

@@ -84,14 +84,22 @@ struct OrganSpec {
 /// Whether an OrganSpec's mesh is a built organ, which has its material, supports and metres.
 bool is_organ_file(const std::string& mesh);
 
+/// From the tip of a grasper to where its jaws turn, m, as a 5 mm dissector's: the picture's and the hand's.
+inline constexpr double kJawLength_m = 0.018;
+/// The pull that jaws hold where a scene says nothing, N: bowel was pulled by as much between graspers' jaws
+/// to see which of them let it slip and which hurt it (Heijnsdijk, de Visser, Dankelman and Gouma, Slip and
+/// damage properties of jaws of laparoscopic graspers, Surg Endosc 18, 2004).
+inline constexpr double kGripForce_n = 5;
+
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the
 /// handle).
 struct ToolSpec {
   std::uint32_t id = 0;
   std::string name;
-  std::string shape;         // "probe" or "grasper": how it is drawn
+  std::string shape;         // "probe" or "grasper": how it is drawn, and whether it has jaws
   std::vector<Vec3> points;  // [P] p_TP, m
   double shaft_radius_m = 0.0025, shaft_length_m = 0.3;
+  double grip_force_n = kGripForce_n;  // tissue that pulls harder slips out of the jaws
   std::optional<Vec3> trocar;  // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
   std::vector<Vec3> edge;      // begin and end of what cuts while its button is pressed, in T, m; or empty
 };
@@ -139,10 +147,17 @@ struct CameraSpec {
   double field_of_view_deg = 40;
 };
 
-/// What a trainee is measured by.
+/// A blade's own width and a hand's tremor, m (docs/score.md).
+inline constexpr double kLineWidth_m = 0.005;
+
+/// What a trainee is measured by (docs/score.md).
 struct ScoreSpec {
   std::string exposed_organ;  // its name: the share of it that nothing hides is told; empty: none
-  double from_s = 0;  // since render_node began: what is seen earlier, while organs settle, does not count
+  double from_s = 0;    // since render_node began: what is seen earlier, while organs settle, does not count
+  std::string line_of;  // the name of the organ that is to be cut; empty: none
+  std::vector<Vec3> planned_line;      // [2 or more] along which, in W, m, the organ at rest; or empty
+  double line_width_m = kLineWidth_m;  // what is removed farther from the line's cut lies outside of it
+  double pull_limit_n = kGripForce_n;  // a pull that is stronger counts
 };
 
 struct Scene {
