@@ -11,8 +11,10 @@ void HandAccount::add(const msg::ToolForce& force, double pull_n, double limit_n
   force_max_n = std::max(force_max_n, std::hypot(force.force.x, force.force.y, force.force.z));
   grip_torque_max_nm = std::max(grip_torque_max_nm, std::abs(force.grip_torque));
   pull_max_n = std::max(pull_max_n, pull_n);
-  if (pull_n > limit_n && !pulls) ++pulls_beyond_limit;
-  pulls = pull_n > (pulls ? kEased * limit_n : limit_n);
+  const bool counted = ticks_beyond >= kLasting;
+  const bool beyond = pull_n > (counted ? kEased * limit_n : limit_n);
+  ticks_beyond = beyond ? std::min(ticks_beyond + 1, kLasting) : 0;
+  if (ticks_beyond == kLasting && !counted) ++pulls_beyond_limit;
 }
 
 nlohmann::json to_json(std::uint32_t tool_id, const HandAccount& account, const ToolModel& model,

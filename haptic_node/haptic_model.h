@@ -125,6 +125,7 @@ struct ToolState {
   double others_m = 0;                // how deep the other tools' own dents around it are at most, m
   bool opened = false;                // the jaws were open since the last grasp
   bool grasping = false;
+  int overpulled_ticks = 0;  // in a row in which what they hold was pulled harder than they grip
   std::uint64_t grasp_count = 0;
   GraspCounts grasps;
   ModelChanges changes;

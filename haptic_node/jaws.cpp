@@ -18,6 +18,9 @@ constexpr double kReleaseAbove_rad = 0.25;
 // that organs come from. What else is near then (kNear_m of tool_contact) is between them as well.
 constexpr double kGraspGap_m = 1e-4;
 
+// Tissue slips out when it was pulled so hard for so many ticks: a single one is a step between two models.
+constexpr int kSlipTicks = 10;
+
 // A point this near to the middle is on no jaw, m.
 constexpr double kMiddle_m = 1e-4;
 
@@ -60,9 +63,14 @@ void begin_grasp(const ToolModel& model, HapticState& state, std::int32_t tool, 
   }
 }
 
-void slip(HapticState& state, std::int32_t tool) {
+void slip_where_pulled(const ToolModel& model, HapticState& state, std::int32_t tool) {
+  ToolState& jaws = state.tools[tool];
+  const bool too_hard =
+      jaws.grasping && state.energies[tool].share * pull_n(state, tool) > model.grip_force_n;
+  jaws.overpulled_ticks = too_hard ? jaws.overpulled_ticks + 1 : 0;
+  if (jaws.overpulled_ticks < kSlipTicks) return;
   end_grasp(state, tool);
-  ++state.tools[tool].grasps.torn;
+  ++jaws.grasps.torn;
 }
 
 }  // namespace
@@ -107,8 +115,7 @@ void follow_grip(const HapticModel& model, HapticState& state, std::int32_t tool
                  Bodies& bodies) noexcept {
   ToolState& jaws = state.tools[tool];
   const ToolModel& tool_model = model.tools[tool];
-  if (jaws.grasping && state.energies[tool].share * pull_n(state, tool) > tool_model.grip_force_n)
-    slip(state, tool);
+  slip_where_pulled(tool_model, state, tool);
   if (grip > kReleaseAbove_rad) {
     jaws.opened = true;
     if (jaws.grasping) end_grasp(state, tool);

@@ -32,9 +32,9 @@ double grip_torque(const ToolModel& model, const ToolState& tool, const ToolCont
 /// them against the tissue along the shaft, by which nothing slips out.
 double pull_n(const HapticState& state, std::int32_t tool) noexcept;
 
-/// Jaws that close begin to hold what lies between them, jaws that open let go, and tissue that pulls harder
-/// than they grip slips out of them. What gap there was when they began to hold stays, so that no force comes
-/// from holding alone; from there on closing presses the tissue together.
+/// Jaws that close begin to hold what lies between them, jaws that open let go, and tissue that is pulled
+/// harder than they grip, for some ticks, slips out of them. What gap there was when they began to hold
+/// stays, so that no force comes from holding alone; from there on closing presses the tissue together.
 void follow_grip(const HapticModel& model, HapticState& state, std::int32_t tool, double grip,
                  Bodies& bodies) noexcept;
 

@@ -45,14 +45,24 @@ bool is_through(const ToolState& tool, const ToolContact& contact, Body& body) {
   return body.tissue_ahead(contact.held, at_the_surface(contact, tool.before)) < kThrough;
 }
 
-// Whether the same body pushes another point of the tool the other way: one that is on the other jaw, or one
-// that is not.
-bool is_opposed(const ToolModel& tool, const HapticState& state, const ToolContact& contact, bool jaws) {
-  return std::ranges::any_of(state.active(), [&](const ToolContact& other) {
-    return other.tool == contact.tool && other.body == contact.body && other.touches() &&
-           other.place.normal.dot(contact.place.normal) < kOpposed &&
-           (jaw_of(tool, tool.points[other.point]) * jaw_of(tool, tool.points[contact.point]) < 0) == jaws;
-  });
+// Whether a body pushes two points of one tool against each other.
+bool are_opposed(const ToolContact& one, const ToolContact& other) {
+  return other.tool == one.tool && other.body == one.body && other.touches() &&
+         other.place.normal.dot(one.place.normal) < kOpposed;
+}
+
+bool is_opposed(const HapticState& state, const ToolContact& contact) {
+  return std::ranges::any_of(state.active(),
+                             [&](const ToolContact& other) { return are_opposed(contact, other); });
+}
+
+// Whether the tissue at a contact lies between two jaws, and is pressed from both sides.
+bool is_between_jaws(const ToolModel& model, const HapticState& state, const ToolContact& contact) {
+  const ToolState& tool = state.tools[contact.tool];
+  const auto jaw = [&](const ToolContact& c) { return jaw_of(model, model.points[c.point]); };
+  return (tool.opened || tool.grasping) && std::ranges::any_of(state.active(), [&](const ToolContact& other) {
+           return are_opposed(contact, other) && jaw(contact) * jaw(other) < 0;
+         });
 }
 
 // Whether the tissue that touches the tool's point would have the tool's middle inside: a side that was drawn
@@ -68,9 +78,8 @@ bool is_behind(const ToolState& tool, const ToolContact& contact) {
 // Whether a contact that presses is no longer on its own side of the organ.
 bool went_through(const ToolModel& model, const HapticState& state, const ToolContact& contact, Body& body) {
   const ToolState& tool = state.tools[contact.tool];
-  if (is_opposed(model, state, contact, true)) return false;
-  return is_through(tool, contact, body) ||
-         (is_opposed(model, state, contact, false) && is_behind(tool, contact));
+  if (is_between_jaws(model, state, contact)) return false;
+  return is_through(tool, contact, body) || (is_opposed(state, contact) && is_behind(tool, contact));
 }
 
 // What of a tool's depth is no press: as if the tool had moved out, along the mean normal of its points

@@ -86,10 +86,10 @@ bool is_organ_file(const std::string& mesh);
 
 /// From the tip of a grasper to where its jaws turn, m, as a 5 mm dissector's: the picture's and the hand's.
 inline constexpr double kJawLength_m = 0.018;
-/// The pull that jaws hold where a scene says nothing, N: bowel was pulled by as much between graspers' jaws
-/// to see which of them let it slip and which hurt it (Heijnsdijk, de Visser, Dankelman and Gouma, Slip and
-/// damage properties of jaws of laparoscopic graspers, Surg Endosc 18, 2004).
-inline constexpr double kGripForce_n = 5;
+/// The pull that jaws hold where a scene says nothing, N. Jaws are chosen to hold bowel that is pulled by 5 N
+/// without marking it (Heijnsdijk, de Visser, Dankelman and Gouma, Slip and damage properties of jaws of
+/// laparoscopic graspers, Surg Endosc 18, 2004); tissue slips out above that, by about a half.
+inline constexpr double kGripForce_n = 8;
 
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the
 /// handle).
@@ -147,8 +147,8 @@ struct CameraSpec {
   double field_of_view_deg = 40;
 };
 
-/// A blade's own width and a hand's tremor, m (docs/score.md).
-inline constexpr double kLineWidth_m = 0.005;
+/// Of the planned cut, m, and the pull that may not be passed, N (docs/score.md says why).
+inline constexpr double kLineWidth_m = 0.005, kPullLimit_n = 5;
 
 /// What a trainee is measured by (docs/score.md).
 struct ScoreSpec {
@@ -157,7 +157,7 @@ struct ScoreSpec {
   std::string line_of;  // the name of the organ that is to be cut; empty: none
   std::vector<Vec3> planned_line;      // [2 or more] along which, in W, m, the organ at rest; or empty
   double line_width_m = kLineWidth_m;  // what is removed farther from the line's cut lies outside of it
-  double pull_limit_n = kGripForce_n;  // a pull that is stronger counts
+  double pull_limit_n = kPullLimit_n;  // a pull that is stronger counts
 };
 
 struct Scene {

@@ -1,6 +1,7 @@
 // Jaws that close on tissue: what they hold, what they feel of it, and that no way of theirs gives energy.
 #include "haptic_fixtures.h"
 #include "haptic_node/force_safety.h"
+#include "haptic_node/hand_account.h"
 #include "haptic_node/jaws.h"
 
 #include <Eigen/Geometry>
@@ -222,7 +223,8 @@ TEST(Jaws, WhatIsPulledHarderThanTheyGripSlipsOut) {
     hand.step(kOnBlock + Vec3(0, 0, 5e-5 * i), kJawsShut_rad);
     most_n = std::max(most_n, hand.output().pull_n);
   }
-  EXPECT_NEAR(most_n, 0.5, 0.05);
+  EXPECT_GT(most_n, weak.grip_force_n);
+  EXPECT_LT(most_n, weak.grip_force_n + 0.15) << "so far it was pulled on in ten ticks";
   EXPECT_FALSE(hand.output().grasping);
   EXPECT_EQ(hand.output().force, Vec3::Zero());
   EXPECT_EQ(hand.bench.state().tools[0].grasps.torn, 1u);
@@ -243,6 +245,25 @@ TEST(Jaws, PressingDoesNotPullAnythingOut) {
   hand.go_to(kOnBlock - Vec3(0, 0, 0.003), kJawsShut_rad, 100);
   EXPECT_GT(hand.output().force.z(), 2 * weak.grip_force_n);
   EXPECT_TRUE(hand.output().grasping);
+}
+
+TEST(HandAccount, APullCountsOnceUntilItHasEasedOff) {
+  haptic::HandAccount account;
+  msg::ToolForce force{};
+  force.force.z = -3;
+  const auto pull = [&](double newton, int ticks) {
+    for (int i = 0; i < ticks; ++i) account.add(force, newton, 5);
+    return account.pulls_beyond_limit;
+  };
+  EXPECT_EQ(pull(4.9, 100), 0u);
+  EXPECT_EQ(pull(7, 5) + pull(4.9, 1), 0u) << "a few ticks are none";
+  EXPECT_EQ(pull(6, 100), 1u);
+  pull(4.5, 20);
+  EXPECT_EQ(pull(6, 20), 1u) << "it trembles at the limit";
+  pull(3.9, 1);
+  EXPECT_EQ(pull(6, 20), 2u);
+  EXPECT_EQ(account.force_max_n, 3);
+  EXPECT_EQ(account.pull_max_n, 7);
 }
 
 // ---- passivity
