@@ -84,15 +84,10 @@ std::vector<int> order_nodes(const Stiffness& stiffness, Cholmod& cholmod) {
   return order;
 }
 
-std::vector<int> order_dofs(const Stiffness& stiffness, const FreeDofs& free, std::span<const NodeId> last,
-                            Cholmod& cholmod) {
+std::vector<int> order_dofs(const Stiffness& stiffness, const FreeDofs& free, Cholmod& cholmod) {
   std::vector<int> order;
   order.reserve(free.count);
-  std::vector<int> nodes = order_nodes(stiffness, cholmod);
-  std::vector<bool> is_last(nodes.size());
-  for (const NodeId n : last) is_last[n] = true;
-  std::ranges::stable_partition(nodes, [&](int n) { return !is_last[static_cast<std::size_t>(n)]; });
-  for (const int n : nodes) {
+  for (const int n : order_nodes(stiffness, cholmod)) {
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t dof = free.of(NodeId(n), axis);
       if (dof >= 0) order.push_back(dof);
@@ -134,11 +129,10 @@ struct StiffnessFactor::Impl {
   ~Impl() { cholmod_free_factor(&factor, cholmod.get()); }
 };
 
-StiffnessFactor::StiffnessFactor(const Stiffness& stiffness, const FreeDofs& free,
-                                 std::span<const NodeId> last)
+StiffnessFactor::StiffnessFactor(const Stiffness& stiffness, const FreeDofs& free)
     : impl_(std::make_unique<Impl>()) {
   Cholmod& cholmod = impl_->cholmod;
-  std::vector<int> order = order_dofs(stiffness, free, last, cholmod);
+  std::vector<int> order = order_dofs(stiffness, free, cholmod);
   Compressed K = free_part(stiffness, free);
   cholmod_sparse matrix = K.view(kLowerTriangle);
 

@@ -35,9 +35,8 @@ class StiffnessFactor {
  public:
   /// Orders by nested dissection of the nodes' graph and factorizes. Throws FloatingError when K is not
   /// positive definite over the free degrees of freedom, std::runtime_error when CHOLMOD fails otherwise (out
-  /// of memory). `last`: nodes that are eliminated after all others, such as those that are all tied to each
-  /// other.
-  StiffnessFactor(const Stiffness& stiffness, const FreeDofs& free, std::span<const NodeId> last = {});
+  /// of memory).
+  StiffnessFactor(const Stiffness& stiffness, const FreeDofs& free);
   ~StiffnessFactor();
   StiffnessFactor(StiffnessFactor&&) noexcept;
   StiffnessFactor& operator=(StiffnessFactor&&) noexcept;

@@ -48,7 +48,7 @@ struct KeptFactor::Assembled {
   Assembled(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
             std::span<const double> mass, const SystemWeights& weights, const AddedStiffness& added)
       : free(free_dofs(fixed)), stiffness(with_added(assemble_stiffness(mesh, material), added)) {
-    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free, added.nodes);
+    if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free);
   }
   Supernodes supernodes() const { return factor ? factor->supernodes() : Supernodes{}; }
 };

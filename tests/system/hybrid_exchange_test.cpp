@@ -9,13 +9,13 @@ namespace {
 using geometry::Vec3;
 using test::Session;
 
-// The block, which has masses beyond its middle; beside its tensor-mass scene.
+// The block, which has masses in a quarter of it, above the side that holds it; beside its tensor-mass scene.
 class HybridBlock {
  public:
   HybridBlock() {
     organ::Organ whole = test::block().organ();
     std::vector<std::uint8_t> dynamic =
-        organ::parse_dynamic(std::vector<std::string>{"plane:x>0.05"}, whole.mesh);
+        organ::parse_dynamic(std::vector<std::string>{"box:0.05,-1,0.034,1,1,1"}, whole.mesh);
     const organ::Organ hybrid = organ::make_organ("block", std::move(whole.mesh), whole.material, whole.fixed,
                                                   organ::Storage::kFloat, std::move(dynamic));
     organ::build_organ(hybrid, file(), {});
@@ -29,7 +29,7 @@ class HybridBlock {
     replace("young_pa", "model = \"" + model + "\"\nmass_damping_per_s = 5\nyoung_pa");
     if (model == "hybrid") {
       replace("block.h5", file());
-      replace("young_pa", "dynamic = \"plane:x>0.05\"\nyoung_pa");
+      replace("young_pa", "dynamic = \"box:0.05,-1,0.034,1,1,1\"\nyoung_pa");
     } else {
       replace("block.h5", test::block().file("block.h5"));
     }
@@ -51,9 +51,9 @@ const HybridBlock& hybrid_block() {
 constexpr double kAbove_m = 0.103, kPressed_m = 0.094;
 
 double press_at(Session& session, double x) {
-  session.move_to({x, 0.053, kAbove_m}, 0.5);
-  session.move_to({x, 0.053, kPressed_m}, 0.5);
-  const double felt = session.move_to({x, 0.053, kPressed_m}, 1).norm();
+  session.move_to({x, 0.053, kAbove_m}, 0.2);
+  session.move_to({x, 0.053, kPressed_m}, 0.3);
+  const double felt = session.move_to({x, 0.053, kPressed_m}, 0.6).norm();
   session.move_to({x, 0.053, kAbove_m}, 0.3);
   return felt;
 }
@@ -63,7 +63,7 @@ TEST(HybridExchange, AHeldPressIsThatOfTheWholeOrganOnBothSidesAndOnTheBorder) {
   Session whole(1000, 100, hybrid_block().scene("tensor-mass"));
   hybrid.begin();
   whole.begin();
-  for (const double x : {0.025, 0.048, 0.06, 0.08}) {
+  for (const double x : {0.025, 0.048, 0.08}) {
     const double expected = press_at(whole, x);
     EXPECT_GT(expected, 0.3);
     EXPECT_NEAR(press_at(hybrid, x), expected, 0.02 * expected) << x;
@@ -87,6 +87,7 @@ TEST(HybridExchange, AToolThatSlidesAcrossTheBorderAndBackFeelsNoStep) {
     }
   }
   EXPECT_GT(held, 0.3);
+  RecordProperty("jump", std::to_string(largest_jump / held));
   EXPECT_LT(largest_jump, 0.02 * held);
 }
 
