@@ -9,6 +9,8 @@ using geometry::Vec3;
 
 // Of the sum w^2 / m: below, nothing of a contact can give way (1/kg).
 constexpr double kNoYield = 1e-12;
+// Passes end where one moves no contact by more: far below what is seen or felt of a step.
+constexpr double kStill_m = 1e-8, kStill_m_s = 1e-6;
 
 template <class Row>
 Vec3 weighted(const Row& row, std::span<const Vec3> of) {
@@ -17,9 +19,12 @@ Vec3 weighted(const Row& row, std::span<const Vec3> of) {
   return sum;
 }
 
+// Whether that moved its points from each other by more than what counts as still.
 template <class Row>
-void add(const Row& row, const Vec3& impulse, std::span<Vec3> to) {
+bool apply(const Row& row, const Vec3& impulse, double still, std::span<Vec3> to) {
+  if (impulse.isZero(0)) return false;
   for (std::int32_t i = 0; i < row.count; ++i) to[row.mass[i]] += row.yield[i] * impulse;
+  return impulse.squaredNorm() > still * still * row.per_D * row.per_D;
 }
 
 // What of a vector lies in the plane of a normal.
@@ -65,35 +70,33 @@ GutResponse::Row GutResponse::prepared(const GutContact& contact, std::span<cons
   return row;
 }
 
-void GutResponse::correct_places(Row& row, std::span<Vec3> x) const noexcept {
-  const double open = weighted(row, x).dot(row.normal) - row.offset;
-  const double g = std::max(0.0, row.g - open * row.per_D);
-  if (g != row.g) add(row, (g - row.g) * row.normal, x);
+// What pushes along the normal does not move along each other, and the other way round: both from one look.
+bool GutResponse::correct_places(Row& row, std::span<Vec3> x) const noexcept {
+  const Vec3 apart = weighted(row, x);
+  const double g = std::max(0.0, row.g - (apart.dot(row.normal) - row.offset) * row.per_D);
+  Vec3 change = (g - row.g) * row.normal;
   row.g = g;
+  if (friction_ > 0 && (g > 0 || !row.rubbed_way.isZero())) {
+    const Vec3 wish = row.rubbed_way - across(apart - row.before, row.normal) * row.per_D;
+    const Vec3 rubbed = within(wish, friction_ * g);
+    change += rubbed - row.rubbed_way;
+    row.rubbed_way = rubbed;
+  }
+  return apply(row, change, kStill_m, x);
 }
 
-void GutResponse::correct_speeds(Row& row, std::span<Vec3> v) const noexcept {
-  if (row.g <= 0 && row.f <= 0) return;
-  const double speed = (weighted(row, v) - row.wall_velocity).dot(row.normal);
-  const double f = std::max(0.0, row.f - speed * row.per_D);
-  if (f != row.f) add(row, (f - row.f) * row.normal, v);
+bool GutResponse::correct_speeds(Row& row, std::span<Vec3> v) const noexcept {
+  if (row.g <= 0 && row.f <= 0 && row.rubbed_speed.isZero()) return false;
+  const Vec3 apart = weighted(row, v) - row.wall_velocity;
+  const double f = std::max(0.0, row.f - apart.dot(row.normal) * row.per_D);
+  Vec3 change = (f - row.f) * row.normal;
   row.f = f;
-}
-
-void GutResponse::rub_places(Row& row, std::span<Vec3> x) const noexcept {
-  if (row.g <= 0 && row.rubbed_way.isZero()) return;
-  const Vec3 way = across(weighted(row, x) - row.before, row.normal);
-  const Vec3 taken = within(row.rubbed_way - way * row.per_D, friction_ * row.g);
-  add(row, taken - row.rubbed_way, x);
-  row.rubbed_way = taken;
-}
-
-void GutResponse::rub_speeds(Row& row, std::span<Vec3> v) const noexcept {
-  if (row.f <= 0 && row.rubbed_speed.isZero()) return;
-  const Vec3 speed = across(weighted(row, v) - row.wall_velocity, row.normal);
-  const Vec3 taken = within(row.rubbed_speed - speed * row.per_D, friction_ * row.f);
-  add(row, taken - row.rubbed_speed, v);
-  row.rubbed_speed = taken;
+  if (friction_ > 0) {
+    const Vec3 rubbed = within(row.rubbed_speed - across(apart, row.normal) * row.per_D, friction_ * f);
+    change += rubbed - row.rubbed_speed;
+    row.rubbed_speed = rubbed;
+  }
+  return apply(row, change, kStill_m_s, v);
 }
 
 void GutResponse::begin_with(Row& row, const Vec3& warm, double step_s) const noexcept {
@@ -114,13 +117,12 @@ void GutResponse::solve(std::span<const GutContact> contacts, std::span<const Ve
                         const MovingMasses& masses) noexcept {
   prepare(contacts, masses.before, masses.inverse_mass);
   for (std::size_t c = 0; c < std::min(warm.size(), rows_.size()); ++c) begin_with(rows_[c], warm[c], step_s);
-  for (std::int32_t pass = 0; pass < passes_; ++pass) {
+  bool is_moving = true;
+  for (std::int32_t pass = 0; pass < passes_ && is_moving; ++pass) {
+    is_moving = false;
     for (Row& row : rows_) {
-      correct_places(row, masses.x);
-      correct_speeds(row, masses.v);
-      if (friction_ <= 0) continue;
-      rub_places(row, masses.x);
-      rub_speeds(row, masses.v);
+      is_moving |= correct_places(row, masses.x);
+      is_moving |= correct_speeds(row, masses.v);
     }
   }
 }
@@ -128,10 +130,7 @@ void GutResponse::solve(std::span<const GutContact> contacts, std::span<const Ve
 void GutResponse::part(std::span<const Vec3> warm, double step_s, std::span<Vec3> x) noexcept {
   for (std::size_t c = 0; c < rows_.size(); ++c) begin_with(rows_[c], warm[c], step_s);
   for (std::int32_t pass = 0; pass < passes_; ++pass) {
-    for (Row& row : rows_) {
-      correct_places(row, x);
-      if (friction_ > 0) rub_places(row, x);
-    }
+    for (Row& row : rows_) correct_places(row, x);
   }
 }
 

@@ -16,7 +16,8 @@ struct MovingMasses {
   std::span<const double> inverse_mass;    // [n], 1/kg; 0: held
 };
 
-/// A fixed number of passes over all contacts, one after the other in their order (Gauss-Seidel). With
+/// A number of passes over all contacts, one after the other in their order (Gauss-Seidel), fewer where
+/// nothing moves any more. With
 /// D = sum w^2 / m and u the contact's normal, a pass corrects
 ///   positions by  g u w / m,  g = ((x_c2 - x_c1).u + reach) / D      (eq. 9, sign by eq. 8)
 ///   velocities by f u w / m,  f = ((v_c2 - v_c1).u) / D              (eq. 7)
@@ -72,10 +73,8 @@ class GutResponse {
   Row prepared(const GutContact& contact, std::span<const geometry::Vec3> before,
                std::span<const double> inverse_mass) const noexcept;
   void begin_with(Row& row, const geometry::Vec3& warm, double step_s) const noexcept;
-  void correct_places(Row& row, std::span<geometry::Vec3> x) const noexcept;
-  void correct_speeds(Row& row, std::span<geometry::Vec3> v) const noexcept;
-  void rub_places(Row& row, std::span<geometry::Vec3> x) const noexcept;
-  void rub_speeds(Row& row, std::span<geometry::Vec3> v) const noexcept;
+  bool correct_places(Row& row, std::span<geometry::Vec3> x) const noexcept;
+  bool correct_speeds(Row& row, std::span<geometry::Vec3> v) const noexcept;
 };
 
 }  // namespace omentum::physics
