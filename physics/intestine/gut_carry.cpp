@@ -103,9 +103,10 @@ bool GutCarry::find_way(std::span<const Vec3> pushes, double step_s, const Movin
   return change > kSettled * total;
 }
 
-void GutCarry::part(const GutYield& yield, double step_s, const MovingMasses& masses,
+// Whether pushes changed.
+bool GutCarry::part(const GutYield& yield, double step_s, const MovingMasses& masses,
                     std::span<Vec3> pushes) noexcept {
-  if (!find_way(pushes, step_s, masses)) return;
+  if (!find_way(pushes, step_s, masses)) return false;
   find_forces(way_, step_s);
   yield.yield_to(std::span(forces_).first(count_), std::span(yields_).first(count_));
   for (std::size_t m = count_; m < masses.x.size(); ++m)
@@ -113,17 +114,17 @@ void GutCarry::part(const GutYield& yield, double step_s, const MovingMasses& ma
   const double share = best_share(step_s, masses);
   for (std::size_t c = 0; c < pushes.size(); ++c) pushes[c] += share * way_[c];
   for (std::size_t m = 0; m < masses.x.size(); ++m) masses.x[m] += share * yields_[m];
+  return true;
 }
 
 void GutCarry::solve(std::span<const GutContact> contacts, GutYield& yield, double step_s,
                      const MovingMasses& masses, std::span<Vec3> pushes) noexcept {
   begin(contacts, yield, step_s, masses);
-  for (int k = 0; k < yield.iterations(); ++k) {
-    find_forces(pushes, step_s);
-    go_downhill(yield, step_s, masses);
-    if (!eased_.empty()) part(yield, step_s, masses, pushes);
-  }
   find_forces(pushes, step_s);
+  for (int k = 0; k < yield.iterations(); ++k) {
+    go_downhill(yield, step_s, masses);
+    if (!eased_.empty() && part(yield, step_s, masses, pushes)) find_forces(pushes, step_s);
+  }
   yield.end_step(std::span(forces_).first(count_), masses.x.first(count_), masses.v.first(count_));
   for (std::size_t m = count_; m < masses.x.size(); ++m)
     masses.v[m] = (masses.x[m] - masses.before[m]) / step_s;

@@ -59,7 +59,7 @@ class GutCarry {
   void find_forces(std::span<const geometry::Vec3> pushes, double step_s) noexcept;
   void go_downhill(GutYield& yield, double step_s, const MovingMasses& masses) noexcept;
   bool find_way(std::span<const geometry::Vec3> pushes, double step_s, const MovingMasses& masses) noexcept;
-  void part(const GutYield& yield, double step_s, const MovingMasses& masses,
+  bool part(const GutYield& yield, double step_s, const MovingMasses& masses,
             std::span<geometry::Vec3> pushes) noexcept;
   double best_share(double step_s, const MovingMasses& masses) const noexcept;
 };
