@@ -12,9 +12,9 @@ using geometry::Vec3;
 
 // Of the least reach: how much farther than needed pairs are listed. Less makes lists more often, more makes
 // them longer.
-constexpr double kMargin = 0.2;
+constexpr double kMargin = 0.4;
 // So many steps as this one a list is to last beyond that: what is fast uses up no more than its own list.
-constexpr double kLasting = 8;
+constexpr double kLasting = 4;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // Raghupathi 2004, section 4.2: displacements and velocities that take overlapping parts apart.
 #pragma once
 
+#include "physics/intestine/contact_kernels.h"
 #include "physics/intestine/gut_contact.h"
 
 #include <span>
@@ -16,8 +17,8 @@ struct MovingMasses {
   std::span<const double> inverse_mass;    // [n], 1/kg; 0: held
 };
 
-/// A number of passes over all contacts, one after the other in their order (Gauss-Seidel), fewer where
-/// nothing moves any more. With
+/// A fixed number of passes, or fewer where one corrects nothing, over all contacts, one after the other in
+/// their order (Gauss-Seidel). With
 /// D = sum w^2 / m and u the contact's normal, a pass corrects
 ///   positions by  g u w / m,  g = ((x_c2 - x_c1).u + reach) / D      (eq. 9, sign by eq. 8)
 ///   velocities by f u w / m,  f = ((v_c2 - v_c1).u) / D              (eq. 7)
@@ -55,17 +56,7 @@ class GutResponse {
   double deepest_m(const MovingMasses& masses) const noexcept;
 
  private:
-  // A contact as the passes need it. `weight` of the second point is negative, `yield` is weight / m.
-  struct Row {
-    std::array<std::int32_t, 6> mass{};
-    std::array<double, 6> weight{}, yield{};
-    std::int32_t count = 0;
-    geometry::Vec3 normal, wall_velocity, before;  // before: of its first point from its second, m
-    double offset = 0;                             // separation along the normal that is asked for
-    double per_D = 0;                              // 1 / D; 0 where nothing can give way
-    double g = 0, f = 0;                           // sums over the passes
-    geometry::Vec3 rubbed_way, rubbed_speed;       // the same along each other
-  };
+  using Row = kernels::ContactRow;
   std::vector<Row> rows_;
   std::int32_t passes_;
   double friction_;
@@ -73,8 +64,7 @@ class GutResponse {
   Row prepared(const GutContact& contact, std::span<const geometry::Vec3> before,
                std::span<const double> inverse_mass) const noexcept;
   void begin_with(Row& row, const geometry::Vec3& warm, double step_s) const noexcept;
-  bool correct_places(Row& row, std::span<geometry::Vec3> x) const noexcept;
-  bool correct_speeds(Row& row, std::span<geometry::Vec3> v) const noexcept;
+  void pass(std::span<geometry::Vec3> x, double* v) noexcept;
 };
 
 }  // namespace omentum::physics
