@@ -1,6 +1,7 @@
 #include "deform_node/gut_model.h"
 
 #include "deform_node/gut_gauge.h"
+#include "deform_node/skin_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@ namespace {
 constexpr double kStepRounding = 1e-9;
 // A press that is as strong as its hand says, to this share, leaves the step as it is.
 constexpr double kAsSaid = 1e-6;
-// Below this a triangle of the skin is folded up, where the gut bends sharply, and no place to touch, m^2.
-constexpr double kLeastArea_m2 = 1e-6;
+// Looks at where a hold leads, of a tick.
+constexpr int kRounds = 2;
 
 std::span<double> components(std::vector<Vec3>& x) {
   return {x.front().data(), 3 * x.size()};
@@ -47,25 +48,6 @@ class GutYielding final : public physics::Yielding {
   const physics::GutSystem& gut_;
 };
 
-/// The skin as it lies. Where it is folded, on the inner side of a sharp bend, it has no faces.
-struct SkinFaces {
-  const GutSkin& skin;
-  std::span<const Vec3> places, x;
-
-  std::size_t count() const noexcept { return skin.triangles().size(); }
-  const auto& corners(std::size_t f) const noexcept { return skin.triangles()[f]; }
-  const Vec3& place(NodeId n) const noexcept { return places[static_cast<std::size_t>(n)]; }
-  bool is_one(std::size_t f) const noexcept {
-    const auto& [a, b, c] = corners(f);
-    const Vec3 normal = (place(b) - place(a)).cross(place(c) - place(a));
-    if (!(normal.norm() > 2 * kLeastArea_m2)) return false;
-    return std::ranges::all_of(corners(f), [&](NodeId n) {
-      const Vec3 out = place(n) - weighted(skin.node(n), x);
-      return out.isZero() || normal.dot(out) > 0;
-    });
-  }
-};
-
 }  // namespace
 
 GutModel::GutModel(GutParts parts)
@@ -73,10 +55,9 @@ GutModel::GutModel(GutParts parts)
       felt_(std::move(parts.felt)),
       ahead_(std::move(parts.ahead)),
       obstacles_(std::move(parts.obstacles)),
-      is_felt_in_its_own_steps_(system_->settings().step_s == felt_->settings().step_s),
       skin_(system_->shape()),
       presses_(skin_, places_of(skin_, system_->shape().positions), parts.wall_m_n),
-      imposed_(system_->shape().positions.size(), kMaxTools),
+      imposed_(system_->shape().positions.size(), GutPresses::kMostPatterns),
       wanted_(system_->state()),
       values_(3 * system_->shape().positions.size()),
       look_(std::make_unique<Felt>(skin_, system_->shape().positions.size())),
@@ -115,7 +96,9 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
   look();
   presses_.press(loads.presses, look_->places, system_->state().x);
   until_felt_s_ = 0;
-  meeting_->act(steps * step_s);
+  last_ticks_s_ = {steps * step_s, last_ticks_s_[0]};
+  meeting_->act(last_ticks_s_[0]);
+  if (ahead_ && presses_.any_grasps()) hold(last_ticks_s_[0]);
   for (int i = 0; i < steps && !status_.diverged; ++i) advance();
   meeting_->put_down();
   show();
@@ -124,9 +107,9 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
 void GutModel::advance() noexcept {
   const double step_s = system_->settings().step_s;
   const std::int64_t held_back = system_->report().collisions.bound_acted;
-  if (!is_felt_in_its_own_steps_) press_ahead();
+  if (ahead_ && !presses_.any_grasps()) press_ahead();
   system_->step(loads());
-  if (is_felt_in_its_own_steps_) impose();
+  if (!ahead_) impose();
   ++status_.steps;
   status_.simulated_s += step_s;
   status_.diverged = system_->report().diverged;
@@ -157,15 +140,15 @@ std::span<const Vec3> GutModel::forces() const noexcept {
 std::span<const double> GutModel::strengths_on(const physics::GutSystem& gut) noexcept {
   std::ranges::copy(gut.state().x, wanted_.x.begin());
   std::ranges::copy(gut.state().v, wanted_.v.begin());
-  GutYielding yielding(gut);
-  return imposed_.impose(yielding, presses_.presses(), components(wanted_.x), components(wanted_.v), 1);
+  GutYielding yielding(*felt_);
+  return imposed_.impose(yielding, presses_.presses(), components(wanted_.x), components(wanted_.v));
 }
 
 void GutModel::impose() noexcept {
   if (presses_.presses().empty()) return;
   const std::span<const double> strengths = strengths_on(*system_);
   presses_.act(strengths);
-  if (std::ranges::all_of(strengths, [](double s) { return std::abs(s - 1) < kAsSaid; })) return;
+  if (presses_.are_as_said(kAsSaid)) return;
   system_->move_to(wanted_, loads());
 }
 
@@ -178,6 +161,26 @@ void GutModel::press_ahead() noexcept {
   felt_->take_up(*system_);
   felt_->step(loads());
   presses_.act(strengths_on(*felt_));
+}
+
+// Jaws hold in all directions, most of them softer than the constant matrix says: their forces are found from
+// where the tick's own steps would take the gut.
+void GutModel::hold(double tick_s) noexcept {
+  presses_.act(1);
+  for (int round = 0; round < kRounds; ++round) {
+    run_ahead(tick_s);
+    if (!presses_.approach(strengths_on(*ahead_), round == 0)) break;
+  }
+}
+
+// Returns what that took of the gut's time, s.
+double GutModel::run_ahead(double seconds) const noexcept {
+  physics::GutSystem& gut = ahead_ ? *ahead_ : *felt_;
+  const double step_s = gut.settings().step_s;
+  const int steps = std::max(1, static_cast<int>(std::lround(seconds / step_s)));
+  gut.take_up(*system_);
+  for (int i = 0; i < steps; ++i) gut.step(loads());
+  return steps * step_s;
 }
 
 void GutModel::reset() noexcept {
@@ -214,13 +217,12 @@ void GutModel::look() const noexcept {
 
 void GutModel::foresee() const noexcept {
   if (std::exchange(look_->is_foreseen, true)) return;
-  physics::GutSystem& gut = ahead_ ? *ahead_ : *felt_;
-  const double step_s = gut.settings().step_s;
-  const auto steps = static_cast<int>(std::lround(felt_->settings().step_s / step_s));
-  gut.take_up(*system_);
-  for (int i = 0; i < steps; ++i) gut.step(loads());
+  // a single late tick does not say when the next one comes
+  const double tick_s = std::min(last_ticks_s_[0], last_ticks_s_[1]);
+  const double way_s = run_ahead(std::max(tick_s, felt_->settings().step_s));
+  const physics::GutSystem& gut = ahead_ ? *ahead_ : *felt_;
   for (std::size_t m = 0; m < look_->ahead.size(); ++m)
-    look_->ahead[m] = (gut.state().x[m] - system_->state().x[m]) / (steps * step_s);
+    look_->ahead[m] = (gut.state().x[m] - system_->state().x[m]) / way_s;
 }
 
 // A hand adds what it presses more than now to what is told of now: so that has to be where the gut goes

@@ -48,6 +48,8 @@ class GutModel final : public OrganModel {
   std::span<const double> strengths_on(const physics::GutSystem& gut) noexcept;
   void impose() noexcept;
   void press_ahead() noexcept;
+  void hold(double tick_s) noexcept;
+  double run_ahead(double seconds) const noexcept;
   physics::GutLoads loads() const noexcept;
   std::span<const Vec3> forces() const noexcept;
   void show() noexcept;
@@ -58,13 +60,13 @@ class GutModel final : public OrganModel {
 
   std::unique_ptr<physics::GutSystem> system_, felt_, ahead_;
   std::vector<physics::GutObstacle> obstacles_;
-  bool is_felt_in_its_own_steps_;
   geometry::GutSkin skin_;
   GutPresses presses_;
   physics::ImposedPress imposed_;
-  physics::GutState wanted_;  // workspace: where presses want the masses
-  double ahead_s_ = 0;        // of the clock's time, not yet stepped
-  double until_felt_s_ = 0;   // strengths hold so long where steps are shorter
+  physics::GutState wanted_;              // workspace: where presses want the masses
+  double ahead_s_ = 0;                    // of the clock's time, not yet stepped
+  double until_felt_s_ = 0;               // strengths hold so long where steps are shorter
+  std::array<double, 2> last_ticks_s_{};  // how much they lived through
   ModelStatus status_;
   std::vector<float> values_;  // [3 masses]
   // workspace of local_model()

@@ -29,6 +29,7 @@ struct ToolLoad {
   std::span<const Vec3> displacements;  // imposed u of each node, in W, m
   std::span<const Vec3> forces;         // on the tissue, in W, N, times `gain`
   double gain = 1;                      // below 1: its hand fell silent, and lets go
+  bool grasps = false;                  // holds the nodes: they go where it goes, in any direction
 };
 
 /// What a tool's cutting edge swept since the last tick: the two ruled triangles between both places.

@@ -99,6 +99,28 @@ TEST(GutModel, ALocalModelForetellsWhereItsOwnPressTakesTheGut) {
   }
 }
 
+// Jaws that hurry ahead across what they pull take the gut along; a press goes by its force there.
+TEST(GutModel, AGraspHoldsAcrossItsForceToo) {
+  const NodeId node = highest_node();
+  const auto lacking_m = [&](bool grasps) {
+    GutModel model = gut_model({.step_s = 0.0025});
+    const Vec3 begin = skin_places(model)[static_cast<std::size_t>(std::int32_t{node})], pull(0, 0, 0.5);
+    ToldNode told = told_of(model, node, begin);
+    Vec3 hand = begin;
+    for (int tick = 0; tick < 10; ++tick) {
+      hand = told.after(kGutTick_s, pull) + Vec3(0.0005, 0.0005, 0);
+      const Vec3 way = hand - begin;
+      const ToolLoad load{
+          .tool = 0, .nodes = {&node, 1}, .displacements = {&way, 1}, .forces = {&pull, 1}, .grasps = grasps};
+      model.step({.presses = {&load, 1}, .cuts = {}}, kGutTick_s);
+      told = told_of(model, node, hand);
+    }
+    const Vec3 apart = told.place - hand;
+    return Vec3(apart.x(), apart.y(), 0).norm();
+  };
+  EXPECT_LT(lacking_m(true), 0.5 * lacking_m(false));
+}
+
 struct Rates {
   double step_s, hand_hz;
 };

@@ -6,6 +6,7 @@
 #include "tests/system/exchange_session.h"
 
 #include <fstream>
+#include <numbers>
 
 namespace omentum {
 namespace {
@@ -177,6 +178,27 @@ TEST_F(GutExchange, AGraspedLoopThatIsDraggedOverOthersNeverFeedsTheHand) {
   EXPECT_LT(session.largest_step_n(), 2 * kUnnoticed_n);
   EXPECT_LT(session.most_given_j(), 1e-3);
   EXPECT_LT(session.given_j(), -0.05);
+  const auto report = session.hand_report();
+  EXPECT_EQ(report["faults"].size(), 0u) << report["faults"];
+}
+
+TEST_F(GutExchange, JawsThatCircleFastThroughThePileGetNothing) {
+  Session session(1000, 100, scene("", kBall));
+  session.open_jaws(0.5);
+  session.move_to(test::kAbove, 3);
+  top_ = highest(session);
+  session.move_to(above(), 0.3);
+  const Vec3 grasped = top_ - Vec3(0, 0, 0.004), begin = grasped + Vec3(0, 0, 0.02);
+  session.move_to(grasped, 0.5);
+  session.open_jaws(0);
+  session.move_to(begin, 0.5);
+  const double before_j = session.given_j();
+  constexpr double kRadius_m = 0.03, kTurn = 0.5 / kRadius_m / 1000;  // half a metre a second
+  for (double angle = 0; angle < 4 * std::numbers::pi; angle += kTurn)
+    session.move_to(begin + kRadius_m * Vec3(std::cos(angle) - 1, std::sin(angle), 0), 1e-3);
+  session.move_to(begin, 0.2);
+  EXPECT_LT(session.given_j(), before_j - 0.1);
+  EXPECT_LT(session.most_given_j(), 1e-3);
   const auto report = session.hand_report();
   EXPECT_EQ(report["faults"].size(), 0u) << report["faults"];
 }
