@@ -19,6 +19,8 @@ constexpr double kStepRounding = 1e-9;
 constexpr double kAsSaid = 1e-6;
 // Below this a triangle of the skin is folded up, where the gut bends sharply, and no place to touch, m^2.
 constexpr double kLeastArea_m2 = 1e-6;
+// Of one that jaws hold: enough to have a normal, m^2.
+constexpr double kLeastGrasped_m2 = 1e-9;
 
 std::span<double> components(std::vector<Vec3>& x) {
   return {x.front().data(), 3 * x.size()};
@@ -46,17 +48,24 @@ class GutYielding final : public physics::Yielding {
   const physics::GutSystem& gut_;
 };
 
-/// The skin as it lies. Where it is folded, on the inner side of a sharp bend, it has no faces.
+/// The skin as it lies. Where it is folded, on the inner side of a sharp bend, it has no faces, but for those
+/// that the tool's jaws hold: a loop bends where it is pulled, and jaws do not lose what they hold by that.
 struct SkinFaces {
   const GutSkin& skin;
   std::span<const Vec3> places, x;
+  const GutPresses& presses;
+  std::uint32_t tool;
 
   std::size_t count() const noexcept { return skin.triangles().size(); }
   const auto& corners(std::size_t f) const noexcept { return skin.triangles()[f]; }
   const Vec3& place(NodeId n) const noexcept { return places[static_cast<std::size_t>(n)]; }
+  bool is_grasped(std::size_t f) const noexcept {
+    return std::ranges::all_of(corners(f), [&](NodeId n) { return presses.grasps(tool, n); });
+  }
   bool is_one(std::size_t f) const noexcept {
     const auto& [a, b, c] = corners(f);
     const Vec3 normal = (place(b) - place(a)).cross(place(c) - place(a));
+    if (is_grasped(f)) return normal.norm() > 2 * kLeastGrasped_m2;
     if (!(normal.norm() > 2 * kLeastArea_m2)) return false;
     return std::ranges::all_of(corners(f), [&](NodeId n) {
       const Vec3 out = place(n) - weighted(skin.node(n), x);
@@ -242,7 +251,7 @@ void GutModel::respond(std::span<const OrganContact> contacts) noexcept {
 
 bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   look();
-  const SkinFaces faces{skin_, look_->dented, system_->state().x};
+  const SkinFaces faces{skin_, look_->dented, system_->state().x, presses_, place.tool};
   PatchPlace around = place;
   // what is held must not leave the patch where a hand is ahead of a gut that falls behind the clock
   around.centre = presses_.middle(place.tool, look_->dented).value_or(place.centre);

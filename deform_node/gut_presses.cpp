@@ -30,6 +30,7 @@ void GutPresses::press(std::span<const ToolLoad> presses, std::span<const Vec3> 
     if (held_.size() == kMaxTools) break;
     HeldPress& held = held_.emplace_back();
     held.tool = load.tool;
+    held.grasping = load.grasping;
     for (std::size_t i = 0; i < std::min<std::size_t>(load.nodes.size(), kMaxNodesPerTool); ++i) {
       const auto n = static_cast<std::size_t>(load.nodes[i]);
       // where the masses have to be together for this node to be where the hand has it
@@ -99,6 +100,13 @@ std::optional<Vec3> GutPresses::middle(std::uint32_t tool, std::span<const Vec3>
   }
   if (count == 0) return std::nullopt;
   return sum / static_cast<double>(count);
+}
+
+bool GutPresses::grasps(std::uint32_t tool, NodeId n) const noexcept {
+  return std::ranges::any_of(held_, [&](const HeldPress& held) {
+    const auto end = held.nodes.begin() + static_cast<std::ptrdiff_t>(held.count);
+    return held.tool == tool && held.grasping && std::find(held.nodes.begin(), end, n) != end;
+  });
 }
 
 void GutPresses::dent(std::span<Vec3> places) const noexcept {

@@ -37,6 +37,8 @@ class GutPresses {
   Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
   /// The middle of the nodes of the skin that a tool presses; nothing where it presses none.
   std::optional<Vec3> middle(std::uint32_t tool, std::span<const Vec3> places) const noexcept;
+  /// Whether a tool's jaws hold a node of the skin.
+  bool grasps(std::uint32_t tool, NodeId n) const noexcept;
   /// Moves the nodes of the skin that tools press into its wall.
   void dent(std::span<Vec3> places) const noexcept;
   double wall_m_n() const noexcept { return wall_m_n_; }
@@ -45,6 +47,7 @@ class GutPresses {
   static constexpr std::size_t kMostMasses = kMaxNodesPerTool * geometry::GutSkin::kMostWeights;
   struct HeldPress {
     std::uint32_t tool = 0;
+    bool grasping = false;
     double strength = 1, own_yield_j = 0;
     std::size_t count = 0, mass_count = 0;
     std::array<NodeId, kMaxNodesPerTool> nodes;  // of the skin

@@ -29,6 +29,7 @@ struct ToolLoad {
   std::span<const Vec3> displacements;  // imposed u of each node, in W, m
   std::span<const Vec3> forces;         // on the tissue, in W, N, times `gain`
   double gain = 1;                      // below 1: its hand fell silent, and lets go
+  bool grasping = false;                // jaws hold these nodes
 };
 
 /// What a tool's cutting edge swept since the last tick: the two ruled triangles between both places.
