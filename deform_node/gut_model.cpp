@@ -250,7 +250,7 @@ void GutModel::respond(std::span<const OrganContact> contacts) noexcept {
 
 bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   look();
-  const SkinFaces faces{skin_, look_->dented, system_->state().x};
+  const SkinFaces faces{skin_, look_->dented, system_->state().x, presses_, place.tool};
   PatchPlace around = place;
   // what is held must not leave the patch where a hand is ahead of a gut that falls behind the clock
   around.centre = presses_.middle(place.tool, look_->dented).value_or(place.centre);

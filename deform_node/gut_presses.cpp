@@ -177,6 +177,13 @@ std::optional<Vec3> GutPresses::middle(std::uint32_t tool, std::span<const Vec3>
   return sum / static_cast<double>(count);
 }
 
+bool GutPresses::grasps(std::uint32_t tool, NodeId n) const noexcept {
+  return std::ranges::any_of(held_, [&](const HeldPress& held) {
+    const auto end = held.nodes.begin() + static_cast<std::ptrdiff_t>(held.count);
+    return held.tool == tool && held.grasps && std::find(held.nodes.begin(), end, n) != end;
+  });
+}
+
 void GutPresses::dent(std::span<Vec3> places) const noexcept {
   for (const HeldPress& held : held_)
     for (std::size_t i = 0; i < held.count; ++i)

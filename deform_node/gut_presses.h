@@ -45,6 +45,8 @@ class GutPresses {
   Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
   /// The middle of the nodes of the skin that a tool presses; nothing where it presses none.
   std::optional<Vec3> middle(std::uint32_t tool, std::span<const Vec3> places) const noexcept;
+  /// Whether a tool's jaws hold a node of the skin.
+  bool grasps(std::uint32_t tool, NodeId n) const noexcept;
   /// Moves the nodes of the skin that tools press into its wall.
   void dent(std::span<Vec3> places) const noexcept;
   bool any_grasps() const noexcept;

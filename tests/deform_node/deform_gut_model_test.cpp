@@ -228,6 +228,51 @@ TEST(GutModel, APatchIsOneThatAHandCanTake) {
   EXPECT_GT(patches, 100);
 }
 
+/// The face of the tube that lies lowest, where a loop is highest.
+std::array<NodeId, 3> lower_face() {
+  const geometry::GutSkin skin(small_gut());
+  const std::vector<Vec3> places = skin_places(gut_model());
+  const auto place = [&](NodeId n) { return places[static_cast<std::size_t>(std::int32_t{n})]; };
+  const Vec3 below = place(highest_node()) - Vec3(0, 0, 2 * small_gut().tube_radius_m);
+  return *std::ranges::min_element(skin.triangles(), {}, [&](const auto& face) {
+    return (place(face[0]) + place(face[1]) + place(face[2]) - 3 * below).norm();
+  });
+}
+
+bool has_face(const LocalPatch& patch, const std::array<NodeId, 3>& face) {
+  const auto is_it = [&](const auto& corners) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (patch.nodes[corners[k]] != static_cast<std::uint32_t>(std::int32_t{face[k]})) return false;
+    return true;
+  };
+  return std::any_of(patch.triangles.begin(),
+                     patch.triangles.begin() + static_cast<std::ptrdiff_t>(patch.triangle_count), is_it);
+}
+
+/// Draws a loop up by its lower face, which is then inside its bend, and says whether a hand is told of that
+/// face to the end.
+bool is_told_of_what_it_draws(bool grasping) {
+  GutModel model = gut_model({.step_s = 0.0025});
+  const std::array<NodeId, 3> face = lower_face();
+  LocalPatch patch(GutModel::kPatchNodes);
+  bool told = true;
+  for (int tick = 0; tick < 100 && told; ++tick) {
+    const Vec3 way(0, 0, 0.0015 * tick), share(0, 0, 4);
+    const std::array<Vec3, 3> ways{way, way, way}, shares{share, share, share};
+    const ToolLoad load{
+        .tool = 0, .nodes = face, .displacements = ways, .forces = shares, .grasps = grasping};
+    model.step({.presses = {&load, 1}, .cuts = {}}, kGutTick_s);
+    const Vec3 place = skin_places(model)[static_cast<std::size_t>(std::int32_t{face[0]})];
+    told = model.local_model({0, place, 0.015}, patch) && has_face(patch, face);
+  }
+  return told;
+}
+
+TEST(GutModel, JawsAreToldOfWhatTheyHoldHoweverTheLoopBendsThere) {
+  EXPECT_FALSE(is_told_of_what_it_draws(false)) << "a face that folds up is no place to touch";
+  EXPECT_TRUE(is_told_of_what_it_draws(true));
+}
+
 TEST(GutModel, NothingInAStepOrAPatchTakesMemory) {
   GutModel model = gut_model({.gravity_m_s2 = {0, 0, -9.81}});
   const NodeId node = highest_node();
