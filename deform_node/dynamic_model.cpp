@@ -1,9 +1,11 @@
 #include "deform_node/dynamic_model.h"
 
 #include "deform_node/strain_gauges.h"
+#include "node_common/contact_bounds.h"
 #include "node_common/organ_reach.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace omentum::deform {
@@ -289,6 +291,8 @@ bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const
   const std::span<float> block = std::span(felt_->compliance).first(rows * rows);
   stepper_->compliance(nodes, block);
   stiffen_supports(block, rows);
+  // written so that a NaN is none either
+  if (!std::ranges::all_of(block, [](float c) { return std::abs(c) <= node::kSoftest_m_n; })) return false;
   float* upper = patch.compliance.data();
   for (std::size_t r = 0; r < rows; ++r)
     upper = std::copy(block.begin() + static_cast<std::ptrdiff_t>(r * rows + r),

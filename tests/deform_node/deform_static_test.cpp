@@ -134,6 +134,14 @@ TEST_F(StaticModelTest, ThePatchOfACutIsThatOfAFreshPrecomputation) {
   EXPECT_TRUE(is_bared);
 }
 
+// As of a piece that hangs by its last tetrahedron.
+TEST_F(StaticModelTest, WhatIsSofterThanTissueIsNotToldToAHand) {
+  material_ = physics::Material{.young_pa = 0.01, .poisson = 0.4, .density_kg_m3 = 1000};
+  DynamicModel model(static_parts());
+  LocalPatch patch(BodyStepper::kPatchNodes);
+  EXPECT_FALSE(model.local_model({0, mesh_.positions[pressed_], 0.03}, patch));
+}
+
 TEST_F(StaticModelTest, OtherOrgansMeetAWall) {
   DynamicModel model(static_parts());
   ASSERT_FALSE(model.collidable().empty());
