@@ -53,9 +53,9 @@ class HybridRest {
         imposed_(imposed),
         weights_(weights),
         contacts_(std::move(contacts)),
-        K_(physics::assemble_stiffness(split_.parts.precomputed.mesh, organ.material)),
+        stiffness_(physics::assemble_stiffness(split_.parts.precomputed.mesh, organ.material)),
         loads_(loads_of_precomputed()),
-        sag_(physics::direct_solve(K_, split_.fixed, {}, loads_).displacements) {}
+        sag_(physics::direct_solve(stiffness_, split_.fixed, {}, loads_).displacements) {}
 
   std::vector<Vec3> displacements() const {
     const std::vector<double> u = rest_of_dynamic();
@@ -167,7 +167,7 @@ class HybridRest {
     std::vector<Vec3> displacements = sag_;
     for (std::size_t s = 0; s < surface.displacements.size(); ++s)
       displacements[split_.surface.node[s]] += surface.displacements[s];
-    return physics::extend_inside(K_, split_.fixed, split_.surface, displacements, loads_);
+    return physics::extend_inside(stiffness_, split_.fixed, split_.surface, displacements, loads_);
   }
 
   const organ::Organ& organ_;
@@ -177,9 +177,9 @@ class HybridRest {
   Imposed imposed_;
   const std::vector<Vec3>& weights_;  // [N] of what is left
   Contacts contacts_;
-  physics::Stiffness K_;     // of the precomputed part
-  std::vector<Vec3> loads_;  // [n] of its own nodes
-  std::vector<Vec3> sag_;    // [n] under them, without the dynamic part
+  physics::Stiffness stiffness_;  // of the precomputed part
+  std::vector<Vec3> loads_;       // [n] of its own nodes
+  std::vector<Vec3> sag_;         // [n] under them, without the dynamic part
 };
 
 void require_dynamic(const organ::Organ& organ, const std::filesystem::path& file, const CutOrgan& cut,

@@ -90,7 +90,7 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
   const auto most = static_cast<std::size_t>(most_compliance_nodes);
   touched_.reserve(most);
   support_.reserve(connection_.size() + most);
-  B_.resize(static_cast<Eigen::Index>(f_c_.size()), 3 * most_compliance_nodes);
+  passed_on_.resize(static_cast<Eigen::Index>(f_c_.size()), 3 * most_compliance_nodes);
   held_.resize(3 * most_compliance_nodes, 3 * most_compliance_nodes);
   rows_.resize(9 * support_.capacity() * most);
 }
@@ -223,7 +223,7 @@ void HybridStep::find_rows(std::span<const NodeId> nodes) noexcept {
   support_.assign(connection_.begin(), connection_.end());
   for (const NodeId n : nodes)
     if (!own_node_[n].valid()) touched_.push_back(surface_of_[n]);
-  part_.passed_on(touched_, B_.leftCols(static_cast<Eigen::Index>(3 * touched_.size())));
+  part_.passed_on(touched_, passed_on_.leftCols(static_cast<Eigen::Index>(3 * touched_.size())));
   const std::size_t width = 3 * nodes.size();
   std::ranges::fill(rows_, 0.0F);
   Eigen::Index column = 0;  // of B
@@ -232,7 +232,7 @@ void HybridStep::find_rows(std::span<const NodeId> nodes) noexcept {
     if (!own.valid()) {
       for (std::size_t i = 0; i < 3; ++i, ++column)
         for (std::size_t c = 0; c < f_c_.size(); ++c)
-          rows_[c * width + 3 * p + i] = static_cast<float>(B_(static_cast<Eigen::Index>(c), column));
+          rows_[c * width + 3 * p + i] = static_cast<float>(passed_on_(static_cast<Eigen::Index>(c), column));
       continue;
     }
     const auto found = static_cast<std::size_t>(std::ranges::find(support_, own) - support_.begin());
@@ -244,7 +244,7 @@ void HybridStep::find_rows(std::span<const NodeId> nodes) noexcept {
 // What the precomputed part's own nodes yield among themselves.
 void HybridStep::add_yield_held(std::span<const NodeId> nodes, std::span<float> block) noexcept {
   const auto size = static_cast<Eigen::Index>(3 * touched_.size());
-  part_.yield_held(touched_, B_.leftCols(size), held_.topLeftCorner(size, size));
+  part_.yield_held(touched_, passed_on_.leftCols(size), held_.topLeftCorner(size, size));
   const double share = step_s() / (step_s() + viscosity_s_);
   const std::size_t width = 3 * nodes.size();
   Eigen::Index a = 0;

@@ -85,7 +85,7 @@ class HybridStep final : public LargeStep {
   // workspace of compliance(): p nodes, of them q of the precomputed part's own
   std::vector<SurfaceId> touched_;         // [q]
   std::vector<geometry::NodeId> support_;  // connection, then other dynamic nodes
-  Eigen::MatrixXd B_, held_;               // [3c x 3q], [3q x 3q]
+  Eigen::MatrixXd passed_on_, held_;       // [3c x 3q], [3q x 3q]
   std::vector<float> rows_;                // [3 support][3p]
   KnownBlocks known_;
 };

@@ -24,10 +24,10 @@ PrecomputedPart::PrecomputedPart(const SurfaceCompliance& compliance, std::vecto
     : compliance_(compliance),
       connection_(std::move(connection)),
       sag_(std::move(sag)),
-      S_(stiffness_of(compliance, connection_)),
-      sag_force_(Eigen::VectorXd::Zero(S_.rows())),
-      lifted_(S_.rows()),
-      reaction_(S_.rows()),
+      stiffness_(stiffness_of(compliance, connection_)),
+      sag_force_(Eigen::VectorXd::Zero(stiffness_.rows())),
+      lifted_(stiffness_.rows()),
+      reaction_(stiffness_.rows()),
       tiled_(static_cast<std::size_t>(3 * kLanes * compliance.cluster_count())) {
   const auto most = static_cast<std::size_t>(compliance.mobile_count()) + connection_.size();
   pushed_.reserve(most);
@@ -35,11 +35,11 @@ PrecomputedPart::PrecomputedPart(const SurfaceCompliance& compliance, std::vecto
   if (sag_.empty()) return;
   for (std::size_t k = 0; k < connection_.size(); ++k)
     lifted_.segment<3>(row(k)) = sag_[static_cast<std::size_t>(connection_[k])];
-  sag_force_ = S_ * lifted_;
+  sag_force_ = stiffness_ * lifted_;
 }
 
 void PrecomputedPart::condense(const Loads& loads, Sag sag, std::span<double> f_c) noexcept {
-  Eigen::Map<Eigen::VectorXd> force(f_c.data(), S_.rows());
+  Eigen::Map<Eigen::VectorXd> force(f_c.data(), stiffness_.rows());
   force.setZero();
   if (sags(sag)) force = sag_force_;
   if (loads.nodes.empty()) return;
@@ -49,13 +49,13 @@ void PrecomputedPart::condense(const Loads& loads, Sag sag, std::span<double> f_
       u += compliance_.block(connection_[k], loads.nodes[q]) * loads.forces[q];
     lifted_.segment<3>(row(k)) = u;
   }
-  force.noalias() += S_ * lifted_;
+  force.noalias() += stiffness_ * lifted_;
 }
 
 void PrecomputedPart::follow(std::span<const double> w_c, const Loads& loads, Sag sag,
                              std::span<const double> f_c, std::span<double> w) noexcept {
-  reaction_.noalias() = S_ * Eigen::Map<const Eigen::VectorXd>(w_c.data(), S_.rows());
-  reaction_ -= Eigen::Map<const Eigen::VectorXd>(f_c.data(), S_.rows());
+  reaction_.noalias() = stiffness_ * Eigen::Map<const Eigen::VectorXd>(w_c.data(), stiffness_.rows());
+  reaction_ -= Eigen::Map<const Eigen::VectorXd>(f_c.data(), stiffness_.rows());
   pushed_.assign(loads.nodes.begin(), loads.nodes.end());
   pushes_.assign(loads.forces.begin(), loads.forces.end());
   for (std::size_t k = 0; k < connection_.size(); ++k) {
@@ -76,7 +76,7 @@ void PrecomputedPart::passed_on(std::span<const SurfaceId> nodes, Eigen::Ref<Eig
     for (int axis = 0; axis < 3; ++axis) {
       for (std::size_t k = 0; k < connection_.size(); ++k)
         lifted_.segment<3>(row(k)) = compliance_.block(connection_[k], nodes[p]).col(axis);
-      B.col(row(p) + axis).noalias() = S_ * lifted_;
+      B.col(row(p) + axis).noalias() = stiffness_ * lifted_;
     }
   }
 }

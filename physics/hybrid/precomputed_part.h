@@ -36,7 +36,7 @@ class PrecomputedPart {
                   std::vector<Vec3> sag);
 
   /// S, [3c x 3c], N/m.
-  const Eigen::MatrixXd& stiffness() const { return S_; }
+  const Eigen::MatrixXd& stiffness() const { return stiffness_; }
   std::span<const SurfaceId> connection() const { return connection_; }
   std::int32_t mobile_count() const { return compliance_.mobile_count(); }
 
@@ -59,7 +59,7 @@ class PrecomputedPart {
   const SurfaceCompliance& compliance_;
   std::vector<SurfaceId> connection_;
   std::vector<Vec3> sag_;
-  Eigen::MatrixXd S_;
+  Eigen::MatrixXd stiffness_;
   Eigen::VectorXd sag_force_;          // [3c] S sag_c
   Eigen::VectorXd lifted_, reaction_;  // [3c]
   std::vector<SurfaceId> pushed_;      // A, then c
