@@ -19,7 +19,8 @@ const test::BlockScene& block() {
       "[[tools]]\nid = 0\nname = \"grasper\"\nshape = \"grasper\"\ngrip_force_n = 40\n"
       "points = [[0.003,0.002,0], [0.003,-0.002,0], [-0.003,0.002,0], [-0.003,-0.002,0]]\n"
       "[[tools]]\nid = 1\nname = \"wire\"\nshape = \"probe\"\npoints = [[0,0,0]]\n"
-      "cuts = true\nedge = [[0,0.01,0], [0,0.15,0]]\n");
+      "cuts = true\nedge = [[0,0.01,0], [0,0.15,0]]\n"
+      "[score]\nplanned_line = [[0, 0, 0.06], [0.1, 0, 0.06]]\n");
   return scene;
 }
 
@@ -76,6 +77,13 @@ TEST_F(GraspExchange, TheHandFeelsTheTissueGiveWhenTheLastBridgeGoes) {
   EXPECT_EQ(organ["faults"].size(), 0u) << organ["faults"];
   EXPECT_EQ(hand["hands"][0]["grasps"]["lost"], 0) << "it is still held";
   EXPECT_GT(organ["removed_tetrahedra"], 30);
+  EXPECT_EQ(hand["hands"][0]["pulls_beyond_limit"], 1);
+  EXPECT_GE(hand["hands"][0]["pull_max_n"], whole_n);
+  const auto score = organ["score"];
+  EXPECT_NEAR(score["way_mm"].get<double>(), 100, 10);
+  EXPECT_NEAR(score["seconds"].get<double>(), 1, 0.1) << "10 cm at 10 cm a second";
+  EXPECT_LT(score["mean_mm"], 10) << "the pull lifts the line by some millimetres";
+  EXPECT_LT(score["outside_cm3"], 0.2 * score["removed_cm3"].get<double>());
 }
 
 TEST_F(GraspExchange, WhatIsCutAwayBetweenTheJawsIsHeldNoLonger) {
@@ -89,6 +97,21 @@ TEST_F(GraspExchange, WhatIsCutAwayBetweenTheJawsIsHeldNoLonger) {
   EXPECT_LT(session_.given_j(), 0.02 * put_in_j);
   const auto hand = session_.hand_report();
   EXPECT_EQ(hand["faults"].size(), 0u) << hand["faults"];
+}
+
+TEST(PlannedCut, ThatIsNotAtItsOrganIsRefusedWithItsFile) {
+  deform::DeformOptions options;
+  options.node.scene = block().scene_with("[[0, 0, 0.06]", "[[0, 0, 0.6]");
+  test::FakeBus bus;
+  try {
+    const test::StagedLoop<deform::DeformLoop> organ(100, options, bus.opener());
+    ADD_FAILURE() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              options.node.scene.string() +
+                  ": score.planned_line: found point 0 0.5 m away from the nodes of "
+                  "block, expected at most 0.02 m");
+  }
 }
 
 }  // namespace
