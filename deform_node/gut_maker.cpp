@@ -99,10 +99,10 @@ std::unique_ptr<GutModel> make(const geometry::GutShape& gut, const scene::Intes
   felt.method = GutMethod::kProjective;
   felt.step_s = std::max(step.step_s, kFeltStep_s);
   return std::make_unique<GutModel>(
-      GutParts{.system = std::make_unique<physics::GutSystem>(gut, material, collisions, step),
-               .felt = std::make_unique<physics::GutSystem>(gut, material, collisions, felt),
-               .obstacles = obstacles_of(spec),
-               .wall_m_n = 1 / spec.wall_stiffness_n_m});
+      GutPhysics{.system = std::make_unique<physics::GutSystem>(gut, material, collisions, step),
+                 .felt = std::make_unique<physics::GutSystem>(gut, material, collisions, felt),
+                 .obstacles = obstacles_of(spec),
+                 .wall_m_n = 1 / spec.wall_stiffness_n_m});
 }
 
 }  // namespace

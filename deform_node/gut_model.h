@@ -11,7 +11,7 @@ namespace omentum::deform {
 
 /// What an intestine consists of. `felt` is the same gut in steps that a hand feels one of: it looks a step
 /// ahead, and says what yields within it.
-struct GutParts {
+struct GutPhysics {
   std::unique_ptr<physics::GutSystem> system, felt;
   std::vector<physics::GutObstacle> obstacles{};
   double wall_m_n = 1.0 / 300;  // what a place of the skin yields to a force, beside the masses, m/N
@@ -27,7 +27,7 @@ class GutModel final : public OrganModel {
   /// Nodes of one patch: as many as a LAN carries.
   static constexpr std::size_t kPatchNodes = 24;
 
-  explicit GutModel(GutParts parts);
+  explicit GutModel(GutPhysics parts);
 
   ModelSizes sizes() const override;
   void step(const TickLoads& loads, double dt_s) noexcept override;
