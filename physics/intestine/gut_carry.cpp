@@ -38,6 +38,7 @@ GutCarry::GutCarry(std::int32_t masses, std::size_t all_masses, std::size_t most
       aim_(all_masses),
       x_(all_masses),
       forces_(all_masses),
+      change_(all_masses),
       yields_(all_masses) {
   eased_.reserve(most_contacts);
   way_.reserve(most_contacts);
@@ -56,11 +57,12 @@ void GutCarry::begin(std::span<const GutContact> contacts, const GutYield& yield
   way_.resize(contacts.size());
 }
 
-void GutCarry::find_forces(std::span<const Vec3> pushes, double step_s) noexcept {
-  std::ranges::fill(forces_, Vec3::Zero());
+void GutCarry::find_forces(std::span<const Vec3> pushes, double step_s,
+                           std::span<Vec3> forces) const noexcept {
+  std::ranges::fill(forces, Vec3::Zero());
   const auto push = [&](const GutPoint& point, const Vec3& force) {
     for (std::size_t i = 0; i < 3 && point.mass[i].valid(); ++i)
-      forces_[point.mass[i]] += point.weight[i] * force;
+      forces[point.mass[i]] += point.weight[i] * force;
   };
   for (std::size_t c = 0; c < eased_.size(); ++c) {
     if (pushes[c].isZero()) continue;
@@ -103,27 +105,28 @@ bool GutCarry::find_way(std::span<const Vec3> pushes, double step_s, const Movin
   return change > kSettled * total;
 }
 
-// Whether pushes changed.
-bool GutCarry::part(const GutYield& yield, double step_s, const MovingMasses& masses,
+void GutCarry::part(const GutYield& yield, double step_s, const MovingMasses& masses,
                     std::span<Vec3> pushes) noexcept {
-  if (!find_way(pushes, step_s, masses)) return false;
-  find_forces(way_, step_s);
-  yield.yield_to(std::span(forces_).first(count_), std::span(yields_).first(count_));
+  if (!find_way(pushes, step_s, masses)) return;
+  find_forces(way_, step_s, change_);
+  yield.yield_to(std::span(change_).first(count_), std::span(yields_).first(count_));
   for (std::size_t m = count_; m < masses.x.size(); ++m)
-    yields_[m] = step_s * step_s * masses.inverse_mass[m] * forces_[m];
+    yields_[m] = step_s * step_s * masses.inverse_mass[m] * change_[m];
   const double share = best_share(step_s, masses);
   for (std::size_t c = 0; c < pushes.size(); ++c) pushes[c] += share * way_[c];
-  for (std::size_t m = 0; m < masses.x.size(); ++m) masses.x[m] += share * yields_[m];
-  return true;
+  for (std::size_t m = 0; m < masses.x.size(); ++m) {
+    masses.x[m] += share * yields_[m];
+    forces_[m] += share * change_[m];
+  }
 }
 
 void GutCarry::solve(std::span<const GutContact> contacts, GutYield& yield, double step_s,
                      const MovingMasses& masses, std::span<Vec3> pushes) noexcept {
   begin(contacts, yield, step_s, masses);
-  find_forces(pushes, step_s);
+  find_forces(pushes, step_s, forces_);
   for (int k = 0; k < yield.iterations(); ++k) {
     go_downhill(yield, step_s, masses);
-    if (!eased_.empty() && part(yield, step_s, masses, pushes)) find_forces(pushes, step_s);
+    if (!eased_.empty()) part(yield, step_s, masses, pushes);
   }
   yield.end_step(std::span(forces_).first(count_), masses.x.first(count_), masses.v.first(count_));
   for (std::size_t m = count_; m < masses.x.size(); ++m)

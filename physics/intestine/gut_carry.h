@@ -48,18 +48,20 @@ class GutCarry {
  private:
   std::size_t count_;  // masses of the gut; behind them balls, which yield by their own masses
   GutResponse response_;
-  std::vector<GutContact> eased_;                // contacts that ask for no more than there was
-  std::vector<double> inverse_mass_;             // [all], what a mass seems to have
-  std::vector<geometry::Vec3> way_;              // [contacts], of their pushes, N s
-  std::vector<geometry::Vec3> aim_, x_;          // [all]: where balls want to be; scratch of an iteration
-  std::vector<geometry::Vec3> forces_, yields_;  // [all]
+  std::vector<GutContact> eased_;        // contacts that ask for no more than there was
+  std::vector<double> inverse_mass_;     // [all], what a mass seems to have
+  std::vector<geometry::Vec3> way_;      // [contacts], of their pushes, N s
+  std::vector<geometry::Vec3> aim_, x_;  // [all]: where balls want to be; scratch of an iteration
+  // [all]: of contacts, N; what a way of them changes of that, N; and moves, m
+  std::vector<geometry::Vec3> forces_, change_, yields_;
 
   void begin(std::span<const GutContact> contacts, const GutYield& yield, double step_s,
              const MovingMasses& masses) noexcept;
-  void find_forces(std::span<const geometry::Vec3> pushes, double step_s) noexcept;
+  void find_forces(std::span<const geometry::Vec3> pushes, double step_s,
+                   std::span<geometry::Vec3> forces) const noexcept;
   void go_downhill(GutYield& yield, double step_s, const MovingMasses& masses) noexcept;
   bool find_way(std::span<const geometry::Vec3> pushes, double step_s, const MovingMasses& masses) noexcept;
-  bool part(const GutYield& yield, double step_s, const MovingMasses& masses,
+  void part(const GutYield& yield, double step_s, const MovingMasses& masses,
             std::span<geometry::Vec3> pushes) noexcept;
   double best_share(double step_s, const MovingMasses& masses) const noexcept;
 };
