@@ -3,6 +3,7 @@
 #include "physics/intestine/active_pairs.h"
 #include "physics/intestine/complete_pairs.h"
 #include "physics/intestine/displacement_bound.h"
+#include "physics/intestine/gut_chords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,19 +126,7 @@ void GutCollisions::find_pairs(std::span<const Vec3> before) noexcept {
   }
   finder_->find(before, way_, watched_m(), near_);
   std::ranges::copy(near_.gap, gap_.begin());
-  spread_gaps();
-}
-
-// Masses between two columns of the parts go no farther than these.
-void GutCollisions::spread_gaps() noexcept {
-  const geometry::GutLayout& gut = parts_.gut;
-  for (MassId m(0); parts_.stride > 1 && m < gut.mass_count(); m = MassId(m + 1)) {
-    const std::int32_t row = gut.row(m), column = gut.column(m), since = column % parts_.stride;
-    if (since == 0) continue;
-    const MassId before = gut.mass(row, column - since);
-    const MassId after = gut.mass(row, std::min(column - since + parts_.stride, gut.columns - 1));
-    gap_[m] = std::min({gap_[m], gap_[before], gap_[after]});
-  }
+  spread_gaps(parts_, std::span(gap_).first(before.size()));
 }
 
 double GutCollisions::watched_m() const noexcept {
@@ -245,6 +234,8 @@ void GutCollisions::resolve(std::span<const Vec3> before, GutState& state,
   response_.solve(contacts_, warm_, step_s_, masses);
   if (yield != nullptr) remember_pushes();
   hold_back(count, carried);
+  keep_near_chords(parts_, step_s_, std::span(x_).first(before.size()), std::span(v_).first(before.size()),
+                   std::span(held_).first(before.size()));
   tell_spheres(spheres.size());
   std::copy_n(x_.begin(), before.size(), state.x.begin());
   std::copy_n(v_.begin(), before.size(), state.v.begin());

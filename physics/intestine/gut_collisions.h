@@ -110,7 +110,6 @@ class GutCollisions {
   void take_in(std::span<const geometry::Vec3> before, const GutState& state,
                std::span<const MovingSphere> spheres) noexcept;
   void find_pairs(std::span<const geometry::Vec3> before) noexcept;
-  void spread_gaps() noexcept;
   void hold_back(std::size_t count, std::span<const geometry::Vec3> carried) noexcept;
   void limit_forces(std::span<const MovingSphere> spheres) noexcept;
   void gather_pairs(std::span<const geometry::Vec3> before) noexcept;

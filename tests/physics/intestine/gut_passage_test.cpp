@@ -41,6 +41,33 @@ TEST(GutPassage, WithoutTheBoundSuchMotionCrosses) {
   EXPECT_GT(crossings, 100);
 }
 
+// Every mass of a gut as a part's corner: those of a thinner tube, that meet where the thick one's do.
+GutParts finest_parts(const geometry::GutShape& shape) {
+  geometry::GutShape thin = shape;
+  thin.tube_radius_m = (shape.positions[1] - shape.positions[0]).norm();
+  GutParts parts(thin);
+  parts.near = geometry::neighbourhood(shape);
+  return parts;
+}
+
+// Where masses are nearer to each other than half a radius, parts span several.
+TEST(GutPassage, WhatLiesBetweenThePartsOfAFineGutPassesThroughNothing) {
+  const geometry::GutShape shape = test::folded_gut(1000);
+  const GutParts finest = finest_parts(shape);
+  GutCollisions collisions(shape, even_masses(shape), kStep_s);
+  ASSERT_EQ(finest.stride, 1);
+  ASSERT_GT(collisions.parts().stride, 1);
+  GutState state = test::state_of(shape);
+  std::mt19937_64 random(3);
+  std::int64_t pairs = 0;
+  for (int step = 0; step < 3; ++step) {
+    const std::vector<Vec3> before = state.x;
+    test::shake(shape.layout, 6, kStep_s, random, state);
+    collisions.resolve(before, state, {}, {});
+    EXPECT_EQ(count_crossings(finest, before, state.x, pairs), 0);
+  }
+}
+
 // A ribbon, its mesentery 40 cm wide behind it (y), that runs along x, turns up and comes back above itself,
 // where one mass of its gut, the tip, hangs low over the middle of a triangle.
 constexpr std::int32_t kTip = 12;
