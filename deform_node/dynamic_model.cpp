@@ -89,7 +89,8 @@ ModelSizes DynamicModel::sizes() const {
           .removed_bytes = burnt_.size(),
           .local_nodes = stepper_->is_felt() ? kPatchNodes : 0,
           .spheres = meeting_->most_spheres(),
-          .body = values_.size()};
+          .body = values_.size(),
+          .costs = true};
 }
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {

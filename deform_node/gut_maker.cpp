@@ -103,11 +103,11 @@ std::unique_ptr<GutModel> make(const geometry::GutShape& gut, const scene::Intes
   const auto system = [&](const physics::GutStepSettings& settings) {
     return std::make_unique<physics::GutSystem>(gut, material, collisions, settings);
   };
-  return std::make_unique<GutModel>(GutParts{.system = system(step),
-                                             .felt = system(felt),
-                                             .ahead = ahead.step_s < felt.step_s ? system(ahead) : nullptr,
-                                             .obstacles = obstacles_of(spec),
-                                             .wall_m_n = 1 / spec.wall_stiffness_n_m});
+  return std::make_unique<GutModel>(GutPhysics{.system = system(step),
+                                               .felt = system(felt),
+                                               .ahead = ahead.step_s < felt.step_s ? system(ahead) : nullptr,
+                                               .obstacles = obstacles_of(spec),
+                                               .wall_m_n = 1 / spec.wall_stiffness_n_m});
 }
 
 }  // namespace

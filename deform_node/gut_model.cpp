@@ -50,7 +50,7 @@ class GutYielding final : public physics::Yielding {
 
 }  // namespace
 
-GutModel::GutModel(GutParts parts)
+GutModel::GutModel(GutPhysics parts)
     : system_(std::move(parts.system)),
       felt_(std::move(parts.felt)),
       ahead_(std::move(parts.ahead)),
@@ -84,7 +84,9 @@ ModelSizes GutModel::sizes() const {
           .local_nodes = kPatchNodes,
           .spheres = meeting_->most_spheres(),
           // a step of the springs foresees less of a longer push than comes: a loop that rests would tremble
-          .most_scale = 1};
+          .most_scale = 1,
+          .costs = true,
+          .keeps_pushes = true};
 }
 
 void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -237,13 +239,12 @@ void GutModel::look_ahead() const noexcept {
 }
 
 std::span<const CollisionSphere> GutModel::collidable() const noexcept {
-  if (!meeting_->looks_ahead()) return meeting_->collidable(system_->state().x, system_->state().v);
-  foresee();
-  return meeting_->collidable(system_->state().x, look_->ahead);
+  if (meeting_->foresees()) foresee();
+  return meeting_->collidable(system_->state(), look_->ahead);
 }
 
 void GutModel::respond(std::span<const OrganContact> contacts) noexcept {
-  foresee();
+  if (meeting_->foresees() || GutMeeting::is_with_body(contacts)) foresee();
   meeting_->respond(contacts, system_->state(), presses_.forces(), look_->ahead);
   look_->is_next_seen = false;
 }

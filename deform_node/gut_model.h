@@ -12,7 +12,7 @@ namespace omentum::deform {
 /// What an intestine consists of. `felt` is the same gut in steps that a hand feels one of: it says what
 /// yields within it. `ahead` looks that far ahead, in the gut's own steps or no longer ones than a pile lies
 /// still in: it would be foreseen as moving. None where `felt` has such steps.
-struct GutParts {
+struct GutPhysics {
   std::unique_ptr<physics::GutSystem> system, felt, ahead{};
   std::vector<physics::GutObstacle> obstacles{};
   double wall_m_n = 1.0 / 300;  // what a place of the skin yields to a force, beside the masses, m/N
@@ -28,7 +28,7 @@ class GutModel final : public OrganModel {
   /// Nodes of one patch: as many as a LAN carries.
   static constexpr std::size_t kPatchNodes = 24;
 
-  explicit GutModel(GutParts parts);
+  explicit GutModel(GutPhysics parts);
 
   ModelSizes sizes() const override;
   void step(const TickLoads& loads, double dt_s) noexcept override;

@@ -38,55 +38,48 @@ OMENTUM_CONTACT_INLINE void add(const ContactRow& row, const Lanes4& impulse, do
   }
 }
 
-// Takes `gone`, a way or speed of the first point from the second, back along the normal as far as that
-// pushes. Whether that was more than `unmoved`.
-template <std::int32_t count>
-OMENTUM_CONTACT_INLINE bool push(const ContactRow& row, const Lanes4& normal, double gone, double unmoved,
-                                 double& pushed, double* to) {
-  const double was = pushed;
-  pushed = not_below_0(was - gone * row.per_D);
-  if (pushed == was) return false;
-  add<count>(row, (pushed - was) * normal, to);
-  return gone * gone > unmoved * unmoved;
+OMENTUM_CONTACT_INLINE bool is_zero(const double* vector) {
+  return vector[0] == 0 && vector[1] == 0 && vector[2] == 0;
 }
 
-// The same across the normal, as far as `most` allows.
+// What a contact has given along its normal and across it, of places or of velocities.
+struct Given {
+  double &push, *rub;
+};
+
+// `apart`: of its first point from the second; `slid`: the same from where nothing would have been rubbed.
+// What pushes does not move across the normal, and the other way round: both from one look. Whether that
+// moved it by more than `unmoved`.
 template <std::int32_t count>
-OMENTUM_CONTACT_INLINE bool rub(const ContactRow& row, const Lanes4& normal, const Lanes4& gone,
-                                double unmoved, double most, double* rubbed, double* to) {
-  const Lanes4 was = load(rubbed);
-  Lanes4 sum = was - (gone - dot(gone, normal) * normal) * row.per_D;
-  const double squared = dot(sum, sum);
-  if (squared > most * most) sum *= most / __builtin_sqrt(squared);
-  const Lanes4 change = sum - was;
+OMENTUM_CONTACT_INLINE bool correct(const ContactRow& row, const Lanes4& apart, double offset,
+                                    const Lanes4& slid, double friction, double unmoved, const Given& given,
+                                    double* to) {
+  const Lanes4 normal = load(row.normal);
+  const double push = not_below_0(given.push - (dot(apart, normal) - offset) * row.per_D);
+  Lanes4 change = (push - given.push) * normal;
+  given.push = push;
+  if (friction > 0 && (push > 0 || !is_zero(given.rub))) {
+    const Lanes4 was = load(given.rub);
+    Lanes4 rub = was - (slid - dot(slid, normal) * normal) * row.per_D;
+    const double most = friction * push, squared = dot(rub, rub);
+    if (squared > most * most) rub *= most / __builtin_sqrt(squared);
+    change += rub - was;
+    store(rub, given.rub);
+  }
+  const double squared = dot(change, change);
+  if (squared == 0) return false;
   add<count>(row, change, to);
-  store(sum, rubbed);
-  return dot(change, change) > unmoved * unmoved * row.per_D * row.per_D;
-}
-
-OMENTUM_CONTACT_INLINE bool rubs(double pushed, const double* rubbed) {
-  return pushed > 0 || rubbed[0] != 0 || rubbed[1] != 0 || rubbed[2] != 0;
+  return squared > unmoved * unmoved * row.per_D * row.per_D;
 }
 
 template <std::int32_t count>
 bool correct(ContactRow& row, double friction, double* x, double* v) {
-  const Lanes4 normal = load(row.normal);
-  const double open = dot(weighted<count>(row, x), normal) - row.offset;
-  bool moved = push<count>(row, normal, open, kUnmoved_m, row.g, x);
-  if (v != nullptr && (row.g > 0 || row.f > 0)) {
-    const double speed = dot(weighted<count>(row, v) - load(row.wall_velocity), normal);
-    moved |= push<count>(row, normal, speed, kUnmoved_m_s, row.f, v);
-  }
-  if (!(friction > 0)) return moved;
-  if (rubs(row.g, row.rubbed_way)) {
-    const Lanes4 way = weighted<count>(row, x) - load(row.before);
-    moved |= rub<count>(row, normal, way, kUnmoved_m, friction * row.g, row.rubbed_way, x);
-  }
-  if (v != nullptr && rubs(row.f, row.rubbed_speed)) {
-    const Lanes4 speed = weighted<count>(row, v) - load(row.wall_velocity);
-    moved |= rub<count>(row, normal, speed, kUnmoved_m_s, friction * row.f, row.rubbed_speed, v);
-  }
-  return moved;
+  const Lanes4 apart = weighted<count>(row, x);
+  const bool moved = correct<count>(row, apart, row.offset, apart - load(row.before), friction, kUnmoved_m,
+                                    {row.g, row.rubbed_way}, x);
+  if (v == nullptr || (row.g <= 0 && row.f <= 0 && is_zero(row.rubbed_speed))) return moved;
+  const Lanes4 speed = weighted<count>(row, v) - load(row.wall_velocity);
+  return correct<count>(row, speed, 0, speed, friction, kUnmoved_m_s, {row.f, row.rubbed_speed}, v) || moved;
 }
 
 bool correct(ContactRow& row, double friction, double* x, double* v) {
