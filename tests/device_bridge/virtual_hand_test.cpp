@@ -44,7 +44,9 @@ TEST(VirtualHand, TheSteadyForceIsThatOfTwoSpringsAtEveryRate) {
 
 TEST(VirtualHand, AGraspersJawsAreDrivenAndTheirTorqueIsReported) {
   const scene::HandSpec hand;
-  const scene::ToolSpec grasper{.name = "grasper", .shape = "grasper", .points = {geometry::Vec3(0, 0, 0)}};
+  scene::ToolSpec grasper;
+  grasper.shape = "grasper";
+  grasper.points = {geometry::Vec3(0, 0, 0)};
   EXPECT_FALSE(VirtualHand(hand, {}, 1000).info().actuated_axes & msg::AXIS_GRIP);
   VirtualHand device(hand, grasper, 1000);
   EXPECT_TRUE(device.info().actuated_axes & msg::AXIS_GRIP);

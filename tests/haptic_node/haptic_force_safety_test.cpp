@@ -167,7 +167,9 @@ TEST(GripTorque, FadesInAndDecaysWithTheForce) {
     stale.pose_age_s = 1e-3 * ms;
     const SafeForce out = safety.pass(stale);
     EXPECT_TRUE(out.state & msg::FORCE_STALE);
-    if (ms > 25) EXPECT_EQ(out.wrench.grip_torque, 0) << ms;
+    if (ms > 25) {
+      EXPECT_EQ(out.wrench.grip_torque, 0) << ms;
+    }
   }
 }
 
