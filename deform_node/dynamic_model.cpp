@@ -57,7 +57,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       material_(parts.body.material),
       stress_(parts.stress),
       gauge_(std::move(parts.gauge)),
-      inertia_(parts.is_static ? without_motion(parts.body.inertia) : std::move(parts.body.inertia)),
+      inertia_(parts.is_static ? without_motion(parts.body.inertia) : parts.body.inertia),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3,
                       .uncut_surface = parts.uncut_surface,
                       .kept = parts.precomputed}),
@@ -70,7 +70,8 @@ DynamicModel::DynamicModel(DynamicParts parts)
       precomputed_(std::move(parts.precomputed)),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
-      unheld_(parts.is_static ? std::make_unique<physics::UnheldPieces>(mesh_, inertia_.fixed) : nullptr),
+      unheld_(parts.is_static ? std::make_unique<physics::UnheldPieces>(mesh_, parts.body.inertia.fixed)
+                              : nullptr),
       reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),

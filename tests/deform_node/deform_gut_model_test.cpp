@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <map>
 #include <numbers>
 
 namespace omentum::deform {
@@ -47,13 +48,20 @@ TEST(GutModel, WhatLiesStillIsToldToLieStill) {
   for (int tick = 0; tick < 1500; ++tick) model.step({}, kGutTick_s);
   const std::vector<Vec3> places = skin_places(model);
   LocalPatch patch(GutModel::kPatchNodes);
-  double fastest_m_s = 0;
+  std::map<std::uint32_t, Vec3> told_m_s;
   for (std::size_t n = 0; n < places.size(); n += 60) {
     if (!model.local_model({0, places[n], 0.02}, patch)) continue;
-    for (std::size_t i = 0; i < patch.node_count; ++i)
-      fastest_m_s = std::max(fastest_m_s, patch.velocities[i].norm());
+    for (std::size_t i = 0; i < patch.node_count; ++i) told_m_s[patch.nodes[i]] = patch.velocities[i];
   }
-  EXPECT_LT(fastest_m_s, 0.005);
+  model.step({}, kGutTick_s);
+  const std::vector<Vec3> after = skin_places(model);
+  double mean_m_s = 0, worst_m_s = 0;  // of what is told, and how wrong that is
+  for (const auto& [n, v] : told_m_s) {
+    mean_m_s += v.norm() / static_cast<double>(told_m_s.size());
+    worst_m_s = std::max(worst_m_s, (v - (after[n] - places[n]) / kGutTick_s).norm());
+  }
+  EXPECT_LT(mean_m_s, 1e-3);
+  EXPECT_LT(worst_m_s, 1e-3);
 }
 
 // ---- touch

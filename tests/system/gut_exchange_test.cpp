@@ -34,7 +34,7 @@ class GutExchange : public testing::Test {
         << "name = \"gut\"\n[[organs]]\nname = \"gut\"\nmodel = \"intestine\"\norigin = [0, 0, -0.3]\n"
         << keys
         << "\n[[obstacles]]\nshape = \"plane\"\ncentre = [0, 0, -0.43]\nnormal = [0, 0, 1]\n"
-           "[[tools]]\nid = 0\nname = \"grasper\"\nshape = \"grasper\"\n"
+           "[[tools]]\nid = 0\nname = \"grasper\"\nshape = \"grasper\"\ngrip_force_n = 40\n"
            "points = "
         << points;
     return {.file = file, .felt = scene::kOrganModels, .moved = deform::model_table()};
