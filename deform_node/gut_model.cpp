@@ -20,7 +20,7 @@ constexpr double kStepRounding = 1e-9;
 // A press that is as strong as its hand says, to this share, leaves the step as it is.
 constexpr double kAsSaid = 1e-6;
 // Looks at where a hold leads, of a tick.
-constexpr int kRounds = 2;
+constexpr int kLooks = 2;
 
 std::span<double> components(std::vector<Vec3>& x) {
   return {x.front().data(), 3 * x.size()};
@@ -169,7 +169,7 @@ void GutModel::press_ahead() noexcept {
 // where the tick's own steps would take the gut.
 void GutModel::hold(double tick_s) noexcept {
   presses_.act(1);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kLooks; ++round) {
     run_ahead(tick_s);
     if (!presses_.approach(strengths_on(*ahead_), round == 0)) break;
   }

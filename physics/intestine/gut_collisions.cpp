@@ -18,7 +18,7 @@ using geometry::Vec3;
 // Room for contacts: of pairs and of spheres for each part, with walls for each mass. A gut at rest has one
 // for four parts, a box' corner three for each mass in it; what finds no room is told, and held apart by the
 // bound where it is no wall.
-constexpr std::size_t kPairsPerPart = 16, kSpheresPerPart = 4, kWallsPerMass = 8;
+constexpr std::size_t kContactsPerPart = 16, kSpheresPerPart = 4, kWallsPerMass = 8;
 
 // The least way of a sphere, m, in which it meets all the force that drives it: so far it gives way where it
 // would stand.
@@ -27,7 +27,7 @@ constexpr double kGiveWay_m = 1e-3;
 ContactRoom room_for(const PairFinder& finder, const GutParts& parts) {
   const auto count = static_cast<std::size_t>(parts.count()),
              masses = static_cast<std::size_t>(parts.gut.mass_count());
-  return {std::min(finder.most_pairs(), kPairsPerPart * count), kSpheresPerPart * count,
+  return {std::min(finder.most_pairs(), kContactsPerPart * count), kSpheresPerPart * count,
           kWallsPerMass * masses};
 }
 
