@@ -1,5 +1,6 @@
 #include "haptic_node/tool_line.h"
 
+#include "haptic_node/jaws.h"
 #include "node_common/vectors.h"
 
 #include <algorithm>
@@ -17,6 +18,11 @@ namespace {
 constexpr double kCutShare = 0.5;
 constexpr double kBelievedIntervals = 2;
 static_assert(kLongestStale_s == 1 / 40.0, "the fault says 40 times a second");
+
+// What a device says in degrees or counts must not be booked as work of jaws that cannot open as far.
+double opening_of(const msg::ToolPose& pose) {
+  return std::clamp(pose.grip, 0.0, kWidest_rad);
+}
 
 }  // namespace
 
@@ -99,8 +105,8 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
   told_ = heard.connection > 0 && age_ns < kForget_ns;
   if (reconnected_) lead_.restart();
   // a tool that appears lets go first: in the dent of its own last force it would seem to be outside
-  input = {engaged_ && !reconnected_, reconnected_, lead_.ahead(frame_of(heard.pose), fresh), heard.pose.grip,
-           max_stiffness_n_m_};
+  input = {engaged_ && !reconnected_, reconnected_, lead_.ahead(frame_of(heard.pose), fresh),
+           opening_of(heard.pose), max_stiffness_n_m_};
   return fresh;
 }
 
@@ -150,7 +156,7 @@ SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, doubl
   input.stored_j = output.stored_j;
   input.tip = frame.p_WT;
   input.orientation = frame.q_WT;
-  input.grip = heard.pose.grip;
+  input.grip = opening_of(heard.pose);
   input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
   input.pose_interval_s = heard.interval_s;
   input.way_s = way_s_;
