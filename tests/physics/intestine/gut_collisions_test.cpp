@@ -145,7 +145,8 @@ TEST(GutCollisions, TheCornerOfABoxHoldsWithBothItsWalls) {
   }
   double deepest = 0;
   for (std::int32_t c = 1; c < shape.layout.columns - 1; ++c) {
-    for (const WallPlace& wall : faces_within(box, state.x[static_cast<std::size_t>(c)], 1).near())
+    const auto faces = faces_within(box, state.x[static_cast<std::size_t>(c)], 1);
+    for (const WallPlace& wall : faces.near())
       deepest = std::max(deepest, shape.tube_radius_m - wall.depth_m);
   }
   EXPECT_LT(deepest, 0.05 * shape.tube_radius_m);
