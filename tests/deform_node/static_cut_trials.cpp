@@ -42,7 +42,9 @@ class Trial {
   // A blade of a few centimetres, moved by as much.
   CutStroke stroke() {
     const Vec3 place = any_place();
-    const auto aside = [&] { return Vec3(between(-1, 1), between(-1, 1), between(-1, 1)) * kReach_m; };
+    const auto aside = [&]() -> Vec3 {
+      return Vec3(between(-1, 1), between(-1, 1), between(-1, 1)) * kReach_m;
+    };
     const Vec3 along = aside(), way = aside();
     return {.tool = 0,
             .cut = 1,
