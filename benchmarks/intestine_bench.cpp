@@ -5,11 +5,15 @@
 //   stochastic/400         the paper's search, against the complete one
 //   projective/400         springs alone, per simulated second, at the default step
 //   explicit/400           the same at the stable step
-//   four_guts              four of 4 x 1,000 in one cavity, which do not meet each other; all on one core
+//   four_guts/STEP         four of 4 x 1,000 in one cavity that meet each other, as deform_node moves them:
+//   on one
+//                          thread (time on its core) and on two (by the clock; and by what both worked, as if
+//                          each had a core); how many pairs of guts touch; what passed through what
 //   calm/STEP              ten seconds after a release: mean speed; overlap, against the tube's radius
 //   long_run               ten simulated minutes, only if it is named: real time; growth of the tracked pairs
 // Arguments: cases to run, by the first word; all but long_run where there is none.
 #include "benchmarks/bench_json.h"
+#include "benchmarks/four_guts.h"
 #include "geometry/gut_anatomy.h"
 #include "physics/intestine/gut_system.h"
 
@@ -34,12 +38,14 @@ constexpr double kCalmLimit_m_s = 1e-3;
 constexpr double kDepthLimit = 0.05;  // of the tube's radius
 constexpr double kPlane_m = -0.08;    // below the vessel
 constexpr double kSettle_s = 2, kMeasure_s = 2;
+constexpr int kTicksPerCount = 5;  // of crossings: an axis that crosses another is not back so soon
 const std::array kPlane{GutObstacle{.kind = GutObstacle::Kind::kHalfSpace, .centre = Vec3(0, 0, kPlane_m)}};
 
-/// Of this thread on a core: what other programs take of the machine is not in it.
-double now_s() {
+/// Of this thread on a core, unless another clock is named: what other programs take of the machine is not in
+/// it.
+double now_s(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
@@ -60,12 +66,12 @@ double mean_speed_m_s(const GutState& state) {
 }
 
 /// Median of what `steps` calls of `step` take, us.
-double median_us(int steps, const std::function<void()>& step) {
+double median_us(int steps, const std::function<void()>& step, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   std::vector<double> us;
   for (int i = 0; i < steps; ++i) {
-    const double begin = now_s();
+    const double begin = now_s(clock);
     step();
-    us.push_back(1e6 * (now_s() - begin));
+    us.push_back(1e6 * (now_s(clock) - begin));
   }
   const auto middle = us.begin() + steps / 2;
   std::nth_element(us.begin(), middle, us.end());
@@ -120,21 +126,48 @@ class Bench {
   }
 
   void four_guts() {
-    std::vector<std::unique_ptr<GutSystem>> guts;
-    const std::array cavity{
-        GutObstacle{.kind = GutObstacle::Kind::kInsideEllipsoid, .half_axes_m = Vec3(0.3, 0.4, 0.25)}};
-    for (int i = 0; i < 4; ++i)
-      guts.push_back(std::make_unique<GutSystem>(shape_of(1000), GutMaterial{}, GutCollisionSettings{},
-                                                 GutStepSettings{}));
-    const auto all = [&] {
-      for (auto& gut : guts) gut->step({.obstacles = cavity});
+    four_guts("four_guts/5ms", {});
+    four_guts("four_guts/10ms", {.step_s = 10e-3});
+  }
+
+  void four_guts(const std::string& name, const GutStepSettings& step) {
+    bench::FourGuts alone(shape_of(1000), step, 1), both(shape_of(1000), step, 2);
+    const auto real_time = [](bench::FourGuts& guts, clockid_t clock, double threads) {
+      const int ticks = steps_in(kMeasure_s / 2, bench::FourGuts::kTick_s);
+      return threads * 1e6 * bench::FourGuts::kTick_s /
+             median_us(
+                 ticks, [&] { guts.tick(); }, clock);
     };
-    const double step_s = guts[0]->settings().step_s;
-    for (int i = 0; i < steps_in(kSettle_s, step_s); ++i) all();
-    add({.name = "four_guts/4000/real_time",
-         .value = 1e6 * step_s / median_us(steps_in(kMeasure_s, step_s), all),
+    const int settle = steps_in(kSettle_s, bench::FourGuts::kTick_s);
+    for (int i = 0; i < settle; ++i) alone.tick();
+    add({.name = name + "/one_thread/real_time",
+         .value = real_time(alone, CLOCK_THREAD_CPUTIME_ID, 1),
+         .unit = "1"});
+    fall(name, both, settle);
+    add({.name = name + "/two_threads/real_time",
+         .value = real_time(both, CLOCK_MONOTONIC, 1),
          .unit = "1",
          .limit = 1});
+    add({.name = name + "/two_cores/real_time",
+         .value = real_time(both, CLOCK_PROCESS_CPUTIME_ID, 2),
+         .unit = "1",
+         .limit = 1});
+    results_.compare(prefix(name + "/two_threads/real_time"), prefix(name + "/one_thread/real_time"));
+  }
+
+  /// Counts what passed through what, and pairs that touch in the end.
+  void fall(const std::string& name, bench::FourGuts& guts, int ticks) {
+    std::int64_t crossings = 0;
+    auto from = guts.places();
+    for (int i = 1; i <= ticks; ++i) {
+      guts.tick();
+      if (i % kTicksPerCount != 0) continue;
+      const auto to = guts.places();
+      crossings += guts.crossings(from, to);
+      from = to;
+    }
+    add({.name = name + "/touching", .value = static_cast<double>(guts.touching()), .unit = "1"});
+    add({.name = name + "/crossings", .value = static_cast<double>(crossings), .unit = "1", .limit = 0});
   }
 
   void calm() {

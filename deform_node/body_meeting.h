@@ -31,6 +31,11 @@ class BodyMeeting {
                                               std::span<const double> external) noexcept;
   void respond(std::span<const OrganContact> contacts, const physics::BodyState& state, BodyStepper& stepper,
                std::span<const double> external) noexcept;
+  /// Since the last step somebody pushed: the velocities that the next one would end with, [3N], m/s. Else
+  /// empty.
+  std::span<const double> ahead() const noexcept {
+    return meets_ ? std::span(ahead_) : std::span<const double>();
+  }
   /// Before steps that take so long: `loads` carry the pushes.
   void act(double seconds, const geometry::MeshEditor& editor, BodyLoads& loads) noexcept;
   void reset() noexcept;

@@ -18,25 +18,44 @@ double mass_at(const geometry::Tetrahedron& nodes, const Eigen::Vector4d& weight
                const physics::Inertia& inertia) {
   double yield = 0;  // of the centre to an impulse, 1/kg
   for (std::size_t c = 0; c < 4; ++c) {
-    if (inertia.fixed[nodes[c]] != 0) return std::numeric_limits<double>::infinity();
+    // what is precomputed has no mass, and yields to nobody but its own tools
+    if (inertia.fixed[nodes[c]] != 0 || inertia.mass[nodes[c]] == 0)
+      return std::numeric_limits<double>::infinity();
     const double weight = weights[static_cast<Eigen::Index>(c)];
     yield += weight * weight / inertia.mass[nodes[c]];
   }
   return 1 / yield;
 }
 
+struct Tie {
+  geometry::Tetrahedron nodes;
+  Eigen::Vector4d weights;
+};
+
+// To the tetrahedron around it; or, since nodes inside a precomputed part are not known, to the face above.
+Tie tie_of(const CoverSphere& sphere, const geometry::TetraMesh& mesh, const geometry::Surface& surface,
+           const physics::Inertia& inertia) {
+  const geometry::Tetrahedron& around = mesh.tetrahedra[sphere.tetrahedron];
+  if (std::ranges::all_of(around, [&](NodeId n) { return inertia.mass[n] > 0; }))
+    return {around, sphere.weights};
+  const geometry::Triangle& above = surface.triangles[sphere.below];
+  const auto node = [&](std::size_t i) { return surface.node[above[i]]; };
+  return {{node(0), node(1), node(2), node(0)}, {sphere.place[0], sphere.place[1], sphere.place[2], 0}};
+}
+
 }  // namespace
 
 BodySpheres::BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia) {
-  const geometry::SphereCover cover = cover_with_spheres(mesh, geometry::extract_surface(mesh, {}));
+  const geometry::Surface surface = geometry::extract_surface(mesh, {});
+  const geometry::SphereCover cover = cover_with_spheres(mesh, surface);
   for (const CoverSphere& sphere : cover.spheres) {
-    const geometry::Tetrahedron& nodes = mesh.tetrahedra[sphere.tetrahedron];
+    const auto [nodes, weights] = tie_of(sphere, mesh, surface, inertia);
     all_.push_back({.tetrahedron = sphere.tetrahedron,
                     .nodes = nodes,
-                    .weights = sphere.weights,
+                    .weights = weights,
                     .rest = sphere.centre,
                     .radius_m = sphere.radius_m,
-                    .mass_kg = mass_at(nodes, sphere.weights, inertia)});
+                    .mass_kg = mass_at(nodes, weights, inertia)});
   }
   left_.reserve(all_.size());
   shown_.reserve(all_.size());

@@ -18,13 +18,6 @@ using physics::ForceLaw;
 
 using Work = std::optional<double>;
 
-// Of forces that were held over a step of `dt` which ended with `state`.
-double work_of(std::span<const double> external, const BodyState& state, double dt) {
-  double power_w = 0;
-  for (std::size_t c = 0; c < external.size(); ++c) power_w += external[c] * state.v[c];
-  return power_w * dt;
-}
-
 std::unique_ptr<physics::LargeStep> implicit_of(const SteppedBody& body, double step_s) {
   return std::make_unique<physics::ImplicitStep>(
       body.mesh, body.material, body.inertia,
@@ -39,14 +32,14 @@ std::unique_ptr<physics::LargeStep> warped_of(const SteppedBody& body, double st
 
 class LargeStepper final : public BodyStepper {
  public:
-  LargeStepper(const SteppedBody& body, std::unique_ptr<physics::LargeStep> large)
-      : large_(std::move(large)), imposed_(body.mesh.positions.size(), kMaxTools) {}
+  LargeStepper(std::size_t node_count, std::unique_ptr<physics::LargeStep> large)
+      : large_(std::move(large)), imposed_(node_count, kMaxTools) {}
 
   double step_s() const override { return large_->step_s(); }
   Work step(BodyState& state, BodyLoads& loads) noexcept override {
     if (!large_->step(state, loads.weights())) return {};
     loads.act(imposed_.impose(*large_, loads.presses(), state));
-    return work_of(loads.external(), state, step_s());
+    return large_->work(loads.external(), state.v);
   }
   double elastic_energy(std::span<const double> u) noexcept override { return large_->elastic_energy(u); }
   bool remove(std::span<const TetId> tetrahedra) noexcept override { return large_->remove(tetrahedra); }
@@ -141,11 +134,16 @@ class ExplicitStepper final : public BodyStepper {
 }  // namespace
 
 std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s) {
-  return std::make_unique<LargeStepper>(body, implicit_of(body, step_s));
+  return make_large_stepper(body.mesh.positions.size(), implicit_of(body, step_s));
+}
+
+std::unique_ptr<BodyStepper> make_large_stepper(std::size_t node_count,
+                                                std::unique_ptr<physics::LargeStep> step) {
+  return std::make_unique<LargeStepper>(node_count, std::move(step));
 }
 
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s) {
-  return std::make_unique<LargeStepper>(body, warped_of(body, step_s));
+  return make_large_stepper(body.mesh.positions.size(), warped_of(body, step_s));
 }
 
 std::unique_ptr<BodyStepper> make_explicit_stepper(const SteppedBody& body, std::unique_ptr<ForceLaw> law,

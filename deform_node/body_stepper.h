@@ -4,6 +4,7 @@
 #include "deform_node/body_loads.h"
 #include "physics/dynamics/explicit_step.h"
 #include "physics/dynamics/force_law.h"
+#include "physics/dynamics/large_step.h"
 
 #include <memory>
 #include <optional>
@@ -62,8 +63,16 @@ class BodyStepper {
 /// physics::ImplicitStep does, like the others.
 std::unique_ptr<BodyStepper> make_implicit_stepper(const SteppedBody& body, double step_s);
 
+/// Any other large step of a body of so many nodes.
+std::unique_ptr<BodyStepper> make_large_stepper(std::size_t node_count,
+                                                std::unique_ptr<physics::LargeStep> step);
+
 /// Backward Euler for co-rotational tissue (physics/dynamics/warped_step.h).
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s);
+
+/// No masses: equilibrium in every step, under presses that are imposed (physics/static_factor.h). What is
+/// removed leaves nothing that floats.
+std::unique_ptr<BodyStepper> make_static_stepper(const SteppedBody& body, double step_s);
 
 /// Explicit steps. Presses are made as strong as would bring the body where hands want it within kFeltStep_s.
 /// Nothing yields within one of them, and none has an equation whose solution would say how: what a hand

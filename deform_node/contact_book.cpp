@@ -74,6 +74,7 @@ Rejection check_claims(const msg::Contact& contact, const std::vector<OrganNumbe
 
 Rejection translate(const msg::Contact& contact, const OrganNumbers& organ, HeldContact& held) noexcept {
   held.cause = contact.cause;
+  held.grasps = contact.grasping;
   held.count = 0;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     if (contact.nodes[i] >= organ.node_of_file.size()) return Rejection::kNode;
@@ -193,7 +194,8 @@ std::span<const ToolLoad> ContactBook::loads(std::uint32_t organ) noexcept {
                             .nodes = {held.nodes.data(), size},
                             .displacements = {held.displacements.data(), size},
                             .forces = {page.faded_forces.data(), size},
-                            .gain = page.gain};
+                            .gain = page.gain,
+                            .grasps = held.grasps};
   }
   return {pages.loads.data(), count};
 }

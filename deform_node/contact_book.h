@@ -56,6 +56,7 @@ const char* describe(Rejection rejection) noexcept;
 struct HeldContact {
   msg::Echo cause{};
   std::int64_t received_ns = 0;  // this process's steady clock; 0: none came yet
+  bool grasps = false;
   int count = 0;
   std::array<NodeId, kMaxNodesPerTool> nodes{};
   std::array<Vec3, kMaxNodesPerTool> displacements{};

@@ -46,6 +46,7 @@ DeformLoop::DeformLoop(const DeformOptions& options, const transport::OpenBus& o
       scene_(node::load_scene(options.node)),
       organs_(load_organs(scene_, options.models), faults_),
       book_(numbers_of_all(organs_.organs()), bounds_of(scene_), faults_),
+      score_(scored_cut(scene_, organs_.organs())),
       loop_(loop),
       loaded_(node::loaded_scene(scene_, describe(organs_.organs()))),
       journal_(open_journal()),
@@ -172,13 +173,22 @@ void DeformLoop::live_on() noexcept {
     owed_.forgive(missed);
   } else {
     organs_.step(book_, owed_.take(missed, in_time_) / options_.rate_hz);
+    score();
   }
+}
+
+void DeformLoop::score() noexcept {
+  if (!score_.score) return;
+  const OrganModel& model = *organs_.organs()[score_.organ].model;
+  score_.score->follow(book_.cuts(score_.organ), model.view(), model.status().cuts.way_m,
+                       1e-9 * static_cast<double>(loop_.now_ns() - start_ns_));
 }
 
 void DeformLoop::obey() noexcept {
   if (!orders_.take_reset()) return;
   book_.forget(loop_.now_ns());
   organs_.reset(book_);
+  if (score_.score) score_.score->reset();
 }
 
 void DeformLoop::take_figures() noexcept {
@@ -219,6 +229,8 @@ nlohmann::json DeformLoop::report() const {
                         {"cuts", to_json(organs_.cuts())},
                         {"real_time_factor", time_.overall()},
                         {"faults", faults_.lines()}};
+  if (score_.score)
+    report["score"] = to_json(score_.score->figures(organs_.organs()[score_.organ].model->view()));
   if (const auto collisions = organs_.collisions()) report["collisions"] = to_json(*collisions);
   return report;
 }

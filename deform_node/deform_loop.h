@@ -1,6 +1,7 @@
 // The node around the models: topics in, topics out, at a fixed rate.
 #pragma once
 
+#include "deform_node/cut_score.h"
 #include "deform_node/local_publisher.h"
 #include "deform_node/organ_group.h"
 #include "deform_node/owed_time.h"
@@ -57,6 +58,7 @@ class DeformLoop {
   void tick() noexcept;
   void live_on() noexcept;
   void obey() noexcept;
+  void score() noexcept;
   void take_figures() noexcept;
   void publish(std::int64_t now_ns) noexcept;
 
@@ -65,6 +67,7 @@ class DeformLoop {
   runtime::FaultList faults_;
   OrganGroup organs_;
   ContactBook book_;
+  ScoredCut score_;
   runtime::Pace& loop_;
   std::unique_ptr<runtime::LoopLog> log_;
   node::LoadedScene loaded_;

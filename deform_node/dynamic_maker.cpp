@@ -1,11 +1,13 @@
 #include "deform_node/dynamic_maker.h"
 
 #include "deform_node/dynamic_model.h"
+#include "deform_node/hybrid_gauge.h"
 #include "deform_node/tear_limits.h"
 #include "physics/dynamics/corotational.h"
 #include "physics/dynamics/spring_mesh.h"
 #include "physics/dynamics/stable_step.h"
 #include "physics/dynamics/tensor_mass.h"
+#include "physics/hybrid/hybrid_step.h"
 
 #include <cstdio>
 #include <utility>
@@ -39,6 +41,7 @@ physics::Inertia inertia_of(const organ::Organ& organ, const scene::DynamicsSpec
 struct Stepping {
   std::unique_ptr<BodyStepper> stepper;
   double energy_margin = 2;  // backward Euler's: it loses energy
+  bool is_static = false;
 };
 
 // By the scene's own step, or a share of what the mesh allows.
@@ -60,8 +63,8 @@ Stepping step_explicitly(const SteppedBody& body, const scene::DynamicsSpec& dyn
 
 // `step`: of a body, by what its scene says; `stress`: what that body's law says.
 template <class Step>
-std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
-                                 physics::StressLaw stress, Step&& step) {
+DynamicParts parts_of(const node::OrganSource& source, const scene::OrganSpec& spec,
+                      physics::StressLaw stress, Step&& step) {
   const organ::Organ& organ = source.organ;
   const scene::DynamicsSpec& dynamics = *spec.dynamics;
   DynamicParts parts{.body = {organ.mesh, organ.material, inertia_of(organ, dynamics)},
@@ -69,13 +72,35 @@ std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::O
   Stepping stepping = step(parts.body, dynamics);
   parts.stepper = std::move(stepping.stepper);
   parts.energy_margin = stepping.energy_margin;
+  parts.is_static = stepping.is_static;
   parts.gravity_m_s2 = dynamics.gravity_m_s2;
   parts.tears = tear_limits_of(organ, spec);
   parts.cut_delay_s = dynamics.cut_delay_s;
   parts.cut_rate_per_s = dynamics.cut_rate_per_s;
   parts.smallest_piece_m3 = dynamics.smallest_piece_m3;
   parts.stress = stress;
-  return std::make_unique<DynamicModel>(std::move(parts));
+  return parts;
+}
+
+template <class Step>
+std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
+                                 physics::StressLaw stress, Step&& step) {
+  return std::make_unique<DynamicModel>(parts_of(source, spec, stress, std::forward<Step>(step)));
+}
+
+std::vector<double> components_of(std::span<const Vec3> vectors) {
+  std::vector<double> components;
+  for (const Vec3& v : vectors) components.insert(components.end(), v.begin(), v.end());
+  return components;
+}
+
+// What has no mass and never tears or is cut.
+void set_precomputed(const organ::OrganSplit& split, DynamicParts& parts) {
+  parts.precomputed = split.precomputed();
+  for (std::size_t n = 0; n < parts.body.inertia.mass.size(); ++n)
+    if (!split.parts.dynamic.own_node[n].valid()) parts.body.inertia.mass[n] = 0;
+  for (std::size_t t = 0; t < parts.tears.size(); ++t)
+    if (parts.precomputed[t] != 0) parts.tears[t] = {};
 }
 
 template <class Law>
@@ -103,12 +128,38 @@ std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, c
               });
 }
 
+std::unique_ptr<OrganModel> make_quasi_static_cut(const node::OrganSource& source,
+                                                  const scene::OrganSpec& spec) {
+  return make(source, spec, StressLaw::kLinear,
+              [](const SteppedBody& body, const scene::DynamicsSpec&) -> Stepping {
+                return {.stepper = make_static_stepper(body, kImplicitStep_s), .is_static = true};
+              });
+}
+
 std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, const scene::OrganSpec& spec) {
   return make(source, spec, StressLaw::kNone,
               [](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
                 return step_explicitly(body, dynamics, scheme_of(dynamics.integrator).value(),
                                        law_of<physics::SpringMesh>(body), false);
               });
+}
+
+std::unique_ptr<OrganModel> make_hybrid(const node::OrganSource& source, const scene::OrganSpec& spec) {
+  const organ::Organ& organ = source.organ;
+  const organ::OrganSplit& split = *organ.split;
+  const std::vector<double> weights =
+      components_of(physics::body_forces(organ.mesh, organ.material, spec.dynamics->gravity_m_s2));
+  DynamicParts parts = parts_of(
+      source, spec, StressLaw::kLinear, [&](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
+        auto step = std::make_unique<physics::HybridStep>(
+            physics::HybridBody{split.parts, split.surface, *split.compliance, organ.material, split.fixed,
+                                body.inertia, weights},
+            dynamics.step_s.value_or(kImplicitStep_s), BodyStepper::kPatchNodes);
+        return Stepping{make_large_stepper(organ.mesh.positions.size(), std::move(step))};
+      });
+  set_precomputed(split, parts);
+  parts.gauge = [&organ, weights] { return std::make_unique<HybridGauge>(organ, weights); };
+  return std::make_unique<DynamicModel>(std::move(parts));
 }
 
 }  // namespace omentum::deform

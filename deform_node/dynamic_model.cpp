@@ -1,9 +1,11 @@
 #include "deform_node/dynamic_model.h"
 
 #include "deform_node/strain_gauges.h"
+#include "node_common/contact_bounds.h"
 #include "node_common/organ_reach.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace omentum::deform {
@@ -41,22 +43,35 @@ void stiffen_supports(std::span<float> compliance, std::size_t rows) {
   for (std::size_t r = 0; r < rows; ++r) compliance[r * rows + r] = std::max(compliance[r * rows + r], held);
 }
 
+// Of a body that no push moves, nor its speed.
+physics::Inertia without_motion(physics::Inertia inertia) {
+  std::ranges::fill(inertia.mass, 0.0);
+  std::ranges::fill(inertia.fixed, physics::kPinned);
+  return inertia;
+}
+
 }  // namespace
 
 DynamicModel::DynamicModel(DynamicParts parts)
     : mesh_(parts.body.mesh),
       material_(parts.body.material),
       stress_(parts.stress),
-      inertia_(std::move(parts.body.inertia)),
-      editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3, .uncut_surface = parts.uncut_surface}),
+      gauge_(std::move(parts.gauge)),
+      inertia_(parts.is_static ? without_motion(parts.body.inertia) : parts.body.inertia),
+      editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3,
+                      .uncut_surface = parts.uncut_surface,
+                      .kept = parts.precomputed}),
       loads_(mesh_, parts.body.material, parts.gravity_m_s2),
       state_(physics::state_at_rest(mesh_.positions.size())),
       before_(state_),
       stepper_(std::move(parts.stepper)),
       watch_(parts.energy_margin, kUnnoticed_j),
       swept_(mesh_),
+      precomputed_(std::move(parts.precomputed)),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
+      unheld_(parts.is_static ? std::make_unique<physics::UnheldPieces>(mesh_, parts.body.inertia.fixed)
+                              : nullptr),
       reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
@@ -64,9 +79,10 @@ DynamicModel::DynamicModel(DynamicParts parts)
       felt_(std::make_unique<Felt>()),
       meeting_(std::make_unique<BodyMeeting>(mesh_, inertia_)) {
   felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
-  felt_->u.resize(state_.u.size());
+  felt_->ahead.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
   fallen_.reserve(mesh_.tetrahedra.size());
+  met_.reserve(mesh_.tetrahedra.size());
 }
 
 ModelSizes DynamicModel::sizes() const {
@@ -74,7 +90,8 @@ ModelSizes DynamicModel::sizes() const {
           .removed_bytes = burnt_.size(),
           .local_nodes = stepper_->is_felt() ? kPatchNodes : 0,
           .spheres = meeting_->most_spheres(),
-          .body = values_.size()};
+          .body = values_.size(),
+          .costs = true};
 }
 
 void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -94,7 +111,7 @@ void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
 void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
   if (!strokes.empty()) swept_.follow(state_.u);
   for (const CutStroke& stroke : strokes) {
-    const std::span<const TetId> met = swept_.find({stroke.from, stroke.to});
+    const std::span<const TetId> met = those_that_can_go(swept_.find({stroke.from, stroke.to}));
     burning_.meet(met, editor_);
     if (!met.empty())
       status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
@@ -102,6 +119,13 @@ void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept
   const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
   for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
   for (const TetId t : remove(burnt)) status_.cuts.lost_m3 += volume_of(mesh_, t);
+}
+
+std::span<const TetId> DynamicModel::those_that_can_go(std::span<const TetId> met) noexcept {
+  if (precomputed_.empty()) return met;
+  met_.clear();
+  std::ranges::copy_if(met, std::back_inserter(met_), [&](TetId t) { return can_go(t); });
+  return met_;
 }
 
 void DynamicModel::check(double dt_s) noexcept {
@@ -116,22 +140,28 @@ void DynamicModel::drop_what_fell() noexcept {
   const auto is_gone = [&](NodeId n) { return !(at(state_.u, n).squaredNorm() < reach_m_ * reach_m_); };
   fallen_.clear();
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
-    if (!editor_.is_removed(TetId(t)) && std::ranges::any_of(mesh_.tetrahedra[t], is_gone))
+    if (can_go(TetId(t)) && !editor_.is_removed(TetId(t)) &&
+        std::ranges::any_of(mesh_.tetrahedra[t], is_gone))
       fallen_.push_back(TetId(t));
   remove(fallen_);
 }
 
 std::span<const TetId> DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
   if (tetrahedra.empty()) return {};
-  const geometry::Removal removal = editor_.remove(tetrahedra);
-  gone_.assign(removal.asked.begin(), removal.asked.end());
-  gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
-  gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
+  gone_.clear();
+  add_gone(editor_.remove(tetrahedra));
   if (gone_.empty()) return {};
+  if (unheld_) add_gone(editor_.remove(unheld_->find(editor_)));
   ++version_;
-  status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
   forgo_gone();
   return gone_;
+}
+
+void DynamicModel::add_gone(const geometry::Removal& removal) noexcept {
+  gone_.insert(gone_.end(), removal.asked.begin(), removal.asked.end());
+  gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
+  gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
+  status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
 }
 
 void DynamicModel::forgo_gone() noexcept {
@@ -218,7 +248,8 @@ std::span<const CollisionSphere> DynamicModel::collidable() const noexcept {
 }
 
 void DynamicModel::respond(std::span<const OrganContact> contacts) noexcept {
-  meeting_->respond(contacts, state_, *stepper_, loads_.external());
+  if (!unheld_) meeting_->respond(contacts, state_, *stepper_, loads_.external());
+  felt_->is_foreseen = false;
 }
 
 OrganView DynamicModel::view() const noexcept {
@@ -232,25 +263,38 @@ OrganView DynamicModel::view() const noexcept {
 }
 
 std::unique_ptr<StrainGauge> DynamicModel::strain_gauge() const {
-  return std::make_unique<BodyGauge>(mesh_, material_, stress_);
+  return gauge_ ? gauge_() : std::make_unique<BodyGauge>(mesh_, material_, stress_);
+}
+
+// What others push is not among the forces before the next step.
+void DynamicModel::look_ahead() const noexcept {
+  if (std::exchange(felt_->is_foreseen, true)) return;
+  const std::span<const double> pushed = meeting_->ahead();
+  if (!pushed.empty()) {
+    std::ranges::copy(pushed, felt_->ahead.begin());
+    return;
+  }
+  stepper_->foresee(state_, loads_.external(), felt_->ahead);
+  for (std::size_t c = 0; c < state_.u.size(); ++c)
+    felt_->ahead[c] = (felt_->ahead[c] - state_.u[c]) / stepper_->felt_s();
 }
 
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   if (!stepper_->is_felt() || !gatherer_->gather(place, editor_, state_.u, patch)) return false;
   const std::span<const NodeId> nodes = gatherer_->nodes();
-  if (!felt_->is_foreseen) stepper_->foresee(state_, loads_.external(), felt_->u);
-  felt_->is_foreseen = true;
+  look_ahead();
   patch.topology_version = version_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec3 u = at(state_.u, nodes[i]);
-    patch.velocities[i] = (at(felt_->u, nodes[i]) - u) / stepper_->felt_s();
-    patch.positions[i] = mesh_.positions[nodes[i]] + u + ahead_s_ * patch.velocities[i];
+    patch.velocities[i] = at(felt_->ahead, nodes[i]);
+    patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]) + ahead_s_ * patch.velocities[i];
     patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
   }
   const std::size_t rows = 3 * nodes.size();
   const std::span<float> block = std::span(felt_->compliance).first(rows * rows);
   stepper_->compliance(nodes, block);
   stiffen_supports(block, rows);
+  // written so that a NaN is none either
+  if (!std::ranges::all_of(block, [](float c) { return std::abs(c) <= node::kSoftest_m_n; })) return false;
   float* upper = patch.compliance.data();
   for (std::size_t r = 0; r < rows; ++r)
     upper = std::copy(block.begin() + static_cast<std::ptrdiff_t>(r * rows + r),

@@ -11,6 +11,9 @@
 #include "physics/dynamics/swept_cut.h"
 #include "physics/dynamics/tearing.h"
 #include "physics/nodal_stress.h"
+#include "physics/unheld_pieces.h"
+
+#include <functional>
 
 namespace omentum::deform {
 
@@ -24,7 +27,12 @@ struct DynamicParts {
   std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
+  std::vector<std::uint8_t> precomputed{};  // [T] other than 0: nothing takes it away; empty: none is
   physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
+  // Always in equilibrium: it weighs nothing that could swing, what supports do not hold is dropped as it is
+  // cut off, and for other organs it is a wall that moves.
+  bool is_static = false;
+  std::function<std::unique_ptr<StrainGauge>()> gauge{};  // of another kind than a body's; or empty
 };
 
 /// Steps of its own fixed length as the clock goes on; strokes burn through, what is loaded too much tears, a
@@ -49,10 +57,13 @@ class DynamicModel final : public OrganModel {
 
  private:
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
+  bool can_go(geometry::TetId t) const noexcept { return precomputed_.empty() || precomputed_[t] == 0; }
+  std::span<const geometry::TetId> those_that_can_go(std::span<const geometry::TetId> met) noexcept;
   void check(double dt_s) noexcept;
   void drop_what_fell() noexcept;
   /// Those that are there, and what then has to go. Returns them all.
   std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
+  void add_gone(const geometry::Removal& removal) noexcept;
   /// What the editor took, `gone_`, goes off the body.
   void forgo_gone() noexcept;
   void list_removed() noexcept;
@@ -61,10 +72,12 @@ class DynamicModel final : public OrganModel {
   /// False: the energy afterwards cannot be.
   bool run(int steps, Step step) noexcept;
   void show() noexcept;
+  void look_ahead() const noexcept;
 
   const geometry::TetraMesh& mesh_;
   const physics::MaterialMap& material_;
   physics::StressLaw stress_;
+  std::function<std::unique_ptr<StrainGauge>()> gauge_;
   physics::Inertia inertia_;
   geometry::MeshEditor editor_;
   BodyLoads loads_;
@@ -72,20 +85,22 @@ class DynamicModel final : public OrganModel {
   std::unique_ptr<BodyStepper> stepper_;
   physics::EnergyWatch watch_;
   physics::SweptCut swept_;
+  std::vector<std::uint8_t> precomputed_;  // [T] or empty
   CutQueue burning_;
   physics::Tearing tearing_;
-  double reach_m_;            // farther nothing falls
-  double ahead_s_ = 0;        // of the clock's time, not yet stepped
-  double until_check_s_ = 0;  // of tearing
+  std::unique_ptr<physics::UnheldPieces> unheld_;  // null: what floats falls
+  double reach_m_;                                 // farther nothing falls
+  double ahead_s_ = 0;                             // of the clock's time, not yet stepped
+  double until_check_s_ = 0;                       // of tearing
   std::uint64_t version_ = 0;
   ModelStatus status_;
-  std::vector<geometry::TetId> gone_, fallen_;  // workspace, capacity T
-  std::vector<std::uint8_t> burnt_;             // bits, of what edges burnt away
-  std::vector<float> values_;                   // [3N], of them 3 for each node of the surface
+  std::vector<geometry::TetId> gone_, fallen_, met_;  // workspace, capacity T
+  std::vector<std::uint8_t> burnt_;                   // bits, of what edges burnt away
+  std::vector<float> values_;                         // [3N], of them 3 for each node of the surface
   // workspace of local_model()
   struct Felt {
     std::vector<float> compliance;  // [3 kPatchNodes squared]
-    std::vector<double> u;          // [3N] after one more step under the same forces ...
+    std::vector<double> ahead;      // [3N] velocities, m/s, of one more step under the same forces ...
     bool is_foreseen = false;       // ... from where the body is now
   };
   std::unique_ptr<PatchGatherer> gatherer_;

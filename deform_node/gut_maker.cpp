@@ -98,11 +98,16 @@ std::unique_ptr<GutModel> make(const geometry::GutShape& gut, const scene::Intes
   physics::GutStepSettings felt = step;
   felt.method = GutMethod::kProjective;
   felt.step_s = std::max(step.step_s, kFeltStep_s);
-  return std::make_unique<GutModel>(
-      GutParts{.system = std::make_unique<physics::GutSystem>(gut, material, collisions, step),
-               .felt = std::make_unique<physics::GutSystem>(gut, material, collisions, felt),
-               .obstacles = obstacles_of(spec),
-               .wall_m_n = 1 / spec.wall_stiffness_n_m});
+  physics::GutStepSettings ahead = felt;
+  ahead.step_s = std::max(step.step_s, kProjectiveStep_s);
+  const auto system = [&](const physics::GutStepSettings& settings) {
+    return std::make_unique<physics::GutSystem>(gut, material, collisions, settings);
+  };
+  return std::make_unique<GutModel>(GutPhysics{.system = system(step),
+                                               .felt = system(felt),
+                                               .ahead = ahead.step_s < felt.step_s ? system(ahead) : nullptr,
+                                               .obstacles = obstacles_of(spec),
+                                               .wall_m_n = 1 / spec.wall_stiffness_n_m});
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "deform_node/gut_model.h"
 
 #include "deform_node/gut_gauge.h"
+#include "deform_node/skin_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -17,8 +19,8 @@ namespace {
 constexpr double kStepRounding = 1e-9;
 // A press that is as strong as its hand says, to this share, leaves the step as it is.
 constexpr double kAsSaid = 1e-6;
-// Below this a triangle of the skin is folded up, where the gut bends sharply, and no place to touch, m^2.
-constexpr double kLeastArea_m2 = 1e-6;
+// Looks at where a hold leads, of a tick.
+constexpr int kLooks = 2;
 
 std::span<double> components(std::vector<Vec3>& x) {
   return {x.front().data(), 3 * x.size()};
@@ -46,35 +48,16 @@ class GutYielding final : public physics::Yielding {
   const physics::GutSystem& gut_;
 };
 
-/// The skin as it lies. Where it is folded, on the inner side of a sharp bend, it has no faces.
-struct SkinFaces {
-  const GutSkin& skin;
-  std::span<const Vec3> places, x;
-
-  std::size_t count() const noexcept { return skin.triangles().size(); }
-  const auto& corners(std::size_t f) const noexcept { return skin.triangles()[f]; }
-  const Vec3& place(NodeId n) const noexcept { return places[static_cast<std::size_t>(n)]; }
-  bool is_one(std::size_t f) const noexcept {
-    const auto& [a, b, c] = corners(f);
-    const Vec3 normal = (place(b) - place(a)).cross(place(c) - place(a));
-    if (!(normal.norm() > 2 * kLeastArea_m2)) return false;
-    return std::ranges::all_of(corners(f), [&](NodeId n) {
-      const Vec3 out = place(n) - weighted(skin.node(n), x);
-      return out.isZero() || normal.dot(out) > 0;
-    });
-  }
-};
-
 }  // namespace
 
-GutModel::GutModel(GutParts parts)
+GutModel::GutModel(GutPhysics parts)
     : system_(std::move(parts.system)),
       felt_(std::move(parts.felt)),
+      ahead_(std::move(parts.ahead)),
       obstacles_(std::move(parts.obstacles)),
-      is_felt_in_its_own_steps_(system_->settings().step_s == felt_->settings().step_s),
       skin_(system_->shape()),
       presses_(skin_, places_of(skin_, system_->shape().positions), parts.wall_m_n),
-      imposed_(system_->shape().positions.size(), kMaxTools),
+      imposed_(system_->shape().positions.size(), GutPresses::kMostPatterns),
       wanted_(system_->state()),
       values_(3 * system_->shape().positions.size()),
       look_(std::make_unique<Felt>(skin_, system_->shape().positions.size())),
@@ -101,7 +84,9 @@ ModelSizes GutModel::sizes() const {
           .local_nodes = kPatchNodes,
           .spheres = meeting_->most_spheres(),
           // a step of the springs foresees less of a longer push than comes: a loop that rests would tremble
-          .most_scale = 1};
+          .most_scale = 1,
+          .costs = true,
+          .keeps_pushes = true};
 }
 
 void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
@@ -113,7 +98,9 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
   look();
   presses_.press(loads.presses, look_->places, system_->state().x);
   until_felt_s_ = 0;
-  meeting_->act(steps * step_s);
+  last_ticks_s_ = {steps * step_s, last_ticks_s_[0]};
+  meeting_->act(last_ticks_s_[0]);
+  if (ahead_ && presses_.any_grasps()) hold(last_ticks_s_[0]);
   for (int i = 0; i < steps && !status_.diverged; ++i) advance();
   meeting_->put_down();
   show();
@@ -122,9 +109,9 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
 void GutModel::advance() noexcept {
   const double step_s = system_->settings().step_s;
   const std::int64_t held_back = system_->report().collisions.bound_acted;
-  if (!is_felt_in_its_own_steps_) press_ahead();
+  if (ahead_ && !presses_.any_grasps()) press_ahead();
   system_->step(loads());
-  if (is_felt_in_its_own_steps_) impose();
+  if (!ahead_) impose();
   ++status_.steps;
   status_.simulated_s += step_s;
   status_.diverged = system_->report().diverged;
@@ -155,15 +142,15 @@ std::span<const Vec3> GutModel::forces() const noexcept {
 std::span<const double> GutModel::strengths_on(const physics::GutSystem& gut) noexcept {
   std::ranges::copy(gut.state().x, wanted_.x.begin());
   std::ranges::copy(gut.state().v, wanted_.v.begin());
-  GutYielding yielding(gut);
-  return imposed_.impose(yielding, presses_.presses(), components(wanted_.x), components(wanted_.v), 1);
+  GutYielding yielding(*felt_);
+  return imposed_.impose(yielding, presses_.presses(), components(wanted_.x), components(wanted_.v));
 }
 
 void GutModel::impose() noexcept {
   if (presses_.presses().empty()) return;
   const std::span<const double> strengths = strengths_on(*system_);
   presses_.act(strengths);
-  if (std::ranges::all_of(strengths, [](double s) { return std::abs(s - 1) < kAsSaid; })) return;
+  if (presses_.are_as_said(kAsSaid)) return;
   system_->move_to(wanted_, loads());
 }
 
@@ -176,6 +163,26 @@ void GutModel::press_ahead() noexcept {
   felt_->take_up(*system_);
   felt_->step(loads());
   presses_.act(strengths_on(*felt_));
+}
+
+// Jaws hold in all directions, most of them softer than the constant matrix says: their forces are found from
+// where the tick's own steps would take the gut.
+void GutModel::hold(double tick_s) noexcept {
+  presses_.act(1);
+  for (int round = 0; round < kLooks; ++round) {
+    run_ahead(tick_s);
+    if (!presses_.approach(strengths_on(*ahead_), round == 0)) break;
+  }
+}
+
+// Returns what that took of the gut's time, s.
+double GutModel::run_ahead(double seconds) const noexcept {
+  physics::GutSystem& gut = ahead_ ? *ahead_ : *felt_;
+  const double step_s = gut.settings().step_s;
+  const int steps = std::max(1, static_cast<int>(std::lround(seconds / step_s)));
+  gut.take_up(*system_);
+  for (int i = 0; i < steps; ++i) gut.step(loads());
+  return steps * step_s;
 }
 
 void GutModel::reset() noexcept {
@@ -212,37 +219,39 @@ void GutModel::look() const noexcept {
 
 void GutModel::foresee() const noexcept {
   if (std::exchange(look_->is_foreseen, true)) return;
-  felt_->take_up(*system_);
-  felt_->step(loads());
+  // a single late tick does not say when the next one comes
+  const double tick_s = std::min(last_ticks_s_[0], last_ticks_s_[1]);
+  const double way_s = run_ahead(std::max(tick_s, felt_->settings().step_s));
+  const physics::GutSystem& gut = ahead_ ? *ahead_ : *felt_;
   for (std::size_t m = 0; m < look_->ahead.size(); ++m)
-    look_->ahead[m] = (felt_->state().x[m] - system_->state().x[m]) / felt_->settings().step_s;
+    look_->ahead[m] = (gut.state().x[m] - system_->state().x[m]) / way_s;
 }
 
-// As its own steps move it. The longer one that is felt foresees a gut that lies on something as moving: its
-// springs answer the same pushes otherwise.
+// A hand adds what it presses more than now to what is told of now: so that has to be where the gut goes
+// under the same press, not how fast it is.
 void GutModel::look_ahead() const noexcept {
   if (std::exchange(look_->is_next_seen, true)) return;
+  foresee();
   const double step_s = felt_->settings().step_s;
-  std::ranges::transform(system_->state().x, system_->state().v, look_->wanted.begin(),
+  std::ranges::transform(system_->state().x, look_->ahead, look_->wanted.begin(),
                          [step_s](const Vec3& x, const Vec3& v) -> Vec3 { return x + step_s * v; });
   skin_.place(look_->wanted, look_->next);
 }
 
 std::span<const CollisionSphere> GutModel::collidable() const noexcept {
-  if (!meeting_->looks_ahead()) return meeting_->collidable(system_->state().x, system_->state().v);
-  foresee();
-  return meeting_->collidable(system_->state().x, look_->ahead);
+  if (meeting_->foresees()) foresee();
+  return meeting_->collidable(system_->state(), look_->ahead);
 }
 
 void GutModel::respond(std::span<const OrganContact> contacts) noexcept {
-  foresee();
+  if (meeting_->foresees() || GutMeeting::is_with_body(contacts)) foresee();
   meeting_->respond(contacts, system_->state(), presses_.forces(), look_->ahead);
   look_->is_next_seen = false;
 }
 
 bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
   look();
-  const SkinFaces faces{skin_, look_->dented, system_->state().x};
+  const SkinFaces faces{skin_, look_->dented, system_->state().x, presses_, place.tool};
   PatchPlace around = place;
   // what is held must not leave the patch where a hand is ahead of a gut that falls behind the clock
   around.centre = presses_.middle(place.tool, look_->dented).value_or(place.centre);

@@ -9,10 +9,11 @@
 
 namespace omentum::deform {
 
-/// What an intestine consists of. `felt` is the same gut in steps that a hand feels one of: it looks a step
-/// ahead, and says what yields within it.
-struct GutParts {
-  std::unique_ptr<physics::GutSystem> system, felt;
+/// What an intestine consists of. `felt` is the same gut in steps that a hand feels one of: it says what
+/// yields within it. `ahead` looks that far ahead, in the gut's own steps or no longer ones than a pile lies
+/// still in: it would be foreseen as moving. None where `felt` has such steps.
+struct GutPhysics {
+  std::unique_ptr<physics::GutSystem> system, felt, ahead{};
   std::vector<physics::GutObstacle> obstacles{};
   double wall_m_n = 1.0 / 300;  // what a place of the skin yields to a force, beside the masses, m/N
 };
@@ -27,7 +28,7 @@ class GutModel final : public OrganModel {
   /// Nodes of one patch: as many as a LAN carries.
   static constexpr std::size_t kPatchNodes = 24;
 
-  explicit GutModel(GutParts parts);
+  explicit GutModel(GutPhysics parts);
 
   ModelSizes sizes() const override;
   void step(const TickLoads& loads, double dt_s) noexcept override;
@@ -47,6 +48,8 @@ class GutModel final : public OrganModel {
   std::span<const double> strengths_on(const physics::GutSystem& gut) noexcept;
   void impose() noexcept;
   void press_ahead() noexcept;
+  void hold(double tick_s) noexcept;
+  double run_ahead(double seconds) const noexcept;
   physics::GutLoads loads() const noexcept;
   std::span<const Vec3> forces() const noexcept;
   void show() noexcept;
@@ -55,25 +58,25 @@ class GutModel final : public OrganModel {
   void look_ahead() const noexcept;
   void find_compliance(std::span<const NodeId> nodes, std::span<float> upper) const noexcept;
 
-  std::unique_ptr<physics::GutSystem> system_, felt_;
+  std::unique_ptr<physics::GutSystem> system_, felt_, ahead_;
   std::vector<physics::GutObstacle> obstacles_;
-  bool is_felt_in_its_own_steps_;
   geometry::GutSkin skin_;
   GutPresses presses_;
   physics::ImposedPress imposed_;
-  physics::GutState wanted_;  // workspace: where presses want the masses
-  double ahead_s_ = 0;        // of the clock's time, not yet stepped
-  double until_felt_s_ = 0;   // strengths hold so long where steps are shorter
+  physics::GutState wanted_;              // workspace: where presses want the masses
+  double ahead_s_ = 0;                    // of the clock's time, not yet stepped
+  double until_felt_s_ = 0;               // strengths hold so long where steps are shorter
+  std::array<double, 2> last_ticks_s_{};  // how much they lived through
   ModelStatus status_;
   std::vector<float> values_;  // [3 masses]
   // workspace of local_model()
   static constexpr std::size_t kMostPatchMasses = kPatchNodes * geometry::GutSkin::kMostWeights;
   struct Felt {
     Felt(const geometry::GutSkin& skin, std::size_t masses);
-    // [nodes of the skin] now, with the dents that tools press, and a step later under the same forces
+    // [nodes of the skin] now, with the dents that tools press, and a felt step later under the same forces
     std::vector<Vec3> places, dented, next;
     bool is_seen = false, is_foreseen = false, is_next_seen = false;
-    std::vector<Vec3> ahead;               // [masses] velocities at the end of that step, m/s
+    std::vector<Vec3> ahead;               // [masses] velocities on the way there, m/s
     std::vector<Vec3> wanted;              // [masses] places there, m
     std::vector<Vec3> forces;              // [masses] of tools and other organs, N
     std::vector<geometry::MassId> masses;  // that carry a patch

@@ -24,12 +24,20 @@ class GutPresses {
              std::span<const Vec3> x) noexcept;
   void forget() noexcept;
 
+  /// A tool that grasps has three patterns, along its forces and to two sides of them; others have the first.
+  static constexpr std::size_t kMostPatterns = 3 * kMaxTools;
   /// Of masses: displacements are their places.
   std::span<const physics::Press> presses() const noexcept { return presses_; }
   /// How strong each of presses() really is, as a share of what its hand said.
   void act(std::span<const double> strengths) noexcept;
-  /// The same for all of them.
+  /// Goes from the strengths that act towards `strengths`, which were found from where these lead, by
+  /// Aitken's dynamic relaxation (Kuettler and Wall 2008, eq. 43): the gut yields up to some times more than
+  /// the constant matrix of a step says. `first`: in this tick. False: there was nothing left to go.
+  bool approach(std::span<const double> strengths, bool first) noexcept;
+  /// Along their forces alone, the same for all of them.
   void act(double strength) noexcept;
+  /// Whether all act as their hands said, up to such a share.
+  bool are_as_said(double share) const noexcept;
 
   /// By all tools as they act, [masses], N.
   std::span<const Vec3> forces() const noexcept { return forces_; }
@@ -37,8 +45,12 @@ class GutPresses {
   Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
   /// The middle of the nodes of the skin that a tool presses; nothing where it presses none.
   std::optional<Vec3> middle(std::uint32_t tool, std::span<const Vec3> places) const noexcept;
+  /// Whether a tool's jaws hold a node of the skin.
+  bool grasps(std::uint32_t tool, NodeId n) const noexcept;
   /// Moves the nodes of the skin that tools press into its wall.
   void dent(std::span<Vec3> places) const noexcept;
+  bool any_grasps() const noexcept;
+
   double wall_m_n() const noexcept { return wall_m_n_; }
 
  private:
@@ -47,13 +59,23 @@ class GutPresses {
     std::uint32_t tool = 0;
     double strength = 1, own_yield_j = 0;
     std::size_t count = 0, mass_count = 0;
-    std::array<NodeId, kMaxNodesPerTool> nodes;  // of the skin
+    bool grasps = false;
+    std::array<Vec3, 2> sides{Vec3::Zero(), Vec3::Zero()};  // unit, across all its forces together
+    Vec3 aside = Vec3::Zero();                              // to each force, as a share of its size
+    std::array<NodeId, kMaxNodesPerTool> nodes;             // of the skin
     std::array<Vec3, kMaxNodesPerTool> forces;
     std::array<NodeId, kMostMasses> masses;  // one may be there several times
     std::array<Vec3, kMostMasses> places, mass_forces;
+    std::array<double, kMostMasses> mass_sizes;  // of mass_forces
+    std::array<std::array<Vec3, kMostMasses>, 2> side_forces;
+
+    void find_sides() noexcept;
+    /// On a node as it acts, N.
+    Vec3 force(std::size_t i) const noexcept { return strength * forces[i] + forces[i].norm() * aside; }
   };
 
   void add(NodeId node, const Vec3& middle, const Vec3& force, HeldPress& held) noexcept;
+  void pose(double gain, HeldPress& held) noexcept;
   void add_up() noexcept;
 
   const geometry::GutSkin& skin_;
@@ -62,6 +84,8 @@ class GutPresses {
   std::vector<HeldPress> held_;  // capacity kMaxTools
   std::vector<physics::Press> presses_;
   std::vector<Vec3> forces_;  // [masses]
+  double relaxation_ = 1;
+  std::vector<double> lacking_, next_;  // [presses] of approach()
 };
 
 }  // namespace omentum::deform

@@ -19,9 +19,11 @@ std::unique_ptr<OrganModel> make_quasi_static(const node::OrganSource& source, c
 
 constexpr std::array kTable{
     ModelEntry{"quasi-static", organ::Load::kWithTensors, make_quasi_static},
+    ModelEntry{"quasi-static-cut", organ::Load::kMeshOnly, make_quasi_static_cut},
     ModelEntry{"tensor-mass", organ::Load::kMeshOnly, make_tensor_mass},
     ModelEntry{"corotational", organ::Load::kMeshOnly, make_corotational},
     ModelEntry{"spring-mass", organ::Load::kMeshOnly, make_spring_mass},
+    ModelEntry{"hybrid", organ::Load::kWithPart, make_hybrid},
     ModelEntry{"intestine", organ::Load::kMeshOnly, make_intestine},
 };
 

@@ -1,6 +1,7 @@
 #include "deform_node/organ_collision.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -30,9 +31,15 @@ double share_of(const CollisionSphere& own, const CollisionSphere& other) noexce
   return both_kg > 0 ? other.mass_kg / both_kg : 0.5;
 }
 
+// What of a vector lies in the plane of a normal.
+Vec3 across(const Vec3& vector, const Vec3& normal) noexcept {
+  return vector - vector.dot(normal) * normal;
+}
+
 }  // namespace
 
-OrganCollision::OrganCollision(const std::vector<OrganModel*>& models) : bodies_(models.size()) {
+OrganCollision::OrganCollision(const std::vector<OrganModel*>& models, runtime::Crew* crew)
+    : crew_(crew == nullptr ? alone_ : *crew), bodies_(models.size()) {
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < models.size(); ++i) {
     bodies_[i].model = models[i];
@@ -53,6 +60,11 @@ OrganCollision::OrganCollision(const std::vector<OrganModel*>& models) : bodies_
            .of_one = {},
            .of_other = {},
            .learnt = {}});
+  for (Couple& couple : couples_) {
+    const ModelSizes one = couple.one->model->sizes(), other = couple.other->model->sizes();
+    if (one.keeps_pushes && other.keeps_pushes)
+      couple.pushes.emplace(kMostOfASphere * std::max(one.spheres, other.spheres));
+  }
 }
 
 bool OrganCollision::run() noexcept {
@@ -61,19 +73,23 @@ bool OrganCollision::run() noexcept {
   bool complete = true;
   for (Couple& couple : couples_) complete &= collide(couple);
   for (Couple& couple : couples_) share_out(couple);
+  go_on();
   part();
   return complete;
 }
 
 void OrganCollision::reset(std::size_t organ) noexcept {
   for (Couple& couple : couples_)
-    if (couple.one == &bodies_[organ] || couple.other == &bodies_[organ]) couple.learnt = {};
+    if (couple.one == &bodies_[organ] || couple.other == &bodies_[organ]) {
+      couple.learnt = {};
+      if (couple.pushes) couple.pushes->forget();
+    }
 }
 
 void OrganCollision::gather() noexcept {
   pairs_.clear();
+  crew_.share(bodies_.size(), [this](std::size_t i) { bodies_[i].spheres = bodies_[i].model->collidable(); });
   for (Body& body : bodies_) {
-    body.spheres = body.model->collidable();
     body.contacts.clear();
     body.box.setEmpty();
     body.yields = false;
@@ -116,7 +132,9 @@ bool OrganCollision::find_pairs(Body& one, Body& other) noexcept {
         continue;
       }
       const double share_of_one = share_of(a, b), share_of_other = share_of(b, a);
-      pairs_.push_back({.share_of_one = share_of_one,
+      pairs_.push_back({.one = static_cast<std::int32_t>(i),
+                        .other = static_cast<std::int32_t>(j),
+                        .share_of_one = share_of_one,
                         .share_of_other = share_of_other,
                         .weight_kg = std::isinf(a.mass_kg) ? b.mass_kg : share_of_one * a.mass_kg});
       one.contacts.push_back({static_cast<std::int32_t>(i), normal, depth_m, b.velocity, share_of_one});
@@ -142,6 +160,46 @@ void OrganCollision::share_out(Couple& couple) noexcept {
   }
 }
 
+void OrganCollision::go_on() noexcept {
+  for (Couple& couple : couples_)
+    if (couple.pushes && couple.answers) go_on(couple);
+}
+
+// What rests has its weight carried from the first round on.
+void OrganCollision::go_on(Couple& couple) noexcept {
+  bool any = false;
+  for (std::size_t i = 0; i < couple.pairs.size(); ++i) {
+    Pair& pair = couple.pairs[i];
+    const Push* const push = couple.pushes->find(pair.one, pair.other);
+    if (push == nullptr || !(pair.weight_kg > 0)) continue;
+    pair.push_m_s = push->along / pair.weight_kg;
+    pair.rub_m_s = across(push->across, couple.of_one[i].normal) / pair.weight_kg;
+    any = true;
+  }
+  if (any) respond(couple, 1, true);
+}
+
+void OrganCollision::remember(Couple& couple) noexcept {
+  couple.pushes->forget();
+  for (const Pair& pair : couple.pairs) {
+    if (!(pair.pushed > 0)) continue;
+    const auto [entry, is_new] = couple.pushes->remember(pair.one, pair.other);
+    if (is_new) entry->value = {pair.pushed * pair.weight_kg, pair.rubbed * pair.weight_kg};
+  }
+}
+
+// What rubs brings sliding to rest, as far as the push allows (Coulomb).
+void OrganCollision::rub(Couple& couple, std::size_t i) noexcept {
+  Pair& pair = couple.pairs[i];
+  const OrganContact& of_one = couple.of_one[i];
+  const Vec3 sliding = across(
+      couple.one->velocity(of_one.sphere) - couple.other->velocity(couple.of_other[i].sphere), of_one.normal);
+  const Vec3 wish = pair.rubbed - couple.learnt.scale * sliding;
+  const double length = wish.norm(), most = kFriction * pair.pushed;
+  const Vec3 rubbed = length > most ? Vec3(most / length * wish) : wish;
+  pair.rub_m_s = (rubbed - pair.rubbed) / couple.learnt.scale;
+}
+
 // Two organs after two, as Gauss and Seidel do: an organ between others moves by one push at a time, so that
 // what a push did is nobody else's.
 void OrganCollision::part() noexcept {
@@ -151,6 +209,8 @@ void OrganCollision::part() noexcept {
     for (Couple& couple : couples_)
       if (couple.answers) goes_on |= part(couple, round == 0);
   }
+  for (Couple& couple : couples_)
+    if (couple.pushes) remember(couple);
 }
 
 // False where too little is lacking. Tissue pushes, never pulls.
@@ -164,16 +224,15 @@ bool OrganCollision::part(Couple& couple, bool in_any_case) noexcept {
   }
   // once in any case: who is met looks ahead in the next round
   if (!in_any_case && before <= weight_kg * kUnnoticed_m_s * kUnnoticed_m_s) return false;
-  respond(couple);
+  respond(couple, couple.learnt.scale, false);
   couple.answers = before == 0 || answered(couple);
   learn(couple, before);
   return true;
 }
 
 // Its contacts say how fast both spheres are by now, and what is left to do.
-void OrganCollision::respond(Couple& couple) noexcept {
+void OrganCollision::respond(Couple& couple, double scale, bool goes_on) noexcept {
   Body &one = *couple.one, &other = *couple.other;
-  const double scale = couple.learnt.scale;
   for (std::size_t i = 0; i < couple.pairs.size(); ++i) {
     OrganContact &of_one = couple.of_one[i], &of_other = couple.of_other[i];
     Pair& pair = couple.pairs[i];
@@ -181,13 +240,23 @@ void OrganCollision::respond(Couple& couple) noexcept {
     of_one.velocity = other.velocity(of_other.sphere);
     of_other.velocity = one.velocity(of_one.sphere);
     of_one.push_m_s = of_other.push_m_s = pair.push_m_s;
+    if (couple.pushes) {
+      if (!goes_on) rub(couple, i);
+      pair.rubbed += scale * pair.rub_m_s;
+      of_one.rubs_on = of_other.rubs_on = true;
+      of_one.rub_m_s = pair.rub_m_s;
+      of_other.rub_m_s = -pair.rub_m_s;
+    }
     of_one.share = scale * pair.share_of_one;
     of_other.share = scale * pair.share_of_other;
+    of_one.goes_on = of_other.goes_on = goes_on;
   }
-  one.model->respond(couple.of_one);
-  other.model->respond(couple.of_other);
-  one.spheres = one.model->collidable();
-  other.spheres = other.model->collidable();
+  const std::array sides{std::pair(&one, couple.of_one), std::pair(&other, couple.of_other)};
+  crew_.share(2, [&](std::size_t side) {
+    const auto& [body, contacts] = sides[side];
+    body->model->respond(contacts);
+    body->spheres = body->model->collidable();
+  });
 }
 
 // Some sphere is no longer as fast as its contact says.

@@ -2,10 +2,13 @@
 #pragma once
 
 #include "deform_node/organ_models.h"
+#include "physics/intestine/pair_memory.h"
+#include "runtime/crew.h"
 
 #include <Eigen/Geometry>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace omentum::deform {
@@ -14,11 +17,13 @@ namespace omentum::deform {
 /// overlap or nearly so, and lets both models respond. Between two organs the spheres in the common part of
 /// their boxes are tried one by one; two that do not yield are left alone. The models respond in a few
 /// rounds, two organs after two, each to what is lacking after the last one: how much a push moves is the
-/// models' secret, and is learnt of each two from what it did. One thread; allocates in the constructor only.
+/// models' secret, and is learnt of each two from what it did. Where both models want it, a tick begins with
+/// the pushes of the one before, of pairs that still meet. One thread's, which shares the models' work with
+/// its crew; allocates in the constructor only.
 class OrganCollision {
  public:
-  /// The models outlive this.
-  explicit OrganCollision(const std::vector<OrganModel*>& models);
+  /// Both outlive this. Without a crew the calling thread does all.
+  explicit OrganCollision(const std::vector<OrganModel*>& models, runtime::Crew* crew = nullptr);
   OrganCollision(const OrganCollision&) = delete;  // its parts refer to each other
   OrganCollision& operator=(const OrganCollision&) = delete;
 
@@ -43,10 +48,12 @@ class OrganCollision {
 
   /// Two spheres.
   struct Pair {
+    std::int32_t one = 0, other = 0;
     double share_of_one = 0, share_of_other = 0;  // before they are scaled
     double weight_kg = 0;                         // of its speed among those of all pairs
     double push_m_s = 0;                          // of the last round
     double pushed = 0;                            // in this tick, with the scales of the rounds: not below 0
+    Vec3 rub_m_s = Vec3::Zero(), rubbed = Vec3::Zero();  // the same across the push, where that goes on
   };
 
   /// How two organs answer, since they met.
@@ -56,6 +63,13 @@ class OrganCollision {
     bool is_first = true;                                       // nothing was asked of them yet
   };
 
+  /// How hard pairs of spheres pushed and rubbed in the newest tick, kg m/s.
+  struct Push {
+    double along = 0;
+    Vec3 across = Vec3::Zero();
+  };
+  using Pushes = physics::PairMemory<Push>;
+
   /// Two organs. What they meet of each other in this tick has one place in all three lists.
   struct Couple {
     Body *one, *other;
@@ -64,19 +78,26 @@ class OrganCollision {
     std::span<OrganContact> of_one, of_other;
     bool answers = false;  // in this tick
     Learnt learnt;
+    std::optional<Pushes> pushes{};  // where both begin with those of the tick before
   };
 
   void gather() noexcept;
   bool collide(Couple& couple) noexcept;
   bool find_pairs(Body& one, Body& other) noexcept;
   static void share_out(Couple& couple) noexcept;
+  void go_on() noexcept;
+  void go_on(Couple& couple) noexcept;
+  static void remember(Couple& couple) noexcept;
+  static void rub(Couple& couple, std::size_t pair) noexcept;
   void part() noexcept;
-  static bool part(Couple& couple, bool in_any_case) noexcept;
-  static void respond(Couple& couple) noexcept;
+  bool part(Couple& couple, bool in_any_case) noexcept;
+  void respond(Couple& couple, double scale, bool goes_on) noexcept;
   static bool answered(const Couple& couple) noexcept;
   static void learn(Couple& couple, double before) noexcept;
   static double lacking(const Couple& couple, std::size_t pair) noexcept;
 
+  runtime::Crew alone_{0};
+  runtime::Crew& crew_;
   std::vector<Body> bodies_;
   std::vector<Couple> couples_;  // each two of them
   std::vector<Pair> pairs_;      // of this tick; never beyond its capacity

@@ -14,8 +14,6 @@ constexpr double kParting_per_s = 50;
 constexpr double kTouch_m = 0.001;
 // However deep: organs that a scene begins with in one another part, and are not shot away.
 constexpr double kFastest_m_s = 0.2;
-// Wet serous tissue on the same.
-constexpr double kFriction = 0.2;
 
 }  // namespace
 
@@ -25,6 +23,7 @@ double lacking_speed(const OrganContact& contact, const Vec3& own_velocity) noex
 }
 
 Vec3 answer(const OrganContact& contact, const Vec3& own_velocity) noexcept {
+  if (contact.rubs_on) return contact.share * (contact.push_m_s * contact.normal + contact.rub_m_s);
   const Vec3 relative = own_velocity - contact.velocity;
   const Vec3 sliding = relative - relative.dot(contact.normal) * contact.normal;
   const double sliding_m_s = sliding.norm(), most_m_s = kFriction * std::max(0.0, contact.push_m_s);

@@ -28,7 +28,15 @@ struct OrganContact {
   // what OrganCollision found to be good for all contacts of the two organs.
   double share = 1;
   double push_m_s = 0;  // how much faster both are to part; below 0: less, where they were pushed too much
+  // Where pushes go on from tick to tick (OrganCollision), so does what rubs: by how much the spheres'
+  // sliding is to change, m/s, in W. Elsewhere each push rubs anew.
+  bool rubs_on = false;
+  geometry::Vec3 rub_m_s = geometry::Vec3::Zero();
+  bool goes_on = false;  // a push of the tick before, with which this one begins
 };
+
+/// Wet serous tissue on the same (Coulomb).
+inline constexpr double kFriction = 0.2;
 
 /// How much faster both have to part than they do, m/s; below 0: fast enough. They part the faster the deeper
 /// they overlap, down to a depth at which they stay in touch.

@@ -14,14 +14,26 @@ std::vector<OrganModel*> models_of(const std::vector<ServedOrgan>& organs) {
   return models;
 }
 
+// Beside the calling thread: one for each further organ that costs.
+std::size_t helpers_for(const std::vector<ServedOrgan>& organs, std::size_t most_threads) {
+  const auto costly = static_cast<std::size_t>(
+      std::ranges::count_if(organs, [](const ServedOrgan& served) { return served.model->sizes().costs; }));
+  return std::max<std::size_t>(1, std::min(costly, most_threads)) - 1;
+}
+
 }  // namespace
 
-OrganGroup::OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faults)
-    : organs_(std::move(organs)), faults_(faults), collision_(models_of(organs_)) {}
+OrganGroup::OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faults, std::size_t most_threads)
+    : organs_(std::move(organs)),
+      faults_(faults),
+      crew_(helpers_for(organs_, most_threads)),
+      collision_(models_of(organs_), &crew_) {}
 
 void OrganGroup::step(ContactBook& book, double dt_s) noexcept {
-  for (std::uint32_t i = 0; i < organs_.size(); ++i)
-    organs_[i].model->step({.presses = book.loads(i), .cuts = book.cuts(i)}, dt_s);
+  crew_.share(organs_.size(), [&](std::size_t organ) {
+    const auto i = static_cast<std::uint32_t>(organ);
+    organs_[organ].model->step({.presses = book.loads(i), .cuts = book.cuts(i)}, dt_s);
+  });
   if (!collision_.run()) faults_.raise("organs meet in more places than there is room for");
   for (std::uint32_t i = 0; i < organs_.size(); ++i) {
     heed(i, book);

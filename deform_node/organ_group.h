@@ -4,6 +4,7 @@
 #include "deform_node/organ_collision.h"
 #include "deform_node/organ_cuts.h"
 #include "deform_node/served_organ.h"
+#include "runtime/crew.h"
 #include "runtime/faults.h"
 
 #include <vector>
@@ -11,12 +12,14 @@
 namespace omentum::deform {
 
 /// Steps each organ's model under what the tools do to it, then lets the organs meet one another. What a
-/// model says is wrong becomes a fault; one that diverged goes back to rest. One thread; step() and reset()
+/// model says is wrong becomes a fault; one that diverged goes back to rest. Where several organs cost, they
+/// are stepped at the same time, which changes nothing of what they do. One thread's; step() and reset()
 /// allocate nothing.
 class OrganGroup {
  public:
-  /// `faults` outlives this.
-  OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faults);
+  /// `faults` outlives this. `most_threads`: at most so many step organs, the calling one counted.
+  OrganGroup(std::vector<ServedOrgan> organs, runtime::FaultList& faults,
+             std::size_t most_threads = std::thread::hardware_concurrency());
 
   /// `book` has advanced to this moment, and learns the versions that the organs are at.
   void step(ContactBook& book, double dt_s) noexcept;
@@ -42,6 +45,7 @@ class OrganGroup {
 
   std::vector<ServedOrgan> organs_;
   runtime::FaultList& faults_;
+  runtime::Crew crew_;
   OrganCollision collision_;
 };
 

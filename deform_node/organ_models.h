@@ -29,6 +29,7 @@ struct ToolLoad {
   std::span<const Vec3> displacements;  // imposed u of each node, in W, m
   std::span<const Vec3> forces;         // on the tissue, in W, N, times `gain`
   double gain = 1;                      // below 1: its hand fell silent, and lets go
+  bool grasps = false;                  // holds the nodes: they go where it goes, in any direction
 };
 
 /// What a tool's cutting edge swept since the last tick: the two ruled triangles between both places.
@@ -97,10 +98,15 @@ struct ModelSizes {
   // what the push does: on more of an organ, or on as much for many spheres.
   double most_scale = 200;
   std::size_t body = 0;  // of OrganView::body_u; its surface is as large as a third of `values`
+  bool costs = false;    // its step is worth a thread
+  // Among models that do, a tick begins with the pushes of the last one, which offered velocities have in
+  // them.
+  bool keeps_pushes = false;
 };
 
 /// One organ's deformation. The quasi-static, tensor-mass, hybrid and intestine models each are one of
-/// these; deform_node knows nothing else of them. One thread at a time. What is noexcept allocates nothing.
+/// these; deform_node knows nothing else of them. One thread at a time, not always the same. What is noexcept
+/// allocates nothing.
 class OrganModel {
  public:
   virtual ~OrganModel() = default;

@@ -66,7 +66,9 @@ Wrench ForceHold::decaying(double stale_s) noexcept {
 // The newest answer, shortened to the effort that may have come back by now; direction and the ratio of force
 // and torque are kept.
 Wrench ForceHold::fading_in(std::int64_t now_ns) noexcept {
-  const double allowed = fade_begin_effort_ + 1e-9 * static_cast<double>(now_ns - fade_begin_ns_) / kFadeIn_s;
+  // an answer may have arrived after the moment of this tick
+  const double faded_s = std::max(0.0, 1e-9 * static_cast<double>(now_ns - fade_begin_ns_));
+  const double allowed = fade_begin_effort_ + faded_s / kFadeIn_s;
   const double asked = effort(newest_);
   fades_in_ = asked > allowed;
   return fades_in_ ? scaled(newest_, allowed / asked) : newest_;

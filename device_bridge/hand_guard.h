@@ -41,6 +41,7 @@ class HandGuard {
  private:
   void rise_to(Wrench& wrench, double rise_s) const noexcept;
   void only_actuated(Vec3& force) const noexcept;
+  bool drives_grip() const noexcept { return axes_ == 0 || (axes_ & msg::AXIS_GRIP) != 0; }
   double stored_j() noexcept;
   void act(bool simulated) noexcept;
   void reckon() noexcept;
@@ -54,6 +55,7 @@ class HandGuard {
   Wrench asked_, exerted_, exerted_before_;
   // what acted since the newest measurement, times its time: the hand is taken to go evenly between two
   Vec3 impulse_ = Vec3::Zero(), angular_impulse_ = Vec3::Zero();  // N s, N m s
+  double grip_impulse_ = 0;                                       // N m s
   double acted_s_ = 0;
   std::int64_t limited_ns_ = 0;
   bool limited_ = false;
@@ -63,12 +65,14 @@ class HandGuard {
   std::int64_t measured_ns_ = 0;
   Vec3 tip_ = Vec3::Zero();
   Quat orientation_ = Quat::Identity();
+  double grip_ = 0;  // rad
   node::HandMotion motion_;
   double way_s_ = 0;       // what the newest way took
   double reckoned_j_ = 0;  // charged since the newest measurement, as if the hand had gone on
   // where the hand was when it was last free
   Vec3 free_tip_ = Vec3::Zero();
   Quat free_orientation_ = Quat::Identity();
+  double free_grip_ = 0;
 };
 
 }  // namespace omentum::device

@@ -74,12 +74,14 @@ const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
   exerted_ = newest;
   pose_.answer_seq = moving.answer_seq;
   const Vec3 before = from_message(pose_.position);
+  const double opened_before = pose_.grip;
   const bool moved_from_there = pose_.valid;
   const Measurement measured = device_->measure(now_ns);
   fill(measured, now_ns);
   guard_.follow(measured, pose_.valid, device_->simulates());
   if (moved_from_there && pose_.valid) {
-    energy_j_ += moving.wrench.force.dot(from_message(pose_.position) - before);
+    energy_j_ += moving.wrench.force.dot(from_message(pose_.position) - before) +
+                 moving.wrench.grip_torque * (pose_.grip - opened_before);
     most_energy_j_ = std::max(most_energy_j_, energy_j_);
   }
   gate_.sent(pose_.seq, pose_.stamp_ns);

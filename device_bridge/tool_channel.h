@@ -38,7 +38,8 @@ class ToolChannel {
   void release() noexcept { device_->command({}); }
 
   std::uint64_t sent() const { return pose_.seq; }
-  /// Given to the hand by the forces' work along the way of the tip, J: negative where the hand gave.
+  /// Given to the hand by the forces' work along the way of the tip, and that of the jaws' torque, J:
+  /// negative where the hand gave.
   double energy_j() const { return energy_j_; }
   /// The most that it was at any time, J: EnergyTank::kBound_j bounds it.
   double most_energy_j() const { return most_energy_j_; }

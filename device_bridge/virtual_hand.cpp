@@ -45,8 +45,9 @@ msg::DeviceInfo VirtualHand::info() const {
   info.damping_n_s_m = hand_.damping_n_s_m;
   info.workspace_min = to_message(middle - Vec3::Constant(kReach_m));
   info.workspace_max = to_message(middle + Vec3::Constant(kReach_m));
-  info.actuated_axes = msg::AXIS_X | msg::AXIS_Y | msg::AXIS_Z;
-  info.sensed_axes = info.actuated_axes | msg::AXIS_PITCH | msg::AXIS_YAW | msg::AXIS_ROLL | msg::AXIS_GRIP;
+  constexpr std::uint32_t kPlace = msg::AXIS_X | msg::AXIS_Y | msg::AXIS_Z;
+  info.actuated_axes = kPlace | (tool_.shape == "grasper" ? msg::AXIS_GRIP : 0);
+  info.sensed_axes = kPlace | msg::AXIS_PITCH | msg::AXIS_YAW | msg::AXIS_ROLL | msg::AXIS_GRIP;
   return info;
 }
 
@@ -100,6 +101,7 @@ void VirtualHand::record() noexcept {
   const Vec3 press_point(hand_.press_point.data()), normal(hand_.press_normal.data());
   const double force_n = wrench_.force.norm();
   peak_force_n_ = std::max(peak_force_n_, force_n);
+  peak_grip_torque_nm_ = std::max(peak_grip_torque_nm_, std::abs(wrench_.grip_torque));
   deepest_target_m_ = std::max(deepest_target_m_, (press_point - target_.position).dot(normal));
   deepest_tip_m_ = std::max(deepest_tip_m_, (press_point - tip_.position).dot(normal));
   if (script_.height_m < 0) press_force_n_.add(force_n);
@@ -109,6 +111,7 @@ void VirtualHand::record() noexcept {
 nlohmann::json VirtualHand::report() const {
   return {{"tool", hand_.tool},
           {"peak_force_n", peak_force_n_},
+          {"peak_grip_torque_nm", peak_grip_torque_nm_},
           {"mean_force_n", press_force_n_.value()},
           {"hold_force_n", hold_force_n_.value()},
           {"deepest_target_m", deepest_target_m_},

@@ -23,9 +23,9 @@ class VirtualHand : public Device {
   /// The target glides back to the start of its script.
   void restart() noexcept override;
 
-  /// {"tool", "peak_force_n", "mean_force_n", "hold_force_n", "deepest_target_m", "deepest_tip_m"}: the mean
-  /// while the target is below the rest surface; "hold_force_n" the mean over the second halves of the holds,
-  /// the steady force; depths below the rest surface along the press normal.
+  /// {"tool", "peak_force_n", "peak_grip_torque_nm", "mean_force_n", "hold_force_n", "deepest_target_m",
+  /// "deepest_tip_m"}: the mean while the target is below the rest surface; "hold_force_n" the mean over the
+  /// second halves of the holds, the steady force; depths below the rest surface along the press normal.
   nlohmann::json report() const override;
 
  private:
@@ -53,7 +53,7 @@ class VirtualHand : public Device {
   double script_s_ = 0;              // script time
   double return_s_ = 0;              // since restart()
   Vec3 return_from_ = Vec3::Zero();  // the target at restart() relative to the script's start
-  double peak_force_n_ = 0, deepest_target_m_ = 0, deepest_tip_m_ = 0;
+  double peak_force_n_ = 0, peak_grip_torque_nm_ = 0, deepest_target_m_ = 0, deepest_tip_m_ = 0;
   Mean press_force_n_, hold_force_n_;
 };
 

@@ -1,6 +1,7 @@
 #include "geometry/manifold_repair.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace omentum::geometry {
 namespace {
@@ -26,8 +27,9 @@ void for_each_neighbour_around(const RemainingTetrahedra& left, TetId t, NodeId 
 
 }  // namespace
 
-ManifoldRepair::ManifoldRepair(const RemainingTetrahedra& left)
+ManifoldRepair::ManifoldRepair(const RemainingTetrahedra& left, std::span<const std::uint8_t> kept)
     : left_(left),
+      kept_(kept.begin(), kept.end()),
       noted_(static_cast<std::size_t>(left.links().node_count())),
       is_noted_(noted_.size(), false),
       place_(static_cast<std::size_t>(left.links().tetrahedron_count()), kNone),
@@ -138,6 +140,9 @@ void ManifoldRepair::condemn_smaller_fans(NodeId n, NodeId edge_end) noexcept {
     fan_size_.push_back(mark_fan(static_cast<std::int32_t>(i), fan, n, edge_end));
   }
   if (fan_size_.size() < 2) return;
+  for (std::size_t i = 0; i < star_.size(); ++i)
+    if (fan_[i] != kNone && is_kept(star_[i]))
+      at(fan_size_, fan_[i]) = std::numeric_limits<std::int32_t>::max();
   const auto largest = std::ranges::max_element(fan_size_) - fan_size_.begin();
   for (std::size_t i = 0; i < star_.size(); ++i) {
     if (fan_[i] != kNone && fan_[i] != largest) victims_.push_back(star_[i]);
@@ -217,6 +222,7 @@ std::int32_t ManifoldRepair::bridge_end(NodeId n) noexcept {
   fan_.assign(star_.size(), 0);
   pending_.clear();
   for (const Side& side : sides_) {
+    if (is_kept(at(star_, side.owner))) continue;
     if (side.fan != 0) {
       at(fan_, side.owner) = kFar;
     } else if (at(reached_from_, side.owner) == kUnreached) {
@@ -229,7 +235,7 @@ std::int32_t ManifoldRepair::bridge_end(NodeId n) noexcept {
     if (at(fan_, from) == kFar) return from;
     for_each_neighbour_around(left_, at(star_, from), n, NodeId{}, [&](TetId neighbour) {
       const std::int32_t place = at(place_, neighbour);
-      if (at(reached_from_, place) != kUnreached) return;
+      if (at(reached_from_, place) != kUnreached || is_kept(neighbour)) return;
       at(reached_from_, place) = from;
       pending_.push_back(place);
     });

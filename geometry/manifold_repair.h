@@ -16,14 +16,16 @@ namespace omentum::geometry {
 ///   - boundary faces around a node that form several fans, although faces connect its tetrahedra (hollows
 ///   that
 ///     touch there): the fewest tetrahedra that part the first of the hollows from another are to go.
-/// Largest: of most tetrahedra, among equals the one with the lowest number. Whoever removes what it names
+/// Largest: of most tetrahedra, among equals the one with the lowest number; but what is kept is not to go.
+/// Whoever removes what it names
 /// and tells it of each, until it names nothing, comes to an end, because each answer takes at least one
 /// tetrahedron away; then every node that was near a removal has one fan of tetrahedra and one, or none, of
 /// boundary faces, and so every boundary edge two faces. Takes its memory when it is made. `left` outlives
 /// it.
 class ManifoldRepair {
  public:
-  explicit ManifoldRepair(const RemainingTetrahedra& left);
+  /// `kept`: [T], other than 0 for what never is to go, which is manifold by itself; or empty.
+  explicit ManifoldRepair(const RemainingTetrahedra& left, std::span<const std::uint8_t> kept = {});
 
   /// A tetrahedron was removed: its nodes are looked at.
   void note_removed(TetId t) noexcept;
@@ -55,8 +57,11 @@ class ManifoldRepair {
   void condemn_bridge(NodeId n) noexcept;
   std::int32_t bridge_end(NodeId n) noexcept;
 
+  bool is_kept(TetId t) const noexcept { return !kept_.empty() && kept_[static_cast<std::size_t>(t)] != 0; }
+
   const RemainingTetrahedra& left_;
-  std::vector<NodeId> noted_;  // a ring, [N]: each node at most once
+  std::vector<std::uint8_t> kept_;  // [T], or empty
+  std::vector<NodeId> noted_;       // a ring, [N]: each node at most once
   std::size_t first_ = 0, noted_count_ = 0;
   std::vector<bool> is_noted_;                         // [N]
   std::vector<TetId> star_;                            // around the node, ascending

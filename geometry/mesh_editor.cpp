@@ -3,6 +3,7 @@
 #include "geometry/surface.h"
 
 #include <bit>
+#include <limits>
 
 namespace omentum::geometry {
 namespace {
@@ -11,12 +12,15 @@ std::vector<NodeId> uncut_nodes(const TetraMesh& mesh, std::span<const NodeId> c
   return chosen.empty() ? extract_surface(mesh, {}).node : std::vector<NodeId>(chosen.begin(), chosen.end());
 }
 
-std::vector<double> volumes(const TetraMesh& mesh) {
+// What is kept makes every piece that holds it large enough.
+std::vector<double> volumes(const TetraMesh& mesh, std::span<const std::uint8_t> kept) {
   std::vector<double> volume_m3;
   volume_m3.reserve(mesh.tetrahedra.size());
   const auto at = [&](NodeId n) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(n)]; };
   for (const auto& [a, b, c, d] : mesh.tetrahedra)
     volume_m3.push_back(signed_volume(at(a), at(b), at(c), at(d)));
+  for (std::size_t t = 0; t < kept.size(); ++t)
+    if (kept[t] != 0) volume_m3[t] = std::numeric_limits<double>::infinity();
   return volume_m3;
 }
 
@@ -26,8 +30,8 @@ MeshEditor::MeshEditor(const TetraMesh& mesh, const EditorOptions& options)
     : links_(mesh.tetrahedra, mesh.positions.size()),
       left_(links_),
       surface_(links_, uncut_nodes(mesh, options.uncut_surface)),
-      repair_(left_),
-      pieces_(left_, volumes(mesh)),
+      repair_(left_, options.kept),
+      pieces_(left_, volumes(mesh, options.kept)),
       smallest_piece_m3_(options.smallest_piece_m3) {
   gone_.reserve(mesh.tetrahedra.size());
 }

@@ -19,6 +19,9 @@ struct EditorOptions {
   /// Nodes of the uncut surface in the order that they are to have: an organ file's (Surface::node); read by
   /// the constructor alone. Empty: that of extract_surface(mesh, {}).
   std::span<const NodeId> uncut_surface{};
+  /// [T], other than 0 for tetrahedra that only go when they are asked for: never to repair the mesh, nor in
+  /// a small piece. Empty: none. Precondition: they are manifold by themselves.
+  std::span<const std::uint8_t> kept{};
 };
 
 /// What one removal took, valid until the next change. Each tetrahedron stands in one of the three.

@@ -25,7 +25,8 @@ struct SphereCover {
 
 /// Every triangle, in pieces smaller than the spacing, lies in a sphere whole: the surface has no gap. Where
 /// the body is thick, a sphere stands out by a third of the spacing; where it is thin, its centre is as deep
-/// as there is room. About `about` spheres, from the mesh alone: the same on every machine. O(about x T).
+/// as there is room. A triangle without area gets none: its neighbours have it. About `about` spheres, from
+/// the mesh alone: the same on every machine. Looks at the tetrahedra that begin near a sphere along x only.
 SphereCover cover_with_spheres(const TetraMesh& mesh, const Surface& surface, double about = 150);
 
 }  // namespace omentum::geometry

@@ -1,6 +1,7 @@
 #include "haptic_node/acting_force.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace omentum::haptic {
 namespace {
@@ -32,25 +33,27 @@ double ActingForce::share_at(const Told& told, double time_s) const noexcept {
 // The share of the wrench that is exerted at least, because the device has let it in by now.
 double ActingForce::faded_in(const Wrench& wrench) const noexcept {
   const double allowed = (now_s_ - fade_begin_s_) / kFadeIn_s;
-  return std::min(share_within(wrench.force.norm(), allowed * max_force_n_),
-                  share_within(wrench.torque.norm(), allowed * max_torque_nm_));
+  return std::min({share_within(wrench.force.norm(), allowed * max_force_n_),
+                   share_within(wrench.torque.norm(), allowed * max_torque_nm_),
+                   share_within(std::abs(wrench.grip_torque), allowed * max_torque_nm_)});
 }
 
-double ActingForce::work_of(const Told& told, const Vec3& way, const Vec3& turn,
-                            double begin_s) const noexcept {
-  const double told_j = told.wrench.force.dot(way) + told.wrench.torque.dot(turn);
+double ActingForce::work_of(const Told& told, double told_j, double begin_s) const noexcept {
   // what the hand put in is not believed before the force was surely there
   const double full_j = told_j < 0 ? told_j * faded_in(told.wrench) : told_j;
   // as at the beginning of the way, or as at its end: it may have been gone early or late
   return std::max(full_j * share_at(told, begin_s), full_j * share_at(told, now_s_));
 }
 
-ActingForce::Work ActingForce::work(const Vec3& way, const Vec3& turn, double took_s) const noexcept {
+ActingForce::Work ActingForce::work(const Vec3& way, const Vec3& turn, double took_s,
+                                    double opened_rad) const noexcept {
   const double begin_s = now_s_ - took_s;
   Work work;
   for (std::size_t back = 0; back < kTold; ++back) {
     const Told& told = told_[(newest_ + kTold - back) % kTold];
-    work.late_j = work_of(told, way, turn, begin_s);
+    const double told_j =
+        told.wrench.force.dot(way) + told.wrench.torque.dot(turn) + told.wrench.grip_torque * opened_rad;
+    work.late_j = work_of(told, told_j, begin_s);
     const bool since = told.at_s >= begin_s - kOnItsWay_s;
     if (back == 0 || since) work.soon_j = back == 0 ? work.late_j : std::max(work.soon_j, work.late_j);
     if (!since) break;

@@ -32,8 +32,8 @@ class ActingForce {
     double soon_j = 0;  // it turns to an answer at once: the most that those written since the way began gave
     double late_j = 0;  // in its next period: the one that was written before
   };
-  /// The way (m; rad, in W) took the last `took_s`.
-  Work work(const Vec3& way, const Vec3& turn, double took_s) const noexcept;
+  /// The way (m; rad, in W) took the last `took_s`, and the jaws opened by `opened_rad` on it.
+  Work work(const Vec3& way, const Vec3& turn, double took_s, double opened_rad = 0) const noexcept;
 
  private:
   struct Told {
@@ -42,7 +42,7 @@ class ActingForce {
   };
   double share_at(const Told& told, double time_s) const noexcept;
   double faded_in(const Wrench& wrench) const noexcept;
-  double work_of(const Told& told, const Vec3& way, const Vec3& turn, double begin_s) const noexcept;
+  double work_of(const Told& told, double told_j, double begin_s) const noexcept;
 
   // those of the longest way between two poses of one connection: answers come at most every 1.5 ms without
   // a pose

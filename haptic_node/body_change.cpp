@@ -54,7 +54,9 @@ void end_empty_grasps(HapticState& state) {
     const auto holds = [t](const ToolContact& contact) {
       return contact.grasped && contact.tool == static_cast<std::int32_t>(t);
     };
-    state.tools[t].grasping &= std::ranges::any_of(state.active(), holds);
+    if (!state.tools[t].grasping || std::ranges::any_of(state.active(), holds)) continue;
+    state.tools[t].grasping = false;
+    ++state.tools[t].grasps.lost;
   }
 }
 

@@ -47,7 +47,9 @@ double sliding_of(const HapticState& state, std::int32_t tool, const Vec3& push)
   for (const ToolContact& contact : state.active()) {
     if (contact.tool != tool || !contact.touches()) continue;
     const Vec3 way = state.tools[tool].now[contact.point] - state.tools[tool].before[contact.point];
-    const double pressed = way.dot(push), squared = pressed * pressed / push.squaredNorm();
+    // what is held does not slide, whichever way it is pulled
+    const double pressed = way.dot(push),
+                 squared = contact.grasped ? way.squaredNorm() : pressed * pressed / push.squaredNorm();
     along += contact.force.norm() * squared;
     across += contact.force.norm() * (way.squaredNorm() - squared);
   }

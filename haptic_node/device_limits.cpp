@@ -33,6 +33,7 @@ void drop_unactuated(Wrench& wrench, std::uint32_t axes, const Eigen::Quaternion
   constexpr std::uint32_t kTorques = msg::AXIS_PITCH | msg::AXIS_YAW | msg::AXIS_ROLL;
   if (axes == 0) return;
   wrench.force = along_axes(wrench.force, axes, msg::AXIS_X);
+  if (!(axes & msg::AXIS_GRIP)) wrench.grip_torque = 0;
   // the rotation there and back would only add rounding where nothing is dropped
   if ((axes & kTorques) == kTorques) return;
   wrench.torque = q_WT * along_axes(q_WT.conjugate() * wrench.torque, axes, msg::AXIS_PITCH);

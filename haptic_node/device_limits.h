@@ -40,8 +40,9 @@ inline constexpr LimitBounds kStiffnessBounds_n_m{1, 1e6};
 DeviceLimits stricter(const DeviceLimits& one, const DeviceLimits& other) noexcept;
 
 /// Takes out of the wrench what the device has no motor for: forces along W's axes, torques about the tool's
-/// own (pitch: T's x, yaw: T's y, roll: T's z, the shaft). A device that names no axis at all gets the whole
-/// wrench: it exerts none of it (a tracker, a recorded hand), and it is worth showing.
+/// own (pitch: T's x, yaw: T's y, roll: T's z, the shaft), the torque on its jaws. A device that names no
+/// axis at all gets the whole wrench: it exerts none of it (a tracker, a recorded hand), and it is worth
+/// showing.
 void drop_unactuated(Wrench& wrench, std::uint32_t axes, const Eigen::Quaterniond& q_WT) noexcept;
 
 }  // namespace omentum::haptic

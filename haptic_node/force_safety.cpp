@@ -25,8 +25,15 @@ bool shorten(Vec3& v, double limit) {
   return true;
 }
 
-bool approach(Vec3& target, const Vec3& from, double limit) {
-  Vec3 change = target - from;
+bool shorten(double& x, double limit) {
+  const double before = x;
+  x = std::clamp(x, -limit, limit);
+  return x != before;
+}
+
+template <class T>
+bool approach(T& target, const T& from, double limit) {
+  T change = target - from;
   if (!shorten(change, limit)) return false;
   target = from + change;
   return true;
@@ -35,16 +42,18 @@ bool approach(Vec3& target, const Vec3& from, double limit) {
 }  // namespace
 
 bool clamp_wrench(Wrench& wrench, double max_force_n, double max_torque_nm) noexcept {
-  const bool force = shorten(wrench.force, max_force_n), torque = shorten(wrench.torque, max_torque_nm);
-  return force || torque;
+  const bool force = shorten(wrench.force, max_force_n), torque = shorten(wrench.torque, max_torque_nm),
+             grip = shorten(wrench.grip_torque, max_torque_nm);
+  return force || torque || grip;
 }
 
 bool slew_wrench(Wrench& wrench, const Wrench& before, const ForceLimits& limits, double dt_s) noexcept {
-  const double step_n = limits.max_slew_n_s * dt_s;
+  const double step_n = limits.max_slew_n_s * dt_s,
+               step_nm = step_n * limits.max_torque_nm / limits.max_force_n;
   const bool force = approach(wrench.force, before.force, step_n);
-  const bool torque =
-      approach(wrench.torque, before.torque, step_n * limits.max_torque_nm / limits.max_force_n);
-  return force || torque;
+  const bool torque = approach(wrench.torque, before.torque, step_nm);
+  const bool grip = approach(wrench.grip_torque, before.grip_torque, step_nm);
+  return force || torque || grip;
 }
 
 double fade(double gain, bool fresh, const ForceLimits& limits, double dt_s) noexcept {
@@ -79,11 +88,12 @@ void ForceSafety::follow(const SafetyInput& input) noexcept {
   const bool same_hand = known_place_ && !input.reconnected;
   if (same_hand && input.way_s > 0) {
     const Vec3 way = input.tip - tip_, turn = rotation_between(orientation_, input.orientation);
-    const ActingForce::Work given = acting_.work(way, turn, input.way_s);
+    const double opened_rad = input.grip - grip_;
+    const ActingForce::Work given = acting_.work(way, turn, input.way_s, opened_rad);
     charge({given.soon_j - reckoned_.soon_j, given.late_j - reckoned_.late_j}, input);
     reckoned_ = {};
     way_s_ = input.way_s;
-    motion_.follow(way, turn, way_s_);
+    motion_.follow(way, turn, way_s_, opened_rad);
   } else {
     reckon(input);
   }
@@ -95,12 +105,13 @@ void ForceSafety::follow(const SafetyInput& input) noexcept {
   known_place_ = input.engaged;
   tip_ = input.tip;
   orientation_ = input.orientation;
+  grip_ = input.grip;
 }
 
 // While nothing is heard the hand may go on as it did. The next pose puts it right.
 void ForceSafety::reckon(const SafetyInput& input) noexcept {
-  const ActingForce::Work ahead =
-      acting_.work(motion_.velocity * input.dt_s, motion_.turn_rate * input.dt_s, input.dt_s);
+  const ActingForce::Work ahead = acting_.work(motion_.velocity * input.dt_s, motion_.turn_rate * input.dt_s,
+                                               input.dt_s, motion_.grip_rate * input.dt_s);
   const ActingForce::Work given{std::max(0.0, ahead.soon_j), std::max(0.0, ahead.late_j)};
   reckoned_.soon_j += given.soon_j;
   reckoned_.late_j += given.late_j;
@@ -131,14 +142,15 @@ void ForceSafety::fade_to(const SafetyInput& input, std::uint32_t& state) noexce
 }
 
 Wrench ForceSafety::filter(const SafetyInput& input, std::uint32_t& state) noexcept {
-  Wrench wrench{gain_ * input.model.force, gain_ * input.model.torque};
+  Wrench wrench{gain_ * input.model.force, gain_ * input.model.torque, gain_ * input.model.grip_torque};
   limit(input, wrench, state);
   // last of all: what falls by this falls at once
-  share_ = tank().share(
-      node::work_ahead_j(wrench.force, wrench.torque, motion_, kHorizonIntervals * interval_s(input)));
+  share_ = tank().share(node::work_ahead_j(wrench.force, wrench.torque, motion_,
+                                           kHorizonIntervals * interval_s(input), wrench.grip_torque));
   if (share_ < 1) state |= msg::FORCE_PASSIVITY;
   wrench.force *= share_;
   wrench.torque *= share_;
+  wrench.grip_torque *= share_;
   model_ = wrench;
   damp(input, wrench, state);
   return wrench;
@@ -177,7 +189,8 @@ void ForceSafety::let_go() noexcept {
 SafeForce ForceSafety::pass(const SafetyInput& input) noexcept {
   SafeForce out;
   const bool in_place = input.tip.allFinite() && input.orientation.coeffs().allFinite() &&
-                        std::isfinite(input.dt_s) && input.dt_s >= 0 && std::isfinite(input.pose_age_s);
+                        std::isfinite(input.grip) && std::isfinite(input.dt_s) && input.dt_s >= 0 &&
+                        std::isfinite(input.pose_age_s);
   if (!in_place || !is_finite(input.model) || !std::isfinite(input.stored_j)) faulted_ = true;
   if (in_place) {
     follow(input);

@@ -34,11 +34,11 @@ inline constexpr double kLongestInterval_s = 1.1 * kLongestStale_s;
 // ---- pure filters
 // -----------------------------------------------------------------------------------------------
 
-/// Shortens force and torque to their limits, direction kept. Returns whether it did.
+/// Shortens force and torques to their limits, direction kept. Returns whether it did.
 bool clamp_wrench(Wrench& wrench, double max_force_n, double max_torque_nm) noexcept;
 
 /// Limits the change from `before` in dt, force and torque each as a vector: a straight line towards the
-/// target. Torque slews with the force's limit times the ratio of both limits. Returns whether it did.
+/// target. Torques slew with the force's limit times the ratio of both limits. Returns whether it did.
 bool slew_wrench(Wrench& wrench, const Wrench& before, const ForceLimits& limits, double dt_s) noexcept;
 
 /// The fading factor in 0..1: up by dt/ramp while poses are fresh, down by dt/decay while they are stale.
@@ -58,6 +58,7 @@ struct SafetyInput {
   double stored_j = 0;
   Vec3 tip = Vec3::Zero();  // p_WT of the newest pose
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  double grip = 0;             // opening of the jaws, rad
   double pose_age_s = 0;       // since the newest accepted pose arrived
   double pose_interval_s = 0;  // how often this tool's poses come; 0: not known
   double way_s = 0;            // what the way from the last pose to a new one took; 0: no new pose
@@ -125,6 +126,7 @@ class ForceSafety {
   bool known_place_ = false;
   Vec3 tip_ = Vec3::Zero();
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
+  double grip_ = 0;             // rad
   node::HandMotion motion_;     // on the newest way ...
   double way_s_ = 0;            // ... which took so long
   ActingForce::Work reckoned_;  // charged since the newest pose, as if the hand had gone on

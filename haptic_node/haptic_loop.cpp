@@ -54,6 +54,7 @@ HapticLoop::HapticLoop(const HapticOptions& options, const transport::OpenBus& o
   }
   inputs_.resize(lines_.size());
   outputs_.resize(lines_.size());
+  accounts_.resize(lines_.size());
   fresh_.resize(lines_.size());
   news_.resize(lines_.size());
   answered_ns_.resize(lines_.size());
@@ -197,6 +198,7 @@ void HapticLoop::answer(std::int64_t now_ns, double dt_s) noexcept {
     if (!serves(i)) continue;
     const msg::ToolForce& force = lines_[i]->answer(outputs_[i], now_ns, dt_s, paused);
     if (log_) note(i, force);
+    accounts_[i].add(force, outputs_[i].pull_n, setup_.pull_limit_n);
     if (lines_[i]->is_told() && (fresh_[i] || now_ns - answered_ns_[i] >= again_ns)) {
       lines_[i]->sent(force_writer_->write(lines_[i]->to_send(ticks_)));
       answered_ns_[i] = now_ns;
@@ -262,12 +264,16 @@ nlohmann::json HapticLoop::report() const {
                      {"lost", counts.lost},
                      {"energy_given_j", line->safety().tank().given_j()}});
   }
+  nlohmann::json hands = nlohmann::json::array();
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    hands.push_back(to_json(lines_[i]->id(), accounts_[i], setup_.model.tools[i], state_.tools[i]));
   const LocalModelCounts local = local_models_ ? local_models_->counts() : LocalModelCounts{};
   const double samples = static_cast<double>(std::max<std::uint64_t>(1, force_samples_));
   const transport::EndpointStatus link = pose_reader_->status();
   return {{"dds", options_.node.dds},
           {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
           {"force_n", {{"mean", force_sum_n_ / samples}, {"max", force_max_n_}}},
+          {"hands", hands},
           {"contacts",
            {{"ticks_in_contact", ticks_in_contact_},
             {"nodes_max", nodes_max_},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "haptic_node/contact_teller.h"
+#include "haptic_node/hand_account.h"
 #include "haptic_node/haptic_log.h"
 #include "haptic_node/haptic_setup.h"
 #include "haptic_node/local_models.h"
@@ -87,6 +88,7 @@ class HapticLoop {
   std::vector<std::unique_ptr<ToolLine>> lines_;  // [tools]
   std::vector<ToolInput> inputs_;
   std::vector<ToolOutput> outputs_;
+  std::vector<HandAccount> accounts_;  // [tools]
   std::vector<bool> fresh_;
   std::vector<std::int64_t> answered_ns_;
   std::vector<ToolNews> news_;

@@ -7,6 +7,7 @@
 #include "haptic_node/spread_contact.h"
 #include "haptic_node/tool_kinematics.h"
 #include "physics/contact_solver.h"
+#include "scene/scene.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,10 +16,11 @@ namespace omentum::haptic {
 
 /// An instrument as collision sees it.
 struct ToolModel {
-  std::vector<Vec3> points;    // [P] p_TP, m
-  bool grasps = false;         // has jaws
-  std::optional<Vec3> trocar;  // pivot in W, m
-  std::vector<Vec3> edge;      // begin and end of what cuts, p_TP, m; or empty
+  std::vector<Vec3> points;                   // [P] p_TP, m; of jaws: closed
+  bool grasps = false;                        // has jaws (jaws.h)
+  double grip_force_n = scene::kGripForce_n;  // what pulls harder slips out of them
+  std::optional<Vec3> trocar;                 // pivot in W, m
+  std::vector<Vec3> edge;                     // begin and end of what cuts, p_TP, m; or empty
 };
 
 /// How a tool's point deforms the triangle that it touches.
@@ -105,18 +107,27 @@ struct PointMemory {
   Vec3 way_out = Vec3::Zero();          // the normal of the contact that it lost; zero: any way
 };
 
+/// How a tool's grasps came to nothing: jaws closed and had nothing between them, tissue was pulled out of
+/// them, or there was none any more.
+struct GraspCounts {
+  std::uint64_t empty = 0, torn = 0, lost = 0;
+};
+
 struct ToolState {
   bool engaged = false;
   bool let_go = false;  // a contact that carried force was dropped in this tick
   ToolFrame frame;
   Vec3 tip_way = Vec3::Zero();        // in this tick, m
   std::vector<Vec3> before, now;      // [P] points at the last tick and at this one, in W
+  double grip_before = 0, grip = 0;   // opening of its jaws at both, rad
   std::vector<PointMemory> memories;  // [places of bodies][P]
   bool near_others = false;           // it may press nodes that another tool presses
   double others_m = 0;                // how deep the other tools' own dents around it are at most, m
   bool opened = false;                // the jaws were open since the last grasp
   bool grasping = false;
+  int overpulled_ticks = 0;  // in a row in which what they hold was pulled harder than they grip
   std::uint64_t grasp_count = 0;
+  GraspCounts grasps;
   ModelChanges changes;
 
   PointMemory& memory(BodyId body, std::size_t point) noexcept {

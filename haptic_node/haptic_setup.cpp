@@ -30,6 +30,7 @@ std::vector<ToolModel> make_tools(const scene::Scene& scene) {
     ToolModel tool;
     tool.points = spec.points;
     tool.grasps = spec.shape == "grasper";
+    tool.grip_force_n = spec.grip_force_n;
     tool.trocar = spec.trocar;
     tool.edge = spec.edge;
     tools.push_back(std::move(tool));
@@ -114,6 +115,7 @@ HapticSetup make_setup(const scene::Scene& scene, double rate_hz,
   setup.model.mode = h.contact == "spread" ? ContactMode::kSpread : ContactMode::kPoint;
   setup.limits = {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s,
                   h.stale_s,     h.decay_s,       1 / rate_hz};
+  setup.pull_limit_n = scene.score.pull_limit_n;
   for (const scene::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
   return setup;
 }

@@ -25,6 +25,7 @@ struct HapticSetup {
   std::vector<LocalOrgan> local_organs;
   std::vector<std::uint32_t> tool_ids;  // one per tool of the model
   ForceLimits limits;
+  double pull_limit_n = 0;  // of the trainee's score
   node::LoadedScene scene;
 };
 

@@ -3,6 +3,7 @@
 #include "haptic_node/body_change.h"
 #include "haptic_node/contact_list.h"
 #include "haptic_node/contact_work.h"
+#include "haptic_node/jaws.h"
 #include "haptic_node/lost_contact.h"
 #include "haptic_node/node_forces.h"
 #include "haptic_node/other_tools.h"
@@ -63,13 +64,15 @@ void solve_spread_contacts(const HapticModel& model, HapticState& state, HapticW
   propose_forces(state, work.bodies);
 }
 
-void measure(std::span<const ToolInput> inputs, const HapticState& state, std::span<ToolOutput> outputs) {
+void measure(const HapticModel& model, std::span<const ToolInput> inputs, const HapticState& state,
+             std::span<ToolOutput> outputs) {
   for (std::size_t t = 0; t < outputs.size(); ++t) {
     const ContactEnergy& energy = state.energies[t];
     outputs[t] = {};
     outputs[t].grasping = state.tools[t].grasping;
     outputs[t].grasp_count = state.tools[t].grasp_count;
     outputs[t].share = energy.share;
+    if (outputs[t].grasping) outputs[t].pull_n = energy.share * pull_n(state, static_cast<std::int32_t>(t));
     outputs[t].stored_j = std::max(0.0, energy.account_j);
     outputs[t].force = energy.side;
     if (inputs[t].engaged && !is_sound(inputs[t])) outputs[t].force.setConstant(kNoNumber);
@@ -83,6 +86,7 @@ void measure(std::span<const ToolInput> inputs, const HapticState& state, std::s
     ++output.touching;
     output.force -= felt;
     output.torque -= (tool.now[contact.point] - tool.frame.p_WT).cross(felt);
+    output.grip_torque += grip_torque(model.tools[contact.tool], tool, contact, felt);
   }
 }
 
@@ -134,7 +138,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
   bodies.for_each([&](BodyId, Body& body) { body.go_on(state.now_ns); });
   take_in_bodies(state, work);
   evaluate_neighbourhood(state, bodies);
-  leave_astray(state, bodies);
+  leave_astray(model, state, bodies);
   follow_surface(model, state, bodies);
   meet_appeared(state, bodies);
   find_contacts(state, bodies);
@@ -159,7 +163,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
     if (model.mode == ContactMode::kPoint) measure_exchange(work.problem, state, work.before, work.works);
     settle_own_motion(state, work.works);
     balance(state.energies, work.works, anyone_let_go(state));
-    measure(inputs, state, outputs);
+    measure(model, inputs, state, outputs);
   } else {
     result.status = physics::ContactStatus::kNotFinite;
     stop(state, outputs);

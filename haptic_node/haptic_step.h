@@ -9,10 +9,12 @@ namespace omentum::haptic {
 struct ToolOutput {
   Vec3 force = Vec3::Zero();   // on the hand at the tip, in W, N
   Vec3 torque = Vec3::Zero();  // on the hand about the tip, in W, N m
+  double grip_torque = 0;      // on the jaws, N m, positive opens (jaws.h)
   double stored_j = 0;         // what its contacts hold for the hand: its account (contact_energy.h)
   double share = 1;            // of the model's force, that is felt and borne (see contact_energy.h)
   int touching = 0;            // contacts with a force
   bool grasping = false;
+  double pull_n = 0;  // at what its jaws hold (jaws.h), as it is felt, N
   std::uint64_t grasp_count = 0;
 };
 

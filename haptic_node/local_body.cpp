@@ -1,5 +1,6 @@
 #include "haptic_node/local_body.h"
 
+#include "node_common/contact_bounds.h"
 #include "physics/compliance_tiles.h"
 #include "transport/messages.h"
 
@@ -203,15 +204,14 @@ bool in_a_scene(const Vec3& position) {
   return position.allFinite() && position.cwiseAbs().maxCoeff() <= kFarthest_m;
 }
 
-// Faster no tissue swings, and softer is none; NaN and infinity are neither.
+// Faster no tissue swings; NaN and infinity are no speed and no compliance.
 constexpr double kFastest_m_s = 10;
-constexpr float kSoftest_m_n = 1;
 
 bool all_finite(const LocalPatch& patch) {
   return std::ranges::all_of(patch.positions, in_a_scene) &&
          std::ranges::all_of(patch.forces, [](const Vec3& f) { return f.allFinite(); }) &&
          std::ranges::all_of(patch.velocities, [](const Vec3& v) { return v.norm() <= kFastest_m_s; }) &&
-         std::ranges::all_of(patch.compliance, [](float c) { return std::abs(c) <= kSoftest_m_n; });
+         std::ranges::all_of(patch.compliance, [](float c) { return std::abs(c) <= node::kSoftest_m_n; });
 }
 
 bool spans_an_area(std::span<const Vec3> positions, const geometry::Triangle& t) {

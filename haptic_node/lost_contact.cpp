@@ -1,6 +1,7 @@
 #include "haptic_node/lost_contact.h"
 
 #include "haptic_node/contact_list.h"
+#include "haptic_node/jaws.h"
 
 #include <cmath>
 #include <limits>
@@ -44,12 +45,24 @@ bool is_through(const ToolState& tool, const ToolContact& contact, Body& body) {
   return body.tissue_ahead(contact.held, at_the_surface(contact, tool.before)) < kThrough;
 }
 
-// Whether the same body pushes another point of the tool the other way.
+// Whether a body pushes two points of one tool against each other.
+bool are_opposed(const ToolContact& one, const ToolContact& other) {
+  return other.tool == one.tool && other.body == one.body && other.touches() &&
+         other.place.normal.dot(one.place.normal) < kOpposed;
+}
+
 bool is_opposed(const HapticState& state, const ToolContact& contact) {
-  return std::ranges::any_of(state.active(), [&](const ToolContact& other) {
-    return other.tool == contact.tool && other.body == contact.body && other.touches() &&
-           other.place.normal.dot(contact.place.normal) < kOpposed;
-  });
+  return std::ranges::any_of(state.active(),
+                             [&](const ToolContact& other) { return are_opposed(contact, other); });
+}
+
+// Whether the tissue at a contact lies between two jaws, and is pressed from both sides.
+bool is_between_jaws(const ToolModel& model, const HapticState& state, const ToolContact& contact) {
+  const ToolState& tool = state.tools[contact.tool];
+  const auto jaw = [&](const ToolContact& c) { return jaw_of(model, model.points[c.point]); };
+  return (tool.opened || tool.grasping) && std::ranges::any_of(state.active(), [&](const ToolContact& other) {
+           return are_opposed(contact, other) && jaw(contact) * jaw(other) < 0;
+         });
 }
 
 // Whether the tissue that touches the tool's point would have the tool's middle inside: a side that was drawn
@@ -60,6 +73,13 @@ bool is_behind(const ToolState& tool, const ToolContact& contact) {
   double radius_m = 0;
   for (const Vec3& p : tool.before) radius_m = std::max(radius_m, (p - middle).norm());
   return (tool.before[contact.point] - middle).dot(contact.place.normal) > kBehind * radius_m;
+}
+
+// Whether a contact that presses is no longer on its own side of the organ.
+bool went_through(const ToolModel& model, const HapticState& state, const ToolContact& contact, Body& body) {
+  const ToolState& tool = state.tools[contact.tool];
+  if (is_between_jaws(model, state, contact)) return false;
+  return is_through(tool, contact, body) || (is_opposed(state, contact) && is_behind(tool, contact));
 }
 
 // What of a tool's depth is no press: as if the tool had moved out, along the mean normal of its points
@@ -123,7 +143,7 @@ void meet_appeared_in(BodyId id, std::size_t tool_index, HapticState& state, Bod
 
 }  // namespace
 
-void leave_astray(HapticState& state, Bodies& bodies) noexcept {
+void leave_astray(const HapticModel& model, HapticState& state, Bodies& bodies) noexcept {
   const std::uint32_t pressing = pressing_tools(state);
   std::uint64_t turn = state.ticks;
   std::array<bool, physics::kMaxContacts> left{};
@@ -133,8 +153,7 @@ void leave_astray(HapticState& state, Bodies& bodies) noexcept {
     ToolState& tool = state.tools[contact.tool];
     Body& body = bodies[contact.body];
     const bool idle = contact.sunken_m > 0 && (pressing >> contact.tool & 1) == 0;
-    const bool through = contact.touches() && (is_through(tool, contact, body) ||
-                                               (is_opposed(state, contact) && is_behind(tool, contact)));
+    const bool through = contact.touches() && went_through(model.tools[contact.tool], state, contact, body);
     const bool to_ask = is_astray(tool, contact, body) || (idle && ++turn % kAskPeriod == 0);
     if (!through && !to_ask) continue;
     left[i] = true;

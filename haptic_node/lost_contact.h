@@ -11,8 +11,9 @@ namespace omentum::haptic {
 /// meet_appeared in the next tick, whose surface is without their force. Contacts that hold a depth without
 /// force are asked by turns whether the surface point nearest to them is still theirs. A point that has gone
 /// through the organ (tissue_ahead), or whose side of the organ was drawn through the other one, holds
-/// nothing until it comes in again.
-void leave_astray(HapticState& state, Bodies& bodies) noexcept;
+/// nothing until it comes in again. Between two jaws tissue is squeezed and held from both sides: that is no
+/// passage.
+void leave_astray(const HapticModel& model, HapticState& state, Bodies& bodies) noexcept;
 
 /// Points that are inside the organ without having come there by moving (a device or node that was started
 /// again, or a contact that went astray): each holds the nearest surface point from where it is. It is not

@@ -1,6 +1,7 @@
 #include "haptic_node/tool_contact.h"
 
 #include "haptic_node/contact_list.h"
+#include "haptic_node/jaws.h"
 #include "haptic_node/lost_contact.h"
 #include "haptic_node/other_tools.h"
 
@@ -9,15 +10,6 @@
 
 namespace omentum::haptic {
 namespace {
-
-// Jaws closer than this hold tissue, wider open than that let go, rad: apart, so that a trembling hand does
-// not drop and grasp again.
-constexpr double kGraspBelow_rad = 0.10;
-constexpr double kReleaseAbove_rad = 0.20;
-
-// Jaws close on what is not farther from them than this, m: a tenth of a voxel of the scans that organs come
-// from.
-constexpr double kGraspGap_m = 1e-4;
 
 // A point this near to the surface is in the contact problem, with an open gap, m: found only when it is
 // inside, it took over its neighbours' load in one tick (0.5 N in a dent of 8 mm). An open contact is kept up
@@ -38,42 +30,6 @@ constexpr double kHair_m = 1e-6;
 
 // Farther from W's origin than any scene, m: floats there no longer tell a tenth of a millimetre.
 constexpr double kFarthest_m = 1000;
-
-void end_grasp(HapticState& state, std::int32_t tool) {
-  state.tools[tool].grasping = false;
-  for (ToolContact& contact : state.active()) {
-    if (contact.tool == tool) contact.grasped = false;
-  }
-}
-
-void begin_grasp(HapticState& state, std::int32_t tool, Bodies& bodies) {
-  bool holds = false;
-  for (ToolContact& contact : state.active()) {
-    if (contact.tool != tool) continue;
-    // what is between jaw and tissue when they close stays there: no force comes from closing alone
-    contact.offset =
-        with_the_others(contact, state.tools[tool].before) - bodies[contact.body].position(contact.held);
-    if (contact.offset.dot(contact.place.normal) > kGraspGap_m) continue;
-    holds = true;
-    contact.grasped = true;
-  }
-  if (!holds) return;
-  state.tools[tool].grasping = true;
-  state.tools[tool].opened = false;
-  ++state.tools[tool].grasp_count;
-}
-
-void follow_grip(HapticState& state, std::int32_t tool, double grip, Bodies& bodies) {
-  ToolState& jaws = state.tools[tool];
-  if (grip > kReleaseAbove_rad) {
-    jaws.opened = true;
-    if (jaws.grasping) end_grasp(state, tool);
-  } else if (grip < kGraspBelow_rad && jaws.opened && !jaws.grasping) {
-    begin_grasp(state, tool, bodies);
-    // jaws that closed on nothing are a blunt probe until they were open again
-    if (!jaws.grasping) jaws.opened = false;
-  }
-}
 
 Region path_of(const ToolState& tool) {
   Region region{tool.now[0], tool.now[0]};
@@ -119,16 +75,20 @@ std::optional<SurfacePoint> look_around(ToolState& tool, std::size_t p, const Su
   return met.touched || met.clearance_m > near ? met.touched : met.nearest;
 }
 
-void go_to(const ToolModel& model, const ToolFrame& measured, ToolState& tool) {
-  tool.frame = model.trocar ? through_trocar(measured, *model.trocar) : measured;
+void go_to(const ToolModel& model, const ToolInput& input, ToolState& tool) {
+  tool.frame = model.trocar ? through_trocar(input.frame, *model.trocar) : input.frame;
+  tool.grip_before = tool.grip;
+  tool.grip = std::clamp(input.grip, 0.0, kWidest_rad);
   std::swap(tool.before, tool.now);
-  for (std::size_t p = 0; p < tool.now.size(); ++p) tool.now[p] = to_world(tool.frame, model.points[p]);
+  for (std::size_t p = 0; p < tool.now.size(); ++p)
+    tool.now[p] = to_world(tool.frame, at_opening(model, model.points[p], tool.grip));
 }
 
 // Where its points are is asked now; a tick later where the surface is still dented by the tool's own force:
 // there it would seem to be outside.
 void appear(ToolState& tool) {
   tool.before = tool.now;
+  tool.grip_before = tool.grip;
   PointMemory unknown;
   unknown.adrift = true;
   unknown.ask_in = tool.let_go ? 2 : 1;
@@ -187,8 +147,8 @@ SurfacePoint moved_on(const HapticModel& model, const ToolState& tool, const Too
 
 bool is_sound(const ToolInput& input) noexcept {
   return input.frame.p_WT.allFinite() && input.frame.p_WT.cwiseAbs().maxCoeff() <= kFarthest_m &&
-         input.frame.q_WT.coeffs().allFinite() && std::isfinite(1 / input.max_stiffness_n_m) &&
-         input.max_stiffness_n_m > 0;
+         input.frame.q_WT.coeffs().allFinite() && std::isfinite(input.grip) &&
+         std::isfinite(1 / input.max_stiffness_n_m) && input.max_stiffness_n_m > 0;
 }
 
 void let_go_of_everything(HapticState& state) noexcept {
@@ -214,10 +174,10 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
     tool.engaged = engaged;
     if (!engaged) continue;
     const Vec3 tip = tool.frame.p_WT;
-    go_to(model.tools[i], input.frame, tool);
+    go_to(model.tools[i], input, tool);
     tool.tip_way = moved_here ? Vec3(tool.frame.p_WT - tip) : Vec3::Zero();
     if (!moved_here) appear(tool);
-    if (model.tools[i].grasps) follow_grip(state, index, input.grip, bodies);
+    if (model.tools[i].grasps) follow_grip(model, state, index, input.grip, bodies);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "haptic_node/tool_line.h"
 
+#include "haptic_node/jaws.h"
 #include "node_common/vectors.h"
 
 #include <algorithm>
@@ -17,6 +18,11 @@ namespace {
 constexpr double kCutShare = 0.5;
 constexpr double kBelievedIntervals = 2;
 static_assert(kLongestStale_s == 1 / 40.0, "the fault says 40 times a second");
+
+// What a device says in degrees or counts must not be booked as work of jaws that cannot open as far.
+double opening_of(const msg::ToolPose& pose) {
+  return std::clamp(pose.grip, 0.0, kWidest_rad);
+}
 
 }  // namespace
 
@@ -99,8 +105,8 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
   told_ = heard.connection > 0 && age_ns < kForget_ns;
   if (reconnected_) lead_.restart();
   // a tool that appears lets go first: in the dent of its own last force it would seem to be outside
-  input = {engaged_ && !reconnected_, reconnected_, lead_.ahead(frame_of(heard.pose), fresh), heard.pose.grip,
-           max_stiffness_n_m_};
+  input = {engaged_ && !reconnected_, reconnected_, lead_.ahead(frame_of(heard.pose), fresh),
+           opening_of(heard.pose), max_stiffness_n_m_};
   return fresh;
 }
 
@@ -136,7 +142,7 @@ const msg::ToolForce& ToolLine::answer(const ToolOutput& output, std::int64_t no
   force_.echo_stamp_ns = heard.pose.stamp_ns;
   force_.force = to_message(safe.wrench.force);
   force_.torque = to_message(safe.wrench.torque);
-  force_.grip_torque = 0;  // rigid jaws: the tissue between them does not push them open
+  force_.grip_torque = safe.wrench.grip_torque;
   force_.valid_for_s = stale_after(heard.interval_s, limits_);
   force_.state = safe.state;
   return force_;
@@ -146,10 +152,11 @@ SafetyInput ToolLine::known(const ToolOutput& output, std::int64_t now_ns, doubl
   const HeardPose& heard = poses_.value();
   const ToolFrame frame = frame_of(heard.pose);
   SafetyInput input;
-  input.model = {output.force, output.torque};
+  input.model = {output.force, output.torque, output.grip_torque};
   input.stored_j = output.stored_j;
   input.tip = frame.p_WT;
   input.orientation = frame.q_WT;
+  input.grip = opening_of(heard.pose);
   input.pose_age_s = 1e-9 * static_cast<double>(now_ns - heard.arrival_ns);
   input.pose_interval_s = heard.interval_s;
   input.way_s = way_s_;

@@ -10,6 +10,9 @@ namespace omentum::node {
 /// (2,000 N/m) pressed by half a metre is 1,000 N, 100 times the usual limit of 10 N.
 inline constexpr double kTissueHeadRoom = 100;
 
+/// Softer no tissue is to a hand, m/N: what hangs by a thread is not told, and not believed.
+inline constexpr float kSoftest_m_n = 1;
+
 /// The sum of the lengths of a tool's forces on all nodes, N; not finite when one of them is not. A sum of
 /// lengths, so that two that cancel each other count too. Any thread; allocates nothing.
 double total_force_n(const msg::Contact& contact) noexcept;

@@ -1,12 +1,13 @@
 #include "node_common/energy_tank.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace omentum::node {
 namespace {
 
 // A quick hand, m/s^2: from rest to 0.4 m/s in 20 ms, or a hand of 0.5 kg that lets 10 N push it. And
-// rad/s^2: the same with the handle's end 5 cm from the tip.
+// rad/s^2: the same with the handle's end 5 cm from the tip, or the finger's 5 cm from the jaws' pivot.
 constexpr double kQuickHand_m_s2 = 20;
 constexpr double kQuickTurn_rad_s2 = 400;
 
@@ -19,18 +20,22 @@ double reach(double speed, double acceleration, double horizon_s) {
 
 }  // namespace
 
-void HandMotion::follow(const Eigen::Vector3d& way, const Eigen::Vector3d& turn, double took_s) noexcept {
+void HandMotion::follow(const Eigen::Vector3d& way, const Eigen::Vector3d& turn, double took_s,
+                        double opened_rad) noexcept {
   steady = velocity.dot(way) > 0 ? std::min(steady + 1, EnergyTank::kSteadyWays) : 0;
   velocity = way / took_s;
   turn_rate = turn / took_s;
+  grip_rate = opened_rad / took_s;
   speed = std::max(velocity.norm(), kSpeedKept * speed);
   turn_speed = std::max(turn_rate.norm(), kSpeedKept * turn_speed);
+  grip_speed = std::max(std::abs(grip_rate), kSpeedKept * grip_speed);
 }
 
 double work_ahead_j(const Eigen::Vector3d& force, const Eigen::Vector3d& torque, const HandMotion& motion,
-                    double horizon_s) noexcept {
+                    double horizon_s, double grip_torque_nm) noexcept {
   return force.norm() * reach(motion.speed, kQuickHand_m_s2, horizon_s) +
-         torque.norm() * reach(motion.turn_speed, kQuickTurn_rad_s2, horizon_s);
+         torque.norm() * reach(motion.turn_speed, kQuickTurn_rad_s2, horizon_s) +
+         std::abs(grip_torque_nm) * reach(motion.grip_speed, kQuickTurn_rad_s2, horizon_s);
 }
 
 void EnergyTank::observe(double given_j, double stored_j, double dt_s) noexcept {

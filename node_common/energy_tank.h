@@ -10,20 +10,22 @@ namespace omentum::node {
 struct HandMotion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   // of the tip in W on the newest way, m/s
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  // in W, rad/s
+  double grip_rate = 0;                                 // at which the jaws open, rad/s
   // as fast as it was a moment ago: a hand that turns to and fro between two looks seems to stand still
-  double speed = 0, turn_speed = 0;  // m/s, rad/s
-  int steady = 0;                    // ways in a row on which the tip did not turn back
+  double speed = 0, turn_speed = 0, grip_speed = 0;  // m/s, rad/s
+  int steady = 0;                                    // ways in a row on which the tip did not turn back
 
-  /// It went this way (m; rad, in W) in took_s > 0.
-  void follow(const Eigen::Vector3d& way, const Eigen::Vector3d& turn, double took_s) noexcept;
+  /// It went this way (m; rad, in W) in took_s > 0, and opened its jaws by `opened_rad`.
+  void follow(const Eigen::Vector3d& way, const Eigen::Vector3d& turn, double took_s,
+              double opened_rad = 0) noexcept;
 };
 
-/// The most work that force (N) and torque (N m) can do on a hand within `horizon_s`, J: it may turn round at
-/// its speed, and speed up as fast as hands do.
+/// The most work that force (N), torque (N m) and the jaws' torque (N m) can do on a hand within `horizon_s`,
+/// J: it may turn round at its speed, and speed up as fast as hands do.
 ///
-///     W = |f| (|v| h + a h^2 / 2) + |t| (|w| h + b h^2 / 2)
+///     W = |f| (|v| h + a h^2 / 2) + |t| (|w| h + b h^2 / 2) + |t_g| (|g'| h + b h^2 / 2)
 double work_ahead_j(const Eigen::Vector3d& force, const Eigen::Vector3d& torque, const HandMotion& motion,
-                    double horizon_s) noexcept;
+                    double horizon_s, double grip_torque_nm = 0) noexcept;
 
 /// An energy tank (Duindam and Stramigioli 2004; Franken et al. 2011): what the hand put in and a small
 /// reserve, less what it got. A wrench is let through as far as the tank covers its work_ahead_j, so that the

@@ -16,7 +16,7 @@ OrganSource make_tube(const scene::OrganSpec& spec) {
     throw std::runtime_error(spec.intestine->where + ": organ " + spec.name + ": " + e.what());
   }
   source.organ.name = spec.name;
-  source.organ.hash = organ::gut_hash(*source.gut);
+  source.organ.hash = organ::gut_hash(spec.intestine->anatomy);
   source.rest = source.gut->positions;
   return source;
 }

@@ -26,13 +26,14 @@ constexpr std::int32_t kThreadedFactorFrom = 10000;
 
 physics::StiffnessFactor factorize(const Organ& organ, const physics::FreeDofs& free, int threads) {
   const physics::BlasThreads blas(free.count < kThreadedFactorFrom ? 1 : threads);
-  return {physics::assemble_stiffness(organ.mesh, organ.material), free};
+  return {physics::assemble_stiffness(organ.tensor_mesh(), organ.material), free};
 }
 
 std::int32_t count_columns(const Organ& organ, const physics::FreeDofs& free) {
   std::int32_t columns = 0;
-  for (std::int32_t s = 0; s < organ.surface.mobile_count; ++s) {
-    for (int axis = 0; axis < 3; ++axis) columns += free.of(organ.surface.node[s], axis) >= 0;
+  const geometry::Surface& surface = organ.tensor_surface();
+  for (std::int32_t s = 0; s < surface.mobile_count; ++s) {
+    for (int axis = 0; axis < 3; ++axis) columns += free.of(surface.node[s], axis) >= 0;
   }
   return columns;
 }
@@ -40,16 +41,16 @@ std::int32_t count_columns(const Organ& organ, const physics::FreeDofs& free) {
 bool fill(const OrganWriter& writer, const Organ& organ, const physics::StiffnessFactor& factor,
           const physics::FreeDofs& free, const physics::TensorOptions& options) {
   return organ.storage == Storage::kFloat
-             ? physics::compute_force_tensors(factor, free, organ.surface, writer.single(), writer.bounds(),
-                                              options)
-             : physics::compute_force_tensors(factor, free, organ.surface, writer.twofold(), writer.bounds(),
-                                              options);
+             ? physics::compute_force_tensors(factor, free, organ.tensor_surface(), writer.single(),
+                                              writer.bounds(), options)
+             : physics::compute_force_tensors(factor, free, organ.tensor_surface(), writer.twofold(),
+                                              writer.bounds(), options);
 }
 
 }  // namespace
 
 Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::MaterialMap& material,
-                 FixedComponents fixed, Storage storage) {
+                 FixedComponents fixed, Storage storage, std::vector<std::uint8_t> dynamic) {
   require_materials(material, "");
   physics::require_held(mesh, fixed);
   Organ organ;
@@ -61,6 +62,7 @@ Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Mate
   organ.mesh = std::move(mesh);
   // labels that nobody gave a material say nothing of the tensors: the organ is that of a mesh without them
   if (material.regions.empty()) organ.mesh.regions.clear();
+  if (!dynamic.empty()) organ.split = split_organ(organ.mesh, fixed, std::move(dynamic), "--dynamic: ");
   organ.material = material;
   organ.fixed = std::move(fixed);
   organ.storage = storage;
@@ -82,7 +84,7 @@ bool is_up_to_date(const std::filesystem::path& file, const Organ& organ) {
 BuildResult build_organ(const Organ& organ, const std::filesystem::path& file, const BuildOptions& options) {
   BuildResult result;
   const Clock::time_point start = Clock::now();
-  const physics::FreeDofs free = physics::free_dofs(organ.fixed);
+  const physics::FreeDofs free = physics::free_dofs(organ.tensor_fixed());
   result.columns = count_columns(organ, free);
   if (!options.force && is_up_to_date(file, organ)) {
     result.up_to_date = true;

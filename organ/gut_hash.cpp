@@ -2,14 +2,30 @@
 
 #include "files/sha256.h"
 
-namespace omentum::organ {
+#include <array>
+#include <cstdio>
 
-std::string gut_hash(const geometry::GutShape& gut) {
+namespace omentum::organ {
+namespace {
+
+void add_number(double number, std::string& text) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), " %.9g", number + 0.0);  // no minus before a zero
+  text += digits.data();
+}
+
+}  // namespace
+
+std::string gut_hash(const geometry::GutAnatomy& anatomy) {
+  std::string text = "gut " + std::to_string(kGutVersion) + ' ' + std::to_string(anatomy.rows) + ' ' +
+                     std::to_string(anatomy.columns) + ' ' + std::to_string(anatomy.legs);
+  for (const double number : {anatomy.length_m, anatomy.tube_radius_m, anatomy.cylinder_radius_m,
+                              anatomy.vessel_length_m, anatomy.mesentery_thickness_m, anatomy.fold_pitch_m})
+    add_number(number, text);
+  for (const geometry::Vec3& vector : {anatomy.origin, anatomy.along, anatomy.up})
+    for (const double number : vector) add_number(number, text);
   files::Sha256 sha;
-  sha.add(&gut.layout, sizeof gut.layout);
-  sha.add(gut.positions.data(), gut.positions.size() * sizeof(geometry::Vec3));
-  sha.add(&gut.tube_radius_m, sizeof gut.tube_radius_m);
-  sha.add(&gut.mesentery_thickness_m, sizeof gut.mesentery_thickness_m);
+  sha.add(text.data(), text.size());
   return sha.hexadecimal();
 }
 

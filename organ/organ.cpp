@@ -91,6 +91,38 @@ Organ read_contents(const Hdf5File& hdf5, const std::filesystem::path& file) {
   return organ;
 }
 
+void read_split(const Hdf5File& hdf5, const std::filesystem::path& file, Organ& organ) {
+  organ.split.emplace();
+  organ.split->dynamic = hdf5.read<std::uint8_t>(layout::kDynamic, 0);
+  organ.split->tensor_node = read_as<geometry::NodeId, std::int32_t>(hdf5, layout::kTensorNode);
+  if (organ.split->dynamic.size() == organ.mesh.tetrahedra.size()) return;
+  throw InputError(file.string() + ": is damaged: '" + layout::kDynamic +
+                   "' has not a number for each tetrahedron");
+}
+
+// Of a mesh that was checked. Its surface is numbered by today's program, its tensors by that which wrote
+// them.
+void split(Organ& organ, const std::filesystem::path& file) {
+  const std::vector<geometry::NodeId> columns = std::move(organ.split->tensor_node);
+  organ.split = split_organ(organ.mesh, organ.fixed, std::move(organ.split->dynamic), file.string() + ": ");
+  if (columns == organ.split->tensor_node) return;
+  throw InputError(file.string() +
+                   ": its tensors are those of another split than its dynamic part's; build it again");
+}
+
+void require_wanted_tensors(const Organ& organ, Load what, const std::filesystem::path& file) {
+  if (what == Load::kWithTensors && organ.split) {
+    throw InputError(
+        file.string() +
+        ": is a hybrid organ, whose tensors are of its precomputed part alone; expected the model "
+        "hybrid, or an organ built without --dynamic");
+  }
+  if (what == Load::kWithPart && !organ.split) {
+    throw InputError(file.string() +
+                     ": has no dynamic part; expected a hybrid organ (organ_build --dynamic)");
+  }
+}
+
 // Which surface node each mesh node is.
 std::vector<SurfaceId> invert(const std::vector<geometry::NodeId>& nodes, std::size_t node_count) {
   std::vector<SurfaceId> of_node(node_count);
@@ -114,6 +146,7 @@ Organ load_organ(const std::filesystem::path& file, Load what) {
     const Hdf5File hdf5(file, Hdf5File::Mode::kRead);
     require_format(hdf5, file);
     organ = read_contents(hdf5, file);
+    if (hdf5.has_dataset(layout::kDynamic)) read_split(hdf5, file, organ);
     organ.hash = organ_hash(organ);
     if (organ.hash != hdf5.read_text(layout::kHash)) {
       throw InputError(
@@ -125,7 +158,10 @@ Organ load_organ(const std::filesystem::path& file, Load what) {
   }
   require_consistent(organ, file);
   organ.surface.of_node = invert(organ.surface.node, organ.mesh.positions.size());
+  if (organ.split) split(organ, file);
+  require_wanted_tensors(organ, what, file);
   if (what == Load::kWithTensors) organ.compliance = surface_compliance(map_tensors(file, organ));
+  if (what == Load::kWithPart) organ.split->compliance = surface_compliance(map_tensors(file, organ));
   return organ;
 }
 

@@ -57,6 +57,11 @@ std::string organ_hash(const Organ& organ) {
       sha.add(region.material);
     }
   }
+  if (organ.split) {
+    sha.add(std::array{'d', 'y', 'n', 'a', 'm', 'i', 'c', ' '});
+    sha.add_list(organ.split->dynamic);
+    sha.add_list(organ.split->tensor_node);
+  }
   return sha.hexadecimal();
 }
 

@@ -9,7 +9,7 @@ namespace omentum::organ {
 inline constexpr int kFormatVersion = 3;
 
 /// SHA-256, hexadecimal, over format version, storage, mesh (with the file's own numbers), surface order,
-/// material and supports.
+/// material, supports and, of a hybrid organ, its parts and whose columns its tensors are.
 std::string organ_hash(const Organ& organ);
 
 }  // namespace omentum::organ

@@ -26,6 +26,10 @@ inline constexpr const char* kFileNode = "mesh/file_node";                      
 inline constexpr const char* kNodeNumbers = "mesh/node_numbers";                // [file_node_count] int64
 inline constexpr const char* kTetrahedronNumbers = "mesh/tetrahedron_numbers";  // [T] int64
 inline constexpr const char* kMerged = "mesh/merged";  // [M][2] int32: dropped, kept; absent without any
+// Of a hybrid organ; absent in others.
+inline constexpr const char* kDynamic = "mesh/dynamic";  // [T] uint8, 1: of the dynamic part
+inline constexpr const char* kTensorNode =
+    "tensors/node";  // [mobile] int32: mesh nodes of the part's tensors
 // Of an organ with regions of their own material; absent without any.
 inline constexpr const char* kRegions = "mesh/regions";              // [T] int32, a label each
 inline constexpr const char* kRegionLabels = "material/labels";      // [R] int32, ascending
@@ -36,6 +40,7 @@ inline constexpr const char* kBehind = "surface/tetrahedron";        // [F] int3
 inline constexpr const char* kFanStart = "surface/fan_start";        // [S+1] int32
 inline constexpr const char* kFan = "surface/fan";                   // [3F] int32
 inline constexpr const char* kFixed = "supports/fixed";              // [N] uint8
+// mobile: nodes of the whole surface, or of the precomputed part's own (tensors/node).
 inline constexpr const char* kCompliance =
     "tensors/compliance";                                 // [mobile][clusters][9][16] float or double, m/N
 inline constexpr const char* kBounds = "tensors/bounds";  // [mobile][clusters] float, m/N

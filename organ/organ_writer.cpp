@@ -58,6 +58,11 @@ void write_contents(Hdf5File& hdf5, const Organ& organ) {
   if (!mesh.merged.empty())
     hdf5.write(layout::kMerged, numbers<std::int32_t>(mesh.merged), {mesh.merged.size(), 2});
   if (!organ.material.regions.empty()) write_regions(hdf5, organ);
+  if (organ.split) {
+    const std::vector<geometry::NodeId>& nodes = organ.split->tensor_node;
+    hdf5.write(layout::kDynamic, numbers<std::uint8_t>(organ.split->dynamic), {organ.split->dynamic.size()});
+    hdf5.write(layout::kTensorNode, numbers<std::int32_t>(nodes), {nodes.size()});
+  }
   hdf5.write(layout::kSurfaceNode, numbers<std::int32_t>(surface.node), {surface.node.size()});
   hdf5.write(layout::kTriangles, numbers<std::int32_t>(surface.triangles), {surface.triangles.size(), 3});
   hdf5.write(layout::kBehind, numbers<std::int32_t>(surface.tetrahedron), {surface.tetrahedron.size()});
@@ -75,7 +80,7 @@ OrganWriter::OrganWriter(const std::filesystem::path& file, const Organ& organ) 
 OrganWriter::~OrganWriter() = default;
 
 void OrganWriter::map_tensors(const Organ& organ) {
-  const std::int32_t mobile = organ.surface.mobile_count;
+  const std::int32_t mobile = organ.tensor_surface().mobile_count;
   const auto columns = static_cast<std::uint64_t>(mobile);
   const std::uint64_t clusters = (columns + geometry::kClusterSize - 1) / geometry::kClusterSize;
   const std::vector<std::uint64_t> shape{columns, clusters, 9, geometry::kClusterSize};

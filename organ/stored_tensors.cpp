@@ -31,7 +31,8 @@ const T* numbers_at(const MappedFile& mapped, const Extent& extent, const std::f
 }  // namespace
 
 StoredTensors map_tensors(const std::filesystem::path& file, const Organ& organ) {
-  const auto mobile = static_cast<std::uint64_t>(organ.surface.mobile_count);
+  const std::int32_t columns = organ.tensor_surface().mobile_count;
+  const auto mobile = static_cast<std::uint64_t>(columns);
   const std::uint64_t clusters = (mobile + geometry::kClusterSize - 1) / geometry::kClusterSize;
   const std::vector<std::uint64_t> shape{mobile, clusters, 9, geometry::kClusterSize};
 
@@ -40,10 +41,10 @@ StoredTensors map_tensors(const std::filesystem::path& file, const Organ& organ)
   const Hdf5File hdf5(file, Hdf5File::Mode::kRead);
   const auto mapped = std::make_shared<MappedFile>(file, MappedFile::Access::kRead);
   if (organ.storage == Storage::kFloat) {
-    tensors.single = {organ.surface.mobile_count,
+    tensors.single = {columns,
                       numbers_at<float>(*mapped, hdf5.locate<float>(layout::kCompliance, shape), file)};
   } else {
-    tensors.twofold = {organ.surface.mobile_count,
+    tensors.twofold = {columns,
                        numbers_at<double>(*mapped, hdf5.locate<double>(layout::kCompliance, shape), file)};
   }
   tensors.bounds = numbers_at<float>(*mapped, hdf5.locate<float>(layout::kBounds, {mobile, clusters}), file);

@@ -68,7 +68,7 @@ void require_sound_diagonal(const physics::ComplianceTiles<Scalar>& tiles, std::
       for (int j = 0; j < 3; ++j) C_kk(i, j) = static_cast<double>(tiles.at(k, i, k, j));
     }
     const std::size_t own = static_cast<std::size_t>(k) * tiles.cluster_count() + k / geometry::kClusterSize;
-    if (!is_compliance(C_kk, organ.fixed[organ.surface.node[k]], bounds[own])) {
+    if (!is_compliance(C_kk, organ.tensor_fixed()[organ.tensor_surface().node[k]], bounds[own])) {
       throw InputError(file.string() + ": its tensors are damaged: column " + std::to_string(k) +
                        " has a diagonal that no elastic organ has; build it again");
     }
@@ -93,7 +93,7 @@ std::string tensor_checksum(const physics::ComplianceTiles<Scalar>& tiles, std::
 }
 
 void require_sound(const StoredTensors& tensors, const Organ& organ, const std::filesystem::path& file) {
-  const std::span<const float> bounds = bounds_of(tensors, organ.surface.mobile_count);
+  const std::span<const float> bounds = bounds_of(tensors, organ.tensor_surface().mobile_count);
   for (const float bound : bounds) {
     if (bound >= 0 && std::isfinite(bound)) continue;
     throw InputError(file.string() + ": its tensors are damaged: a bound is " + std::to_string(bound) +

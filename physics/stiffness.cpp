@@ -1,6 +1,7 @@
 #include "physics/stiffness.h"
 
 #include <algorithm>
+#include <map>
 
 namespace omentum::physics {
 
@@ -48,6 +49,13 @@ Stiffness empty_stiffness(const geometry::TetraMesh& mesh) {
   return K;
 }
 
+// Of each node among the added ones; -1: none of them.
+std::vector<std::int32_t> places_in(const AddedStiffness& added, std::int32_t node_count) {
+  std::vector<std::int32_t> place(static_cast<std::size_t>(node_count), -1);
+  for (std::size_t k = 0; k < added.nodes.size(); ++k) place[added.nodes[k]] = static_cast<std::int32_t>(k);
+  return place;
+}
+
 }  // namespace
 
 Stiffness assemble_stiffness(const geometry::TetraMesh& mesh, const MaterialMap& material) {
@@ -65,6 +73,27 @@ Stiffness assemble_stiffness(const geometry::TetraMesh& mesh, const MaterialMap&
     }
   }
   return K;
+}
+
+Stiffness with_added(const Stiffness& stiffness, const AddedStiffness& added) {
+  if (added.nodes.empty()) return stiffness;
+  const std::vector<std::int32_t> place = places_in(added, stiffness.node_count());
+  Stiffness sum;
+  sum.start.push_back(0);
+  for (std::int32_t n = 0; n < stiffness.node_count(); ++n) {
+    std::map<NodeId, Eigen::Matrix3d> row;
+    for (std::int32_t b = stiffness.start[n]; b < stiffness.start[n + 1]; ++b)
+      row.emplace(stiffness.neighbour[b], stiffness.block[b]);
+    for (std::size_t k = 0; place[n] >= 0 && k < added.nodes.size(); ++k)
+      row.try_emplace(added.nodes[k], Eigen::Matrix3d::Zero()).first->second +=
+          added.K.block<3, 3>(3 * place[n], 3 * static_cast<Eigen::Index>(k));
+    for (const auto& [neighbour, block] : row) {
+      sum.neighbour.push_back(neighbour);
+      sum.block.push_back(block);
+    }
+    sum.start.push_back(static_cast<std::int32_t>(sum.neighbour.size()));
+  }
+  return sum;
 }
 
 std::vector<Vec3> holding_forces(const Stiffness& stiffness, std::span<const Vec3> displacements) {

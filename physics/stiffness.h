@@ -19,6 +19,16 @@ struct Stiffness {
   std::int32_t node_count() const { return static_cast<std::int32_t>(start.size()) - 1; }
 };
 
+/// What ties some nodes of a mesh together beside its tetrahedra, such as a part of the organ that was
+/// condensed onto them.
+struct AddedStiffness {
+  std::vector<NodeId> nodes;  // [n], all different; none: nothing
+  Eigen::MatrixXd K;          // [3n x 3n], N/m, symmetric, positive semi-definite; x y z of each
+};
+
+/// K with blocks for every pair of the added nodes.
+Stiffness with_added(const Stiffness& stiffness, const AddedStiffness& added);
+
 /// The sum of the element tensors (Cotin 1998, eq. 6 without its sign: K u is the force that holds u), each
 /// of its own tetrahedron's material.
 Stiffness assemble_stiffness(const geometry::TetraMesh& mesh, const MaterialMap& material);

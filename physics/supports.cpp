@@ -14,15 +14,17 @@ namespace {
 constexpr double kLooseMotion = 1e-6;
 
 // For each held component, what each of the six rigid motions does to it: three translations, and three
-// rotations about the centroid, scaled by the organ's size so that all have the unit of length.
-Eigen::Matrix<double, 6, 6> rigid_gram(const geometry::TetraMesh& mesh, const FixedComponents& fixed) {
+// rotations about the centroid, scaled by the nodes' size so that all have the unit of length.
+Eigen::Matrix<double, 6, 6> rigid_gram(const geometry::TetraMesh& mesh,
+                                       std::span<const geometry::NodeId> nodes,
+                                       const FixedComponents& fixed) {
   geometry::Vec3 centre = geometry::Vec3::Zero();
-  for (const auto& p : mesh.positions) centre += p / static_cast<double>(mesh.positions.size());
+  for (const geometry::NodeId n : nodes) centre += mesh.positions[n] / static_cast<double>(nodes.size());
   double radius = 0;
-  for (const auto& p : mesh.positions) radius = std::max(radius, (p - centre).norm());
+  for (const geometry::NodeId n : nodes) radius = std::max(radius, (mesh.positions[n] - centre).norm());
 
   Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
-  for (std::size_t n = 0; n < fixed.size(); ++n) {
+  for (const geometry::NodeId n : nodes) {
     const geometry::Vec3 arm = (mesh.positions[n] - centre) / radius;
     for (int axis = 0; axis < 3; ++axis) {
       if (!is_fixed(fixed[n], axis)) continue;
@@ -54,13 +56,19 @@ FreeDofs free_dofs(const FixedComponents& fixed) {
   return free;
 }
 
-void require_held(const geometry::TetraMesh& mesh, const FixedComponents& fixed) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> motions(rigid_gram(mesh, fixed),
+int loose_motions(const geometry::TetraMesh& mesh, std::span<const geometry::NodeId> nodes,
+                  const FixedComponents& fixed) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> motions(rigid_gram(mesh, nodes, fixed),
                                                                            Eigen::EigenvaluesOnly);
   // Eigenvalues of the Gram matrix are squares of what the supports feel.
   const double limit = kLooseMotion * kLooseMotion * motions.eigenvalues().maxCoeff();
-  const auto loose = (motions.eigenvalues().array() <= limit).count();
-  if (loose > 0) {
+  return static_cast<int>((motions.eigenvalues().array() <= limit).count());
+}
+
+void require_held(const geometry::TetraMesh& mesh, const FixedComponents& fixed) {
+  std::vector<geometry::NodeId> nodes;
+  for (std::size_t n = 0; n < mesh.positions.size(); ++n) nodes.emplace_back(n);
+  if (const int loose = loose_motions(mesh, nodes, fixed); loose > 0) {
     throw FloatingError("the supports leave the organ floating: " + std::to_string(loose) +
                         " of its 6 rigid motions meet no support; expected none");
   }

@@ -4,6 +4,7 @@
 #include "geometry/tetra_mesh.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace omentum::physics {
@@ -35,6 +36,10 @@ class FloatingError : public geometry::InputError {
  public:
   using InputError::InputError;
 };
+
+/// How many of the six rigid motions of these nodes, not none, meet no support. Takes no memory.
+int loose_motions(const geometry::TetraMesh& mesh, std::span<const geometry::NodeId> nodes,
+                  const FixedComponents& fixed);
 
 /// Throws FloatingError, saying how many rigid motions are left, unless the supports stop all six. The mesh
 /// is connected, so that this decides whether K has an inverse over the free degrees of freedom; a

@@ -16,7 +16,7 @@ const Material kSteel{{0.78f, 0.77f, 0.75f}, 1.0f, 0.24f};
 const Material kDarkSteel{{0.40f, 0.40f, 0.41f}, 1.0f, 0.38f};
 const Material kInsulation{{0.020f, 0.021f, 0.024f}, 0.0f, 0.30f};
 
-constexpr float kJawLength = 0.018f;  // m, as a 5 mm dissector's
+constexpr auto kJawLength = static_cast<float>(scene::kJawLength_m);
 constexpr int kTeeth = 11;
 constexpr float kToothDepth = 0.00028f;  // m
 constexpr float kJawGap = 0.00012f;      // m, between closed jaws, so that the line between them is seen

@@ -13,12 +13,24 @@ constexpr Range kStress_pa{.minimum = 1};
 // Longer looks like a tool that does not cut.
 constexpr Range kDelay_s{.minimum = 0, .maximum = 10};
 
-// Springs have no stiffness that stays near that at rest, as an implicit step on a kept factor needs it.
+// Springs have no stiffness that stays near that at rest, as an implicit step on a kept factor needs it. What
+// a hybrid organ's precomputed part answers has to be of the same step.
 void read_integrator(TomlSection& s, const std::string& model, std::string& integrator) {
   std::vector<std::string> words{"symplectic", "euler", "rk4"};
+  if (model == "hybrid") words.clear();
   if (model != "spring-mass") words.insert(words.begin(), "implicit");
   integrator = words.front();
   s.read_word("integrator", integrator, kOptional, words);
+}
+
+// What has masses swings and tears.
+void read_motion(TomlSection& s, const std::string& model, DynamicsSpec& dynamics) {
+  read_integrator(s, model, dynamics.integrator);
+  s.read("step_s", dynamics.step_s, kStep_s);
+  s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
+  s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);
+  dynamics.tears = read_tears(s);
+  dynamics.where = s.place("step_s");
 }
 
 }  // namespace
@@ -32,18 +44,17 @@ TearSpec read_tears(TomlSection& s) {
   return tears;
 }
 
+bool has_masses(const std::string& model) {
+  return model != "quasi-static-cut";
+}
+
 DynamicsSpec read_dynamics(TomlSection& s, const std::string& model) {
   DynamicsSpec dynamics;
-  read_integrator(s, model, dynamics.integrator);
-  s.read("step_s", dynamics.step_s, kStep_s);
-  s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
-  s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);
+  if (has_masses(model)) read_motion(s, model, dynamics);
   s.read("gravity_m_s2", dynamics.gravity_m_s2, kOptional);
-  dynamics.tears = read_tears(s);
   s.read("cut_delay_s", dynamics.cut_delay_s, kOptional, kDelay_s);
   s.read("cut_rate_per_s", dynamics.cut_rate_per_s, kOptional, kPositive);
   s.read("smallest_piece_m3", dynamics.smallest_piece_m3, kOptional, kNotNegative);
-  dynamics.where = s.place("step_s");
   return dynamics;
 }
 

@@ -80,4 +80,13 @@ ObstacleSpec read_obstacle(TomlSection& s) {
   return obstacle;
 }
 
+void refuse_wrong_obstacles(const TomlSection& root, std::size_t count, bool met) {
+  const std::string found = std::to_string(count);
+  if (count > kMostObstacles)
+    root.refuse("obstacles", found, "at most " + std::to_string(kMostObstacles) + " of [[obstacles]]");
+  if (count > 0 && !met)
+    root.refuse("obstacles", found + " in a scene without an intestine",
+                "none, or an organ with model = \"intestine\": no other meets them");
+}
+
 }  // namespace omentum::scene

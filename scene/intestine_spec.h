@@ -32,7 +32,7 @@ struct IntestineSpec {
   geometry::Vec3 gravity_m_s2 = {0, 0, -9.81};
   std::string collision = "complete";  // or "stochastic"
   std::uint32_t seed = 1;              // of the pairs that "stochastic" tries
-  double friction = 0;                 // Coulomb coefficient, of the gut against itself and what it meets
+  double friction = 0.1;               // Coulomb coefficient, of the gut against itself and what it meets
   double wall_stiffness_n_m = 300;     // how a place of its skin gives way to an instrument, beside its axis
   std::vector<ObstacleSpec> obstacles{};  // the scene's
   std::string where{};                    // FILE:LINE of the organ, for what only its making can tell

@@ -4,6 +4,7 @@
 #include "scene/dynamics_keys.h"
 #include "scene/hand_way_keys.h"
 #include "scene/intestine_keys.h"
+#include "scene/score_keys.h"
 #include "scene/toml_section.h"
 
 #include <algorithm>
@@ -36,6 +37,9 @@ constexpr Range kRamp_s{.minimum = 0.02, .maximum = 10};
 constexpr Range kStale_s{.minimum = 0, .maximum = 0.025, .above = true};
 // Faster is a blow, slower pushes a hand that has let go, or whose device is dead.
 constexpr Range kDecay_s{.minimum = 0.002, .maximum = 0.05};
+
+// Less does not lift a fold of gut; more tears any tissue before it slips.
+constexpr Range kGrip_n{.minimum = 0.1, .maximum = 50};
 
 // No instrument's edge is longer: more is a wrong unit.
 constexpr double kLongestEdge_m = 0.2;
@@ -90,7 +94,7 @@ void read_supports(TomlSection& s, OrganSpec& organ) {
 }
 
 void refuse_what_is_built(TomlSection& s) {
-  for (const char* key : {"metres_per_unit", "fixed"})
+  for (const char* key : {"metres_per_unit", "fixed", "dynamic"})
     if (s.has(key)) s.refuse(key, "one beside an organ file", "none: the file is built with its own");
 }
 
@@ -102,6 +106,7 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   } else {
     s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
     read_supports(s, organ);
+    if (organ.model == "hybrid") s.read("dynamic", organ.dynamics->dynamic_part, kRequired);
   }
   // a scene that is prepared names the file, and says what that is of
   const TomlSection::Need need = is_organ_file(organ.mesh) && !s.has("file") ? kOptional : kRequired;
@@ -110,7 +115,7 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   s.read("density_kg_m3", organ.density_kg_m3, need, kPositive);
   s.read("file", file, kOptional);
   for (TomlSection& region : s.sections("regions"))
-    organ.regions.push_back(read_region(region, organ.dynamics.has_value()));
+    organ.regions.push_back(read_region(region, organ.dynamics && has_masses(organ.model)));
   s.read_word("look", organ.look, kOptional, {"liver", "gallbladder", "colon"});
   if (!organ.mesh.starts_with("phantom:")) {
     organ.mesh = beside(scene, organ.mesh).string();
@@ -156,6 +161,7 @@ ToolSpec read_tool(TomlSection& s) {
   s.read("shaft_radius_m", tool.shaft_radius_m, kOptional, kPositive);
   s.read("shaft_length_m", tool.shaft_length_m, kOptional, kPositive);
   s.read("trocar", tool.trocar);
+  if (tool.shape == "grasper") s.read("grip_force_n", tool.grip_force_n, kOptional, kGrip_n);
   read_edge(s, tool);
   s.refuse_unknown_keys();
   return tool;
@@ -223,17 +229,6 @@ CameraSpec read_camera(TomlSection s, bool given) {
   return camera;
 }
 
-ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs) {
-  ScoreSpec score;
-  s.read("exposed_organ", score.exposed_organ, kOptional);
-  s.read("from_s", score.from_s, kOptional, kNotNegative);
-  const auto is_exposed = [&](const OrganSpec& organ) { return organ.name == score.exposed_organ; };
-  if (s.has("exposed_organ") && std::ranges::none_of(organs, is_exposed))
-    s.refuse("exposed_organ", "\"" + score.exposed_organ + "\"", "the name of one of the [[organs]]");
-  s.refuse_unknown_keys();
-  return score;
-}
-
 void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {
   for (std::size_t i = 0; i < scene.organs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -279,6 +274,14 @@ void find_pressed_organs(Scene& scene, std::vector<TomlSection>& sections) {
   }
 }
 
+void give_to_intestines(const TomlSection& root, const std::vector<ObstacleSpec>& obstacles,
+                        std::vector<OrganSpec>& organs) {
+  bool given = false;
+  for (OrganSpec& organ : organs)
+    if (organ.intestine) organ.intestine->obstacles = obstacles, given = true;
+  refuse_wrong_obstacles(root, obstacles.size(), given);
+}
+
 void refuse_wrong_count(const TomlSection& root, const std::string& key, std::size_t count,
                         std::size_t most) {
   if (count >= 1 && count <= most) return;
@@ -310,8 +313,7 @@ Scene load_scene(const std::filesystem::path& file) {
 
   for (TomlSection& s : organs) scene.organs.push_back(read_organ(s, file));
   for (TomlSection& s : obstacles) scene.obstacles.push_back(read_obstacle(s));
-  for (OrganSpec& organ : scene.organs)
-    if (organ.intestine) organ.intestine->obstacles = scene.obstacles;
+  give_to_intestines(root, scene.obstacles, scene.organs);
   for (TomlSection& s : tools) scene.tools.push_back(read_tool(s));
   for (TomlSection& s : hands) scene.hands.push_back(read_hand(s));
   refuse_wrong_count(root, "organs", organs.size(), msg::MAX_ORGANS);

@@ -44,9 +44,11 @@ struct OrganModelWord {
 };
 inline constexpr std::array kOrganModels{
     OrganModelWord{"quasi-static", OrganKind::kTetrahedralMesh},
+    OrganModelWord{"quasi-static-cut", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"tensor-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
     OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
+    OrganModelWord{"hybrid", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"intestine", OrganKind::kTube, Feel::kLocalModels, Trusted::kAlways},
 };
 
@@ -74,7 +76,7 @@ struct OrganSpec {
   std::vector<RegionSpec> regions;         // of several that overlap the last one holds
   std::string fixed;                       // as organ_build --fixed takes it; of an organ file empty
   std::string look = "liver";              // "liver", "gallbladder" or "colon"; of a tube "gut"
-  std::optional<DynamicsSpec> dynamics;    // of a mesh whose model moves it by itself
+  std::optional<DynamicsSpec> dynamics;    // of a mesh whose model moves it by itself, or that is cut
   std::optional<IntestineSpec> intestine;  // of a tube
   std::filesystem::path file;  // the organ file (.h5); the launcher fills it in, --organ overrides it
 };
@@ -82,14 +84,22 @@ struct OrganSpec {
 /// Whether an OrganSpec's mesh is a built organ, which has its material, supports and metres.
 bool is_organ_file(const std::string& mesh);
 
+/// From the tip of a grasper to where its jaws turn, m, as a 5 mm dissector's: the picture's and the hand's.
+inline constexpr double kJawLength_m = 0.018;
+/// The pull that jaws hold where a scene says nothing, N. Jaws are chosen to hold bowel that is pulled by 5 N
+/// without marking it (Heijnsdijk, de Visser, Dankelman and Gouma, Slip and damage properties of jaws of
+/// laparoscopic graspers, Surg Endosc 18, 2004); tissue slips out above that, by about a half.
+inline constexpr double kGripForce_n = 8;
+
 /// An instrument. Collision sees it as points in its own frame T (origin at the tip, z from the tip to the
 /// handle).
 struct ToolSpec {
   std::uint32_t id = 0;
   std::string name;
-  std::string shape;         // "probe" or "grasper": how it is drawn
+  std::string shape;         // "probe" or "grasper": how it is drawn, and whether it has jaws
   std::vector<Vec3> points;  // [P] p_TP, m
   double shaft_radius_m = 0.0025, shaft_length_m = 0.3;
+  double grip_force_n = kGripForce_n;  // tissue that pulls harder slips out of the jaws
   std::optional<Vec3> trocar;  // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
   std::vector<Vec3> edge;      // begin and end of what cuts while its button is pressed, in T, m; or empty
 };
@@ -137,10 +147,17 @@ struct CameraSpec {
   double field_of_view_deg = 40;
 };
 
-/// What a trainee is measured by.
+/// Of the planned cut, m, and the pull that may not be passed, N (docs/score.md says why).
+inline constexpr double kLineWidth_m = 0.005, kPullLimit_n = 5;
+
+/// What a trainee is measured by (docs/score.md).
 struct ScoreSpec {
   std::string exposed_organ;  // its name: the share of it that nothing hides is told; empty: none
-  double from_s = 0;  // since render_node began: what is seen earlier, while organs settle, does not count
+  double from_s = 0;    // since render_node began: what is seen earlier, while organs settle, does not count
+  std::string line_of;  // the name of the organ that is to be cut; empty: none
+  std::vector<Vec3> planned_line;      // [2 or more] along which, in W, m, the organ at rest; or empty
+  double line_width_m = kLineWidth_m;  // what is removed farther from the line's cut lies outside of it
+  double pull_limit_n = kPullLimit_n;  // a pull that is stronger counts
 };
 
 struct Scene {

@@ -13,7 +13,10 @@ LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to
 # Of a foreign mesh's length, where --fixed is not given: an organ is held at an edge (ligaments), but lies on its whole
 # underside; held at its lowest tip only, it would rock under the hand.
 SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
+MOVING_PART = 1 / 3  # of a foreign mesh's length from where it is not held, in a scene of a hybrid organ
 PHANTOM_PARTS = ("gallbladder", "colon", "plate", "cylinder")  # beside the liver, in one size each
+
+NO_FILE = ("plane:", "box:", "label:")  # what a SPEC that names no CSV begins with
 
 told_warnings = set()  # without the program's name: organ_build and scene_prepare say the same of one organ
 
@@ -79,6 +82,15 @@ def support_spec(measured, scale, scene_fixed):
     return f"plane:{axis}{side}{at:.6g}"
 
 
+def dynamic_spec(measured, scale, scene_fixed):
+    """The end of the mesh that lies opposite to where support_spec() holds it."""
+    match = re.match(r"plane:([xyz])([<>])", scene_fixed)
+    axis, side = match.groups() if match else ("z", "<")
+    low, high = (scale * measured[end]["xyz".index(axis)] for end in ("min", "max"))
+    moving = MOVING_PART * (high - low)
+    return f"plane:{axis}>{high - moving:.6g}" if side == "<" else f"plane:{axis}<{low + moving:.6g}"
+
+
 def guessed_scale(name, measured):
     """Metres, or millimetres where metres would make a giant; said with its reason, since it is a guess."""
     largest = max(high - low for low, high in zip(measured["min"], measured["max"]))
@@ -92,7 +104,7 @@ def guessed_scale(name, measured):
 
 
 def foreign_terms(options, spec):
-    """Scale and supports of a user's mesh: given, or found and said."""
+    """Scale, supports and, in place of a hybrid organ's, dynamic part of a user's mesh: given, or found and said."""
     measured = json.loads(run_tool(options, ["scene_prepare", "--measure", options.organ], "measuring the mesh"))
     scale = options.scale
     if scale is None:
@@ -100,26 +112,30 @@ def foreign_terms(options, spec):
     fixed = options.fixed or support_spec(measured, scale, spec["fixed"])
     if not options.fixed:
         print(f"run: {options.organ.name} is supported at {fixed} (--fixed says otherwise)", flush=True)
-    return scale, fixed
+    dynamic = spec.get("dynamic", "") and dynamic_spec(measured, scale, spec["fixed"])
+    if dynamic:
+        print(f"run: {options.organ.name} moves by itself and can be cut at {dynamic}", flush=True)
+    return scale, fixed, dynamic
 
 
 def support_files(fixed):
-    """The CSV that a --fixed SPEC names, without the components that may follow it (nodes.csv:xz)."""
-    if fixed.startswith(("plane:", "box:")):
+    """The CSV that a --fixed or --dynamic SPEC names, without the components that may follow it (nodes.csv:xz)."""
+    if fixed.startswith(NO_FILE):
         return []
     return [pathlib.Path(re.sub(r":[xyz]+$", "", fixed))]
 
 
 def relative_to(scene, fixed):
     """A scene's SPEC: like its mesh, a CSV in it lies relative to the scene's file."""
-    return fixed if fixed.startswith(("plane:", "box:")) else str(scene.parent / fixed)
+    return fixed if fixed.startswith(NO_FILE) else str(scene.parent / fixed)
 
 
-def build_organ(options, cache, mesh, name, spec, scale, fixed):
+def build_organ(options, cache, mesh, name, spec, scale, fixed, dynamic=""):
     program = options.programs / "organ_build"
     terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
-             "--scale", scale, "--fixed", fixed, *(part for region in spec["regions"] for part in ("--region", region))]
-    inputs = [mesh, *support_files(fixed)]
+             "--scale", scale, "--fixed", fixed, *(part for region in spec["regions"] for part in ("--region", region)),
+             *(["--dynamic", dynamic] if dynamic else [])]
+    inputs = [mesh, *support_files(fixed), *(support_files(dynamic) if dynamic else [])]
     if mesh.suffix.lower() in (".node", ".ele"):
         inputs += [mesh.with_suffix(suffix) for suffix in (".node", ".ele", ".NODE", ".ELE")]
     return cache.get(f"{name}.h5", ["organ", program, *terms, *inputs],
@@ -134,10 +150,10 @@ def users_organ_file(options, cache, spec):
     if not spec["young_pa"]:
         raise Refusal(f"{options.scene}: the organ {spec['name']} is an organ file, without a material for the mesh "
                       f"{options.organ.name}: expected --organ FILE.h5, or young_pa, poisson and density_kg_m3 beside it")
-    scale, fixed = foreign_terms(options, spec)
+    scale, fixed, dynamic = foreign_terms(options, spec)
     if spec["regions"]:
         print(f"run: {options.organ.name} is of one material: the scene's regions lie in its own organ", flush=True)
-    return build_organ(options, cache, options.organ, options.organ.stem, {**spec, "regions": []}, scale, fixed)
+    return build_organ(options, cache, options.organ, options.organ.stem, {**spec, "regions": []}, scale, fixed, dynamic)
 
 
 def organ_file(options, cache, spec):
@@ -147,7 +163,8 @@ def organ_file(options, cache, spec):
     kind, _, size = spec["mesh"].partition(":")
     mesh = phantom_mesh(options, cache, size) if kind == "phantom" else pathlib.Path(spec["mesh"])
     return build_organ(options, cache, mesh, spec["name"], spec, spec["metres_per_unit"],
-                       relative_to(options.scene, spec["fixed"]))
+                       relative_to(options.scene, spec["fixed"]),
+                       spec.get("dynamic", "") and relative_to(options.scene, spec["dynamic"]))
 
 
 def organ_files(options, cache, specs):

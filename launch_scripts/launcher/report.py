@@ -16,7 +16,7 @@ NO_LOOP = {"rate_hz": 0.0, "ticks": 0, "missed": 0, "period_us": NONE_US, "compu
 FIELDS = {
     "haptic_node": {"loop": NO_LOOP, "force_n": {"mean": 0.0, "max": 0.0},
                     "contacts": {"ticks_in_contact": 0, "nodes_max": 0},
-                    "local_models": {"heard": 0, "dropped": 0, "gone": 0}, "faults": []},
+                    "local_models": {"heard": 0, "dropped": 0, "gone": 0}, "hands": [], "faults": []},
     "deform_node": {"loop": NO_LOOP, "states": 0, "stress_states": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
                     "cuts": {"way_cm": 0.0, "lost_cm3": 0.0, "lost_cm3_per_cm": 0.0}, "real_time_factor": 0.0, "faults": []},
     "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "removed_tetrahedra": 0, "closed": False,
@@ -155,6 +155,32 @@ def removed_line(organs):
     return line + (f"; {cuts['lost_cm3']:.1f} cm^3 lost over {cuts['way_cm']:.1f} cm of cut" if cuts["way_cm"] else "")
 
 
+def hand_line(hand):
+    line = f"hand {hand['tool']}: largest force {hand['force_max_n']:.2f} N"
+    if hand["pull_max_n"]:
+        line += f", largest pull {hand['pull_max_n']:.2f} N, {hand['pulls_beyond_limit']} beyond the limit"
+    grasps = hand.get("grasps", {"begun": 0})
+    ends = [f"{grasps[end]} {end}" for end in ("empty", "torn", "lost") if grasps.get(end)]
+    if grasps["begun"] or ends:
+        line += f"; {grasps['begun']} grasps" + (f" ({', '.join(ends)})" if ends else "")
+        line += f", up to {1e3 * hand['grip_torque_max_nm']:.1f} mN m on the jaws"
+    return line
+
+
+def score_lines(haptic, organs):
+    """The trainee's score (docs/score.md), of a scene that plans a cut, and of hands whose jaws closed."""
+    score = organs.get("score") if organs else None
+    lines = []
+    if score:
+        lines.append(f"cut: {score['mean_mm']:.1f} mm from the planned line in the mean, {score['largest_mm']:.1f} mm at most, over "
+                     f"{score['way_mm']:.0f} mm; {score['outside_cm3']:.1f} of {score['removed_cm3']:.1f} cm^3 outside of it; "
+                     f"{score['seconds']:.1f} s")
+    for hand in haptic["hands"] if haptic else []:
+        if score or any(hand.get("grasps", {}).values()):
+            lines.append(hand_line(hand))
+    return lines
+
+
 def summary(report):
     """A short table, and what a person should know besides."""
     rows = [["", "dds", "exit", "rate", "done", "not done", "time of", "median", "99 %", "longest"]]
@@ -168,6 +194,7 @@ def summary(report):
                      f"{haptic['contacts']['ticks_in_contact']} ticks in contact")
     if organs and organs["removed_tetrahedra"]:
         lines.append(removed_line(organs))
+    lines += score_lines(haptic, organs)
     if picture:
         lines.append(f"deepest dent: {1e3 * picture['deepest_dent_m']:.1f} mm")
     exposed = picture.get("exposed_share") if picture else None

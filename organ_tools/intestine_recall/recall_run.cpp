@@ -74,25 +74,42 @@ class RecallRun {
         way_m_(gut_.positions.size()) {}
 
   RecallReport run() {
-    const auto steps = static_cast<std::int64_t>(std::llround(options_.seconds / options_.step_s));
-    const std::int64_t all = geometry::exhaustive_tests(parts_.layout, parts_.near);
+    const auto steps_in = [&](double s) {
+      return static_cast<std::int64_t>(std::llround(s / options_.step_s));
+    };
+    const std::int64_t all = geometry::exhaustive_tests(parts_.layout, parts_.near),
+                       steps = steps_in(options_.seconds);
+    for (std::int64_t k = 0; k < steps_in(options_.settle_s); ++k) find(go_on());
     for (std::int64_t k = 0; k < steps; ++k) step();
     report_.exhaustive_tests = steps * all;
     return std::move(report_);
   }
 
  private:
+  using Found = std::array<std::set<IndexPair>, kMethods.size()>;
+
   void step() {
-    const std::vector<Vec3> before = system_.state().x;
+    const std::vector<Vec3> before = go_on();
+    const Found found = find(before);
+    for (std::size_t method = 0; method < kMethods.size(); ++method)
+      report_.methods[method].tests += watchers_[method].tests();
+    compare(regions_of(parts_.layout, all_collisions(before)), found);
+  }
+
+  // Returns where the masses were before.
+  std::vector<Vec3> go_on() {
+    std::vector<Vec3> before = system_.state().x;
     const auto forces = hand_.pull(before, options_.step_s);
     system_.step({.forces_n = forces, .obstacles = std::span(&floor_, 1), .spheres = {}});
     for (std::size_t m = 0; m < before.size(); ++m) way_m_[m] = (system_.state().x[m] - before[m]).norm();
-    std::array<std::set<IndexPair>, kMethods.size()> found;
-    for (std::size_t method = 0; method < kMethods.size(); ++method) {
+    return before;
+  }
+
+  Found find(std::span<const Vec3> before) {
+    Found found;
+    for (std::size_t method = 0; method < kMethods.size(); ++method)
       found[method] = watchers_[method].find(before, way_m_);
-      report_.methods[method].tests += watchers_[method].tests();
-    }
-    compare(regions_of(parts_.layout, all_collisions(before)), found);
+    return found;
   }
 
   // Of the parts that both searches know, by every pair.
@@ -103,8 +120,7 @@ class RecallRun {
     return geometry::all_overlaps(parts_.layout, corners_, parts_.reach, parts_.near);
   }
 
-  void compare(const std::vector<Region>& regions,
-               const std::array<std::set<IndexPair>, kMethods.size()>& found) {
+  void compare(const std::vector<Region>& regions, const Found& found) {
     RecallSample sample{static_cast<std::int32_t>(regions.size()), {}};
     std::map<IndexPair, History> now;
     for (const Region& region : regions) {

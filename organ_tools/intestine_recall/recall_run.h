@@ -14,6 +14,7 @@ inline constexpr int kGrace = 3;  // steps after first contact in which a search
 
 struct RecallOptions {
   geometry::GutAnatomy anatomy;
+  double settle_s = 0;  // before: both searches follow, nothing is compared
   double seconds = 60;
   double step_s = 5e-3;
   std::uint64_t seed = 1;

@@ -48,6 +48,13 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
           "the mesh file: Gmsh's physical group, VTK's cell data, TetGen's last attribute), "
           "box=x0,y0,z0,x1,y1,z1 or ball=x,y,z,r in metres (tetrahedra whose centre lies there)")
       .type_name("SPEC");
+  line.option(
+          "--dynamic", command.dynamic,
+          "makes a hybrid organ: these tetrahedra have masses and can be cut, the others are precomputed; "
+          "repeat for a union, also of several parts: plane:x<0.03 or box:x0,y0,z0,x1,y1,z1 in metres (of "
+          "tetrahedra the centre; + joins them), label:N of the mesh file, or FILE.csv of tetrahedron "
+          "numbers")
+      .type_name("SPEC");
   add_numbering_option(line, command.check.numbering);
   line.flag(
       "--ignore-other-cells", command.check.ignore_other_cells,
@@ -63,15 +70,12 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
       .type_name("N");
   line.flag("--force", command.force, "build even when ORGAN.h5 is up to date");
   line.option("--law", command.law, "quasi-non-linear law: not part of this version").type_name("FILE");
-  line.option("--dynamic", command.dynamic, "dynamic part: not part of this version").type_name("SPEC");
 }
 
 void require_offered(const BuildCommand& command) {
-  const auto refuse = [](const std::string& option) {
-    throw geometry::InputError(option + ": not part of this version, which builds linear elastic organs");
-  };
-  if (!command.law.empty()) refuse("--law " + command.law);
-  if (!command.dynamic.empty()) refuse("--dynamic " + command.dynamic);
+  if (command.law.empty()) return;
+  throw geometry::InputError("--law " + command.law +
+                             ": not part of this version, which builds linear elastic organs");
 }
 
 void require_own_output(const BuildCommand& command) {

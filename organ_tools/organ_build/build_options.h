@@ -22,8 +22,8 @@ struct BuildCommand {
   std::string name;  // empty: the output file's stem
   int threads = 0;   // 0: one per processor
   bool force = false;
-  std::string law;      // refused
-  std::string dynamic;  // refused
+  std::vector<std::string> dynamic;
+  std::string law;  // refused
 };
 
 /// Adds the options to `line`.

@@ -1,5 +1,6 @@
 // organ_build: a tetrahedral mesh, a material and supports become an organ file with its force tensors.
 #include "organ/build_organ.h"
+#include "organ/dynamic_spec.h"
 #include "organ/plausibility.h"
 #include "organ/region_spec.h"
 #include "organ/support_spec.h"
@@ -29,16 +30,30 @@ void warn(const std::string& what) {
   std::cerr << "organ_build: warning: " << what << std::endl;
 }
 
+std::vector<std::uint8_t> dynamic_part(const organ_tools::BuildCommand& command,
+                                       const geometry::TetraMesh& mesh) {
+  std::vector<std::uint8_t> dynamic = organ::parse_dynamic(command.dynamic, mesh, command.check.numbering);
+  if (dynamic.empty()) return dynamic;
+  const std::size_t more = organ::take_what_would_hang(mesh, dynamic);
+  if (more > 0) {
+    warn("--dynamic: " + std::to_string(more) +
+         " more tetrahedra would hang on one node or edge beside the dynamic part, and are made dynamic too");
+  }
+  return dynamic;
+}
+
 organ::Organ read_organ(const organ_tools::BuildCommand& command) {
   geometry::CheckedMesh checked =
       geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit, command.check);
   for (const std::string& warning : checked.warnings) warn(warning);
   physics::FixedComponents fixed =
       organ::parse_supports(command.fixed, checked.mesh, command.check.numbering);
+  // before regions take labels of the file over
+  std::vector<std::uint8_t> dynamic = dynamic_part(command, checked.mesh);
   const physics::MaterialMap material = organ::parse_regions(command.regions, command.material, checked.mesh);
   const std::string name = command.name.empty() ? command.output.stem().string() : command.name;
-  organ::Organ made =
-      organ::make_organ(name, std::move(checked.mesh), material, std::move(fixed), command.storage);
+  organ::Organ made = organ::make_organ(name, std::move(checked.mesh), material, std::move(fixed),
+                                        command.storage, std::move(dynamic));
   for (const std::string& sentence : organ::implausible(made.mesh, made.material)) warn(sentence);
   return made;
 }
@@ -50,6 +65,11 @@ void print_summary(const organ::Organ& organ, const organ::BuildResult& built,
               file.c_str(), built.up_to_date ? "up to date" : "built", organ.mesh.positions.size(),
               organ.mesh.tetrahedra.size(), organ.surface.node_count(), organ.surface.mobile_count,
               built.columns, megabytes);
+  if (organ.split) {
+    std::printf("; tensors of %zu precomputed tetrahedra, %zu dynamic ones, %zu connection nodes",
+                organ.split->parts.precomputed.tetrahedron.size(),
+                organ.split->parts.dynamic.tetrahedron.size(), organ.split->parts.connection.size());
+  }
   if (!built.up_to_date) {
     std::printf("; factorized in %.2f s, columns in %.2f s, in all %.2f s", built.factor_s, built.columns_s,
                 built.total_s);

@@ -33,6 +33,11 @@ void check(const std::filesystem::path& file) {
               organ.name.c_str(), organ.mesh.positions.size(), organ.surface.mobile_count,
               organ.surface.node_count(), organ.storage == organ::Storage::kDouble ? "double" : "float",
               organ.hash.c_str());
+  if (organ.split) {
+    std::printf("hybrid: %zu tetrahedra are dynamic, the tensors are of %zu others; %zu connection nodes\n",
+                organ.split->parts.dynamic.tetrahedron.size(),
+                organ.split->parts.precomputed.tetrahedron.size(), organ.split->parts.connection.size());
+  }
   std::printf("%s: ", organ.material.regions.empty() ? "everywhere" : "elsewhere");
   print_tissue(organ, organ.material.common);
   for (const physics::RegionMaterial& region : organ.material.regions) {

@@ -2,6 +2,7 @@
 
 #include "geometry/mesh_editor.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -62,6 +63,12 @@ geometry::TetraMesh left_of(const organ::Organ& organ, const CutOrgan& cut) {
   return left;
 }
 
+std::vector<std::uint8_t> kept_of(const organ::Organ& organ, std::span<const TetId> asked) {
+  if (!organ.split) return {};
+  const auto moves = [&](TetId t) { return organ.split->dynamic[t] != 0; };
+  return std::ranges::all_of(asked, moves) ? organ.split->precomputed() : std::vector<std::uint8_t>{};
+}
+
 }  // namespace
 
 CutOrgan cut_organ(const organ::Organ& organ, std::span<const TetId> asked, Imposed imposed,
@@ -69,7 +76,8 @@ CutOrgan cut_organ(const organ::Organ& organ, std::span<const TetId> asked, Impo
   CutOrgan cut;
   cut.fixed = organ.fixed;
   if (asked.empty()) return cut;
-  geometry::MeshEditor editor(organ.mesh);
+  const std::vector<std::uint8_t> kept = kept_of(organ, asked);
+  geometry::MeshEditor editor(organ.mesh, {.kept = kept});
   const geometry::Removal removal = editor.remove(asked);
   cut.removed.assign(removal.asked.begin(), removal.asked.end());
   cut.removed.insert(cut.removed.end(), removal.repaired.begin(), removal.repaired.end());

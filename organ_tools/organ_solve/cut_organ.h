@@ -23,7 +23,8 @@ struct CutOrgan {
 /// Removes tetrahedra, and what then hangs on one node or edge (geometry::MeshEditor). Throws
 /// geometry::InputError, naming a tetrahedron or node by `numbering`: for a piece that supports and `imposed`
 /// do not hold, which would fall for ever, and for an imposed node that lost all tetrahedra. Without `asked`
-/// the organ is taken as it is.
+/// the organ is taken as it is. Of a hybrid organ whose dynamic part alone is asked for, that alone is
+/// repaired too.
 CutOrgan cut_organ(const organ::Organ& organ, std::span<const geometry::TetId> asked,
                    std::span<const physics::ImposedDisplacement> imposed, geometry::Numbering numbering);
 

@@ -1,11 +1,13 @@
 // organ_solve: imposed displacements in, displacements of every node and holding forces out.
 #include "organ/csv.h"
+#include "organ/tetrahedra_csv.h"
 #include "organ_tools/fast_blas.h"
 #include "organ_tools/numbering_option.h"
+#include "organ_tools/organ_solve/hybrid_solve.h"
 #include "organ_tools/organ_solve/imposed_csv.h"
 #include "organ_tools/organ_solve/move_to_rest.h"
-#include "organ_tools/organ_solve/removed_csv.h"
 #include "organ_tools/organ_solve/solution_csv.h"
+#include "organ_tools/organ_solve/solve_cut.h"
 #include "organ_tools/organ_solve/solve_models.h"
 #include "runtime/command_line.h"
 
@@ -31,7 +33,8 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
       .type_name("FILE");
   organ_tools::add_numbering_option(line, command.numbering);
   line.option("--model", command.model,
-              "tensors, direct, or one that moves until it rests: tensor-mass, corotational, spring-mass")
+              "tensors, direct, cut (the whole organ's factor, downdated), or one that moves until it rests: "
+              "tensor-mass, corotational, spring-mass, or hybrid (of an organ with a dynamic part)")
       .type_name("MODEL")
       .show_default();
   line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
@@ -50,10 +53,11 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
 
 void require_offered(const SolveCommand& command) {
   const bool tensors = command.model == "tensors";
-  if (!tensors && command.model != "direct" && !organ_tools::is_dynamic_model(command.model)) {
-    throw geometry::InputError(
-        "--model " + command.model +
-        ": not part of this version; expected tensors, direct, tensor-mass, corotational or spring-mass");
+  if (!tensors && command.model != "direct" && command.model != "cut" && command.model != "hybrid" &&
+      !organ_tools::is_dynamic_model(command.model)) {
+    throw geometry::InputError("--model " + command.model +
+                               ": not part of this version; expected tensors, direct, cut, tensor-mass, "
+                               "corotational, spring-mass or hybrid");
   }
   if (tensors && !command.removed.empty()) {
     throw geometry::InputError("--remove " + command.removed.string() +
@@ -79,7 +83,8 @@ geometry::Vec3 parse_gravity(const std::string& text) {
 organ_tools::CutOrgan cut_of(const SolveCommand& command, const organ::Organ& organ,
                              organ_tools::Imposed imposed) {
   std::vector<geometry::TetId> asked;
-  if (!command.removed.empty()) asked = organ_tools::read_removed(command.removed, organ, command.numbering);
+  if (!command.removed.empty())
+    asked = organ::read_tetrahedra(command.removed, organ.mesh, command.numbering);
   organ_tools::CutOrgan cut = organ_tools::cut_organ(organ, asked, imposed, command.numbering);
   if (cut.repaired > 0) {
     std::cerr << "organ_solve: --remove " << command.removed.string() << ": " << cut.repaired
@@ -92,6 +97,9 @@ physics::StaticSolution answer(const SolveCommand& command, const organ::Organ& 
                                const organ_tools::CutOrgan& cut, organ_tools::Imposed imposed,
                                const geometry::Vec3& gravity, std::string& warning) {
   if (command.model == "direct") return organ_tools::solve_directly(organ, cut, imposed, gravity);
+  if (command.model == "cut") return organ_tools::solve_cut(organ, cut, imposed, gravity);
+  if (command.model == "hybrid")
+    return organ_tools::solve_hybrid(organ, command.organ, cut, imposed, gravity, command.numbering);
   if (command.model != "tensors")
     return organ_tools::move_to_rest(command.model, organ, cut, imposed, gravity);
   return organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity, command.numbering, warning);

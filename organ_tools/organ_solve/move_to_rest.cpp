@@ -41,8 +41,6 @@ constexpr std::array kModels{
                  }},
 };
 
-// Many periods of an organ's slowest swing (0.2 to 1 s): a step leaves about a tenth of it.
-constexpr double kStep_s = 1;
 constexpr int kMostSteps = 5000;
 // At rest: so many steps in a row move nothing farther than this part of the largest displacement.
 constexpr int kQuietSteps = 3;
@@ -68,18 +66,6 @@ double largest(std::span<const double> values) {
   return found;
 }
 
-// Until nothing moves. False: it does not come to that.
-bool run(physics::ImplicitStep& stepper, physics::ForceLaw& law, std::span<const double> weight,
-         physics::BodyState& state) {
-  int quiet = 0;
-  for (int i = 0; i < kMostSteps && quiet < kQuietSteps; ++i) {
-    if (!stepper.step(state, law, weight)) return false;
-    const bool moved = kStep_s * largest(state.v) > kQuiet * largest(state.u);
-    quiet = moved ? 0 : quiet + 1;
-  }
-  return quiet == kQuietSteps;
-}
-
 physics::StaticSolution solution_of(const physics::BodyState& state, std::span<const double> forces,
                                     std::span<const double> weight, Imposed imposed) {
   const auto at = [](std::span<const double> values, std::size_t n) {
@@ -100,6 +86,16 @@ bool is_dynamic_model(std::string_view model) {
   return std::ranges::find(kModels, model, &DynamicModel::name) != kModels.end();
 }
 
+bool run_to_rest(const std::function<bool()>& step, const physics::BodyState& state) {
+  int quiet = 0;
+  for (int i = 0; i < kMostSteps && quiet < kQuietSteps; ++i) {
+    if (!step()) return false;
+    const bool moved = kRestStep_s * largest(state.v) > kQuiet * largest(state.u);
+    quiet = moved ? 0 : quiet + 1;
+  }
+  return quiet == kQuietSteps;
+}
+
 physics::StaticSolution move_to_rest(std::string_view model, const organ::Organ& organ, const CutOrgan& cut,
                                      Imposed imposed, const Vec3& gravity) {
   const DynamicModel& dynamic = *std::ranges::find(kModels, model, &DynamicModel::name);
@@ -107,14 +103,14 @@ physics::StaticSolution move_to_rest(std::string_view model, const organ::Organ&
   for (const geometry::TetId t : cut.removed) law->remove(t);
   const physics::Inertia inertia = inertia_of(organ, cut, imposed);
   physics::ImplicitStep stepper(organ.mesh, organ.material, inertia,
-                                {.step_s = kStep_s, .most_compliance_nodes = 0});
+                                {.step_s = kRestStep_s, .most_compliance_nodes = 0});
   if (!stepper.remove(cut.removed))
     throw InputError("--remove: what is left hangs together too loosely to be solved");
 
   std::vector<double> weight;
   for (const Vec3& w : weights_of(organ, cut, gravity)) weight.insert(weight.end(), w.begin(), w.end());
   physics::BodyState state = start_of(organ, imposed);
-  const bool rests = dynamic.linear ? run(stepper, *law, weight, state)
+  const bool rests = dynamic.linear ? run_to_rest([&] { return stepper.step(state, *law, weight); }, state)
                                     : physics::search_rest(*law, stepper.factor(), weight, state.u);
   if (!rests) {
     throw InputError("--model " + std::string(model) +

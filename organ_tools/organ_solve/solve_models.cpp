@@ -97,6 +97,11 @@ physics::StaticSolution solve_directly(const organ::Organ& organ, const CutOrgan
 physics::StaticSolution solve_with_tensors(const organ::Organ& organ, const std::filesystem::path& file,
                                            Imposed imposed, const Vec3& gravity, Numbering numbering,
                                            std::string& warning) {
+  if (organ.split) {
+    throw InputError(
+        file.string() +
+        ": the tensors of a hybrid organ are of its precomputed part alone; expected --model hybrid");
+  }
   const physics::Stiffness stiffness = physics::assemble_stiffness(organ.mesh, organ.material);
   const std::vector<Vec3> loads = loads_of(organ, {}, gravity);
   std::vector<Vec3> displacements(organ.mesh.positions.size(), Vec3::Zero());

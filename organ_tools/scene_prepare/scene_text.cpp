@@ -73,7 +73,7 @@ void write_organ(const scene::OrganSpec& organ, toml::table& table) {
     table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
   // a file that took a mesh's place has its own
   if (scene::is_organ_file(organ.mesh))
-    for (const char* key : {"metres_per_unit", "fixed"}) table.erase(key);
+    for (const char* key : {"metres_per_unit", "fixed", "dynamic"}) table.erase(key);
   if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
 }
 
@@ -122,7 +122,8 @@ nlohmann::json describe(const scene::Scene& scene) {
                       {"poisson", organ.poisson},
                       {"density_kg_m3", organ.density_kg_m3},
                       {"regions", regions},
-                      {"fixed", organ.fixed}});
+                      {"fixed", organ.fixed},
+                      {"dynamic", organ.dynamics ? organ.dynamics->dynamic_part : ""}});
   }
   return {{"name", scene.name}, {"organs", organs}};
 }

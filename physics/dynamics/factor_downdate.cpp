@@ -39,7 +39,7 @@ void FactorDowndate::mark(const FactorPanels& factor, std::int32_t position, int
 bool FactorDowndate::apply(FactorPanels& factor, std::span<const RankSix> removals) noexcept {
   path_.clear();
   for (std::size_t r = 0; r < removals.size(); ++r) {
-    alpha_[r].fill(1);
+    alpha_[r].fill(removals[r].is_added ? -1 : 1);
     for (std::size_t i = 0; i < removals[r].position.size(); ++i) {
       const std::int32_t p = removals[r].position[i];
       if (p < 0) continue;

@@ -1,4 +1,4 @@
-// Removed tetrahedra, taken off a factor in place.
+// Removed tetrahedra, taken off a factor in place; and what holds loose nodes instead, put on it.
 #pragma once
 
 #include "physics/dynamics/factor_panels.h"
@@ -10,10 +10,12 @@
 
 namespace omentum::physics {
 
-/// What one tetrahedron's removal takes off A: w w^T, over the degrees of freedom of its corners.
+/// What one tetrahedron's removal takes off A: w w^T, over the degrees of freedom of its corners; or what is
+/// added to it.
 struct RankSix {
   std::array<std::int32_t, 12> position;                 // in the order of elimination; -1: held
   std::array<std::array<double, kernels::kRank>, 12> w;  // not read where held
+  bool is_added = false;
 };
 
 /// The workspace of downdates. Each changes only the supernodes on the ways from the tetrahedra's corners to
@@ -26,8 +28,8 @@ class FactorDowndate {
   /// The most in one call.
   static constexpr int kMost = 8;
 
-  /// A -= sum w w^T. False: A did not stay positive definite, or only within rounding; the factor is then of
-  /// no use before it is copied back.
+  /// A -= sum w w^T, or += of those that are added. False: A did not stay positive definite, or only within
+  /// rounding; the factor is then of no use before it is copied back.
   [[nodiscard]] bool apply(FactorPanels& factor, std::span<const RankSix> removals) noexcept;
 
   /// The supernodes that the last call changed, in ascending order.

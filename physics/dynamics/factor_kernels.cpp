@@ -159,7 +159,7 @@ inline bool turn_pivot(double& d, const double* w, double* alpha, double* pivot,
   for (int k = 0; k < kRank; ++k) {
     gain[k] = -pivot[k] / (alpha[k] * before[k + 1]);
     alpha[k] *= before[k + 1] / before[k];
-    enough &= alpha[k] >= kLeastAlpha;
+    enough &= alpha[k] >= kLeastAlpha || alpha[k] <= -1;
   }
   return enough;
 }
@@ -181,6 +181,22 @@ void rotate_below(double* column, double* w, int j, const double* pivot, const d
 void forward_strip(const float* high, const float* inverse, int width, int tiles, float* v) noexcept {
   put(v, square_times(inverse, v));
   kForwardBelow[width - 1](high, tiles, v);
+}
+
+void forward_strip_together(const float* high, const float* inverse, int width, int tiles, float* v,
+                            long stride) noexcept {
+  for (int c = 0; c < kTogether; ++c) put(v + c * stride, square_times(inverse, v + c * stride));
+  const float* tile = high + width * kTileRows;
+  for (int t = 1; t < tiles; ++t) {
+    float* rows = v + t * kTileRows;
+    Lanes sums[kTogether];
+    for (int c = 0; c < kTogether; ++c) sums[c] = lanes_at(rows + c * stride);
+    for (int j = 0; j < width; ++j, tile += kTileRows) {
+      const Lanes column = lanes_at(tile);
+      for (int c = 0; c < kTogether; ++c) sums[c] -= column * v[c * stride + j];
+    }
+    for (int c = 0; c < kTogether; ++c) put(rows + c * stride, sums[c]);
+  }
 }
 
 void backward_strip(const float* high, const float* inverse_transposed, int width, int tiles,

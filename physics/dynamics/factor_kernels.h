@@ -13,6 +13,8 @@ inline constexpr int kSquare = kTileRows * kTileRows;
 inline constexpr int kRank = 6;
 /// What must be left of a rank's alpha: with 48 bits in an entry, six digits of A are still right there.
 inline constexpr double kLeastAlpha = 1e-8;
+/// Right-hand sides that are taken through a strip together: their sums fit into AVX2's registers.
+inline constexpr int kTogether = 6;
 
 /// A panel's entry is the sum of two floats, `high` the nearest to it: 48 bits of it are kept, and a solve
 /// reads the high ones only.
@@ -31,6 +33,10 @@ struct Rotations {
 /// `inverse`: of the unit lower triangle of the diagonal tile, by columns.
 void forward_strip(const float* high, const float* inverse, int width, int tiles, float* v) noexcept;
 
+/// The same for kTogether right-hand sides, which begin `stride` floats after one another.
+void forward_strip_together(const float* high, const float* inverse, int width, int tiles, float* v,
+                            long stride) noexcept;
+
 /// v[0] = L_ss^-T (v[0] - sum_t L_t^T v[t]); `inverse_transposed` by columns.
 void backward_strip(const float* high, const float* inverse_transposed, int width, int tiles,
                     float* v) noexcept;
@@ -45,9 +51,10 @@ void split(const double* values, int count, SplitColumns into) noexcept;
 
 /// Takes w w^T, w [16][6], off L D L^T within the diagonal tile of a strip (Gill, Golub, Murray and Saunders
 /// 1974, method C1, six ranks in turn in each column as Davis and Hager 2001). `w` is [6][16]; `pivots` D of
-/// the strip's columns; `alpha` [6], what is left of each rank's 1 - w^T A^-1 w so far. Returns whether
-/// each stays at least kLeastAlpha; where one does not (a NaN never does), the matrix does not stay positive
-/// definite, or only within rounding: then nothing of it may be used.
+/// the strip's columns; `alpha` [6], what is left of each rank's 1 - w^T A^-1 w so far. Where alpha begins at
+/// -1 instead of 1 the rank is added, and falls from there. Returns whether each stays at least kLeastAlpha,
+/// or at most -1; where one does not (a NaN never does), the matrix does not stay positive definite, or only
+/// within rounding: then nothing of it may be used.
 bool downdate_diagonal(SplitColumns tile, int width, double* pivots, double* w, double* alpha,
                        Rotations& rotations) noexcept;
 

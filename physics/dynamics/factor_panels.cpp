@@ -103,6 +103,15 @@ void FactorPanels::forward(const Supernode& s, float* x, float* scratch) const n
   for (const std::int32_t p : rows_below(s)) x[p] += *change++;
 }
 
+void FactorPanels::forward_together(const Supernode& s, float* v, std::ptrdiff_t stride) const noexcept {
+  std::int32_t index = s.strip;
+  for (const Strip& strip : strips(s)) {
+    kernels::forward_strip_together(high_[strip.column].value, inverses_[index++].plain.value, strip.width,
+                                    strip.tiles, v, stride);
+    v += kTileRows;
+  }
+}
+
 void FactorPanels::backward(const Supernode& s, float* x, float* scratch) const noexcept {
   std::copy_n(x + s.first, s.width, scratch);
   float* copy = scratch + s.width;

@@ -57,6 +57,10 @@ class FactorPanels {
   void solve(float* x, float* scratch) const noexcept;
   /// One supernode's share of L^-1 x; and of L^-T x.
   void forward(const Supernode& s, float* x, float* scratch) const noexcept;
+  /// The former of kernels::kTogether right-hand sides, in local rows: v [kTogether][stride], 64-byte
+  /// aligned, `stride` at least most_rows(). Rows below the supernode's columns begin as zeros, and end as
+  /// what is to be added there.
+  void forward_together(const Supernode& s, float* v, std::ptrdiff_t stride) const noexcept;
   void backward(const Supernode& s, float* x, float* scratch) const noexcept;
   /// 1 / D at `position`, as solves use it.
   float inverse_pivot(std::int32_t position) const { return inverse_pivots_[position]; }

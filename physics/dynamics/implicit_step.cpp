@@ -10,7 +10,7 @@ ImplicitStep::ImplicitStep(const geometry::TetraMesh& mesh, const MaterialMap& m
     : inertia_(inertia),
       step_s_(options.step_s),
       factor_(mesh, material, inertia.fixed, inertia.mass, weights_of(inertia, options.step_s),
-              options.most_compliance_nodes),
+              options.most_compliance_nodes, options.added),
       ahead_(3 * inertia.mass.size()),
       forces_(ahead_.size()),
       impulse_(ahead_.size()),

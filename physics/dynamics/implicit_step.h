@@ -10,6 +10,7 @@ namespace omentum::physics {
 struct ImplicitOptions {
   double step_s = 0;               // dt, above zero
   int most_compliance_nodes = 24;  // of one call of compliance()
+  AddedStiffness added{};          // a part of K beside the mesh's
 };
 
 /// M (v' - v) = dt (f_ext + f(u') - D v'), u' = u + dt v', D = a M + b K, linearized about the rest shape:

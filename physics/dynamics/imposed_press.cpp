@@ -36,8 +36,7 @@ ImposedPress::ImposedPress(std::size_t node_count, std::size_t most_presses)
       strength_(most_presses) {}
 
 std::span<const double> ImposedPress::impose(Yielding& body, std::span<const Press> presses,
-                                             std::span<double> u, std::span<double> v,
-                                             double already) noexcept {
+                                             std::span<double> u, std::span<double> v) noexcept {
   geometry::require(presses.size() <= yields_.size(), "no more presses than were said");
   count_ = presses.size();
   for (std::size_t p = 0; p < count_; ++p) {
@@ -49,14 +48,13 @@ std::span<const double> ImposedPress::impose(Yielding& body, std::span<const Pre
   for (std::size_t p = 0; p < count_; ++p) {
     lacking_[p] = wanted(presses[p]) - along(presses[p], u);
     for (std::size_t q = 0; q < count_; ++q) {
-      coupling_[p * count_ + q] = along(presses[p], yields_[q]);
-      lacking_[p] += already * coupling_[p * count_ + q];
+      coupling_[p * count_ + q] = along(presses[p], yields_[q]) + (p == q ? presses[p].own_yield_j : 0);
+      lacking_[p] += presses[q].already * coupling_[p * count_ + q];
     }
-    coupling_[p * count_ + p] += presses[p].own_yield_j;
   }
   solve(presses);
   for (std::size_t p = 0; p < count_; ++p) {
-    const double more = strength_[p] - already;
+    const double more = strength_[p] - presses[p].already;
     if (more == 0) continue;
     for (std::size_t c = 0; c < u.size(); ++c) {
       u[c] += more * yields_[p][c];
@@ -74,7 +72,8 @@ void ImposedPress::solve(std::span<const Press> presses) noexcept {
       if (!(row[p] > 0)) continue;
       double rest = lacking_[p];
       for (std::size_t q = 0; q < count_; ++q) rest -= row[q] * strength_[q];
-      strength_[p] = std::clamp(strength_[p] + rest / row[p], 0.0, presses[p].most_strength);
+      strength_[p] =
+          std::clamp(strength_[p] + rest / row[p], presses[p].least_strength, presses[p].most_strength);
     }
   }
 }

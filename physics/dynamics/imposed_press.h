@@ -16,8 +16,11 @@ struct Press {
   std::span<const geometry::NodeId> nodes;
   std::span<const geometry::Vec3> displacements;  // from rest, in W, m
   std::span<const geometry::Vec3> forces;         // on the body, in W, N
+  // the dent that it already makes in places with a wall of their own is not in the displacements
   double own_yield_j = 0;  // work of these forces on what the places give way beside the body's nodes
   double most_strength = kMostStrength;  // less where the hand fell silent, or its forces would not fade
+  double least_strength = 0;             // less for a pattern that may pull
+  double already = 0;                    // how strong it was in the step that is ended
 };
 
 /// Ends an implicit step that was made without the tools so that each press is as deep as its hand says: one
@@ -37,11 +40,11 @@ class ImposedPress {
  public:
   ImposedPress(std::size_t node_count, std::size_t most_presses);
 
-  /// `u` and `v` are those of a step of `body` with all other forces, [3N], and with `already` times the
-  /// presses'. The strengths s, [presses]; they are valid until the next call. Precondition: at most
+  /// `u` and `v` are those of a step of `body` with all other forces, [3N], and the presses as strong as they
+  /// already were. The strengths s, [presses]; they are valid until the next call. Precondition: at most
   /// `most_presses`.
   std::span<const double> impose(Yielding& body, std::span<const Press> presses, std::span<double> u,
-                                 std::span<double> v, double already = 0) noexcept;
+                                 std::span<double> v) noexcept;
   std::span<const double> impose(Yielding& body, std::span<const Press> presses, BodyState& state) noexcept {
     return impose(body, presses, state.u, state.v);
   }

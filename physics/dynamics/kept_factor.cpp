@@ -25,6 +25,11 @@ Stiffness system_of(const Stiffness& K, std::span<const double> mass, const Syst
   return A;
 }
 
+// Columns, filled up to whole groups of those that are taken through together.
+std::size_t whole_groups(std::size_t columns) {
+  return (columns + kernels::kTogether - 1) / kernels::kTogether * kernels::kTogether;
+}
+
 std::vector<std::int32_t> free_components(const FreeDofs& free) {
   std::vector<std::int32_t> components(free.count);
   for (std::size_t c = 0; c < free.index.size(); ++c) {
@@ -41,8 +46,8 @@ struct KeptFactor::Assembled {
   std::optional<StiffnessFactor> factor;  // none where everything is held
 
   Assembled(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
-            std::span<const double> mass, const SystemWeights& weights)
-      : free(free_dofs(fixed)), stiffness(assemble_stiffness(mesh, material)) {
+            std::span<const double> mass, const SystemWeights& weights, const AddedStiffness& added)
+      : free(free_dofs(fixed)), stiffness(with_added(assemble_stiffness(mesh, material), added)) {
     if (free.count > 0) factor.emplace(system_of(stiffness, mass, weights), free);
   }
   Supernodes supernodes() const { return factor ? factor->supernodes() : Supernodes{}; }
@@ -50,9 +55,9 @@ struct KeptFactor::Assembled {
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
                        const FixedComponents& fixed, const std::vector<double>& mass,
-                       const SystemWeights& weights, int most_compliance_nodes)
+                       const SystemWeights& weights, int most_compliance_nodes, const AddedStiffness& added)
     : KeptFactor(mesh, material, mass, weights, most_compliance_nodes,
-                 Assembled(mesh, material, fixed, mass, weights)) {}
+                 Assembled(mesh, material, fixed, mass, weights, added)) {}
 
 KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material,
                        const std::vector<double>& mass, const SystemWeights& weights,
@@ -60,6 +65,7 @@ KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& mater
     : mesh_(mesh),
       material_(material),
       mass_(mass),
+      uncut_mass_(mass),
       weights_(weights),
       start_(assembled.stiffness.start),
       neighbour_(assembled.stiffness.neighbour.begin(), assembled.stiffness.neighbour.end()),
@@ -75,16 +81,17 @@ KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& mater
       x_(panels_.size()),
       residual_(position_.size()),
       correction_(position_.size()),
-      columns_(static_cast<std::size_t>(3 * most_compliance_nodes) * panels_.size()),
+      columns_(whole_groups(3 * static_cast<std::size_t>(most_compliance_nodes)) * panels_.size()),
+      together_(kernels::kTogether * scratch_.size()),
       known_blocks_(most_compliance_nodes),
-      on_way_(panels_.supernodes().size()) {
+      place_(panels_.supernodes().size(), -1) {
   const std::vector<std::int32_t> components = free_components(assembled.free);
   const Supernodes order = assembled.supernodes();
   for (std::int32_t p = 0; p < order.size; ++p) {
     component_[p] = components[order.permutation[p]];
     position_[component_[p]] = p;
   }
-  ways_.reserve(on_way_.size());
+  ways_.reserve(place_.size());
 }
 
 RankSix KeptFactor::root_of(geometry::TetId t) const noexcept {
@@ -118,15 +125,49 @@ bool KeptFactor::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
       roots[i] = root_of(now[i]);
       subtract_element(now[i]);
     }
-    definite &= downdate_.apply(panels_, {roots.data(), now.size()});
-    for (const std::int32_t s : downdate_.changed()) changed_[s] = 1;
+    definite &= apply({roots.data(), now.size()});
     tetrahedra = tetrahedra.subspan(now.size());
+  }
+  return definite;
+}
+
+bool KeptFactor::apply(std::span<const RankSix> roots) noexcept {
+  const bool definite = downdate_.apply(panels_, roots);
+  for (const std::int32_t s : downdate_.changed()) changed_[s] = 1;
+  return definite;
+}
+
+// Of two nodes at most.
+RankSix KeptFactor::root_of_masses(std::span<const geometry::NodeId> nodes, double mass) const noexcept {
+  RankSix root{.position = {}, .w = {}, .is_added = true};
+  root.position.fill(-1);
+  for (std::size_t i = 0; i < 3 * nodes.size(); ++i) {
+    root.position[i] = position_[3 * nodes[i / 3] + static_cast<std::int32_t>(i % 3)];
+    root.w[i][i] = std::sqrt(weights_.mass * mass);
+  }
+  return root;
+}
+
+bool KeptFactor::add_mass(std::span<const geometry::NodeId> nodes, double mass) noexcept {
+  bool definite = true;
+  known_blocks_.forget();
+  for (const geometry::NodeId n : nodes) mass_[n] += mass;
+  while (!nodes.empty()) {
+    std::array<RankSix, FactorDowndate::kMost> roots;
+    std::size_t count = 0;
+    for (; count < roots.size() && !nodes.empty(); ++count) {
+      const auto pair = nodes.first(std::min<std::size_t>(nodes.size(), 2));
+      roots[count] = root_of_masses(pair, mass);
+      nodes = nodes.subspan(pair.size());
+    }
+    definite &= apply({roots.data(), count});
   }
   return definite;
 }
 
 void KeptFactor::restore() noexcept {
   known_blocks_.forget();
+  std::ranges::copy(uncut_mass_, mass_.begin());
   std::ranges::copy(uncut_block_, block_.begin());
   for (std::size_t s = 0; s < changed_.size(); ++s) {
     if (changed_[s] == 0) continue;
@@ -161,55 +202,102 @@ void KeptFactor::multiply(std::span<const double> x, std::span<double> y) const 
 }
 
 void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
+  for (const std::int32_t s : ways_) place_[s] = -1;
   ways_.clear();
   for (const geometry::NodeId n : nodes) {
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t p = position_[3 * n + axis];
       if (p < 0) continue;
-      for (std::int32_t s = panels_.supernode_of(p); s >= 0 && on_way_[s] == 0;
+      for (std::int32_t s = panels_.supernode_of(p); s >= 0 && place_[s] < 0;
            s = panels_.supernodes()[s].parent) {
-        on_way_[s] = 1;
+        place_[s] = 0;
         ways_.push_back(s);
       }
     }
   }
   std::ranges::sort(ways_);
-  for (const std::int32_t s : ways_) on_way_[s] = 0;
+  std::int32_t place = 0;
+  for (const std::int32_t s : ways_) {
+    place_[s] = place;
+    place += panels_.supernodes()[s].width;
+  }
+  way_length_ = place;
+}
+
+// On the ways that are marked.
+void KeptFactor::clear_columns(std::size_t width) noexcept {
+  for (std::size_t r = 0; r < whole_groups(width); ++r)
+    std::fill_n(columns_.data() + r * x_.size(), way_length_, 0.0f);
+}
+
+std::size_t KeptFactor::place_on_way(std::int32_t position) const noexcept {
+  const std::int32_t s = panels_.supernode_of(position);
+  return static_cast<std::size_t>(place_[s] + position - panels_.supernodes()[s].first);
+}
+
+// Columns first to first + kTogether of D^(-1/2) L^-1 E, as far as supernode `s` goes.
+void KeptFactor::forward_columns(const FactorPanels::Supernode& s, std::size_t first) noexcept {
+  const std::size_t n = x_.size(), stride = scratch_.size() * kTileRows;
+  const std::int32_t here = place_[&s - panels_.supernodes().data()];
+  const auto height = static_cast<std::size_t>((s.height + kTileRows - 1) / kTileRows * kTileRows);
+  float* v = together_.data()->value;
+  for (std::size_t c = 0; c < kernels::kTogether; ++c) {
+    std::copy_n(columns_.data() + (first + c) * n + here, s.width, v + c * stride);
+    std::fill(v + c * stride + s.width, v + c * stride + height, 0.0f);
+  }
+  panels_.forward_together(s, v, static_cast<std::ptrdiff_t>(stride));
+  for (std::size_t c = 0; c < kernels::kTogether; ++c) {
+    float* z = columns_.data() + (first + c) * n;
+    for (std::int32_t i = 0; i < s.width; ++i)
+      z[here + i] = v[c * stride + i] * std::sqrt(panels_.inverse_pivot(s.first + i));
+    const float* change = v + c * stride + s.width;
+    for (const std::int32_t p : panels_.rows_below(s)) {
+      const std::int32_t above = panels_.supernode_of(p);
+      z[place_[above] + p - panels_.supernodes()[above].first] += *change++;
+    }
+  }
+}
+
+void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
+  if (known_blocks_.find(nodes, block)) return;
+  const std::size_t width = 3 * nodes.size();
+  mark_ways(nodes);
+  clear_columns(width);
+  for (std::size_t c = 0; c < width; ++c) {
+    const std::int32_t p = position_[3 * nodes[c / 3] + static_cast<std::int32_t>(c % 3)];
+    if (p >= 0) columns_[c * x_.size() + place_on_way(p)] = 1;
+  }
+  square_columns(width, block);
+  known_blocks_.keep(nodes, block);
+}
+
+void KeptFactor::project_inverse(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                                 std::span<float> block) noexcept {
+  const std::size_t width = nodes.empty() ? 0 : rows.size() / (3 * nodes.size());
+  mark_ways(nodes);
+  clear_columns(width);
+  for (std::size_t c = 0; c < 3 * nodes.size(); ++c) {
+    const std::int32_t p = position_[3 * nodes[c / 3] + static_cast<std::int32_t>(c % 3)];
+    for (std::size_t r = 0; p >= 0 && r < width; ++r)
+      columns_[r * x_.size() + place_on_way(p)] = rows[c * width + r];
+  }
+  square_columns(width, block);
 }
 
 // With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
-void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
-  if (known_blocks_.find(nodes, block)) return;
+void KeptFactor::square_columns(std::size_t width, std::span<float> block) noexcept {
   const FlushTiny flush;
-  mark_ways(nodes);
-  const std::size_t width = 3 * nodes.size(), n = x_.size();
-  for (std::size_t r = 0; r < width; ++r) {
-    float* z = columns_.data() + r * n;
-    for (const std::int32_t s : ways_) {
-      const FactorPanels::Supernode& node = panels_.supernodes()[s];
-      std::fill_n(z + node.first, node.width, 0.0f);
-    }
-    const std::int32_t p = position_[3 * nodes[r / 3] + static_cast<std::int32_t>(r % 3)];
-    if (p >= 0) z[p] = 1;
-  }
-  std::fill_n(block.begin(), width * width, 0.0f);
+  const std::size_t n = x_.size();
   for (const std::int32_t s : ways_) {
-    const FactorPanels::Supernode& node = panels_.supernodes()[s];
-    for (std::size_t r = 0; r < width; ++r) {
-      float* z = columns_.data() + r * n;
-      panels_.forward(node, z, scratch_.data()->value);
-      for (std::int32_t p = node.first; p < node.first + node.width; ++p)
-        z[p] *= std::sqrt(panels_.inverse_pivot(p));
-      for (std::size_t q = 0; q <= r; ++q) {
-        block[r * width + q] +=
-            kernels::column_dot(z + node.first, columns_.data() + q * n + node.first, node.width);
-      }
-    }
+    for (std::size_t first = 0; first < width; first += kernels::kTogether)
+      forward_columns(panels_.supernodes()[s], first);
   }
   for (std::size_t r = 0; r < width; ++r) {
-    for (std::size_t q = 0; q < r; ++q) block[q * width + r] = block[r * width + q];
+    for (std::size_t q = 0; q <= r; ++q) {
+      block[r * width + q] = block[q * width + r] =
+          kernels::column_dot(columns_.data() + r * n, columns_.data() + q * n, way_length_);
+    }
   }
-  known_blocks_.keep(nodes, block);
 }
 
 }  // namespace omentum::physics

@@ -31,14 +31,18 @@ inline SystemWeights weights_of(const Inertia& inertia, double dt) {
 /// All memory is taken at construction; one thread at a time.
 class KeptFactor {
  public:
-  /// `mass`: [N], kg, positive. Throws FloatingError when A is not positive definite, std::runtime_error when
-  /// memory runs out. `mesh` outlives it.
+  /// `mass`: [N], kg, not negative; `added` is a part of K that no removal takes. Throws FloatingError when A
+  /// is not positive definite, std::runtime_error when memory runs out. `mesh` outlives it.
   KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
-             const std::vector<double>& mass, const SystemWeights& weights, int most_compliance_nodes = 24);
+             const std::vector<double>& mass, const SystemWeights& weights, int most_compliance_nodes = 24,
+             const AddedStiffness& added = {});
 
   /// Takes tetrahedra off K and off the factor. Precondition: each is there. False: what is left is not
   /// positive definite to working precision; to be answered with restore() or a new factor.
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept;
+  /// Puts more mass on nodes, kg each, positive; on the factor too. Precondition: nodes differ. False as
+  /// remove().
+  [[nodiscard]] bool add_mass(std::span<const geometry::NodeId> nodes, double mass) noexcept;
   /// As constructed.
   void restore() noexcept;
 
@@ -54,6 +58,10 @@ class KeptFactor {
   /// The rows and columns of A^-1 that belong to `nodes`, [3n x 3n], symmetric. Only the ways from them to
   /// the root of the elimination tree are visited. Precondition: at most `most_compliance_nodes`.
   void inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept;
+  /// E^T A^-1 E, [w x w], of columns E that are zero but at `nodes`: `rows` [3 nodes][w] of them. Visits the
+  /// ways from all nodes. Precondition: w is at most 3 `most_compliance_nodes`.
+  void project_inverse(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                       std::span<float> block) noexcept;
 
   /// What A is made of, and entries of its factor.
   const SystemWeights& weights() const { return weights_; }
@@ -70,11 +78,17 @@ class KeptFactor {
              const SystemWeights& weights, int most_compliance_nodes, const Assembled& assembled);
   void subtract_element(geometry::TetId t) noexcept;
   RankSix root_of(geometry::TetId t) const noexcept;
+  RankSix root_of_masses(std::span<const geometry::NodeId> nodes, double mass) const noexcept;
+  bool apply(std::span<const RankSix> roots) noexcept;
   void mark_ways(std::span<const geometry::NodeId> nodes) noexcept;
+  void clear_columns(std::size_t width) noexcept;
+  std::size_t place_on_way(std::int32_t position) const noexcept;
+  void forward_columns(const FactorPanels::Supernode& s, std::size_t first) noexcept;
+  void square_columns(std::size_t width, std::span<float> block) noexcept;
 
   const geometry::TetraMesh& mesh_;
   MaterialMap material_;
-  std::vector<double> mass_;  // [N]
+  std::vector<double> mass_, uncut_mass_;  // [N]
   SystemWeights weights_;
   using Blocks = std::vector<Eigen::Matrix3d, HugePages<Eigen::Matrix3d>>;
   std::vector<std::int32_t> start_, neighbour_;  // rows of K (Stiffness)
@@ -90,10 +104,12 @@ class KeptFactor {
   std::vector<Row> scratch_;
   std::vector<float> x_;                       // [n]
   std::vector<double> residual_, correction_;  // [3N]
-  std::vector<float> columns_;                 // [3 most_compliance_nodes][n]
+  std::vector<float> columns_;                 // [3 most_compliance_nodes][n], those on the ways first
+  std::vector<Row> together_;                  // [kTogether][most_rows]
   KnownBlocks known_blocks_;                   // of what is left
   std::vector<std::int32_t> ways_;             // supernodes
-  std::vector<std::uint8_t> on_way_;           // [S]
+  std::int32_t way_length_ = 0;                // columns of all those
+  std::vector<std::int32_t> place_;            // [S] of its first column in columns_; -1: not on a way
 };
 
 }  // namespace omentum::physics

@@ -16,6 +16,12 @@ class LargeStep : public Yielding {
   [[nodiscard]] virtual bool step(BodyState& state, std::span<const double> external) noexcept = 0;
   /// J, with what is left.
   virtual double elastic_energy(std::span<const double> u) noexcept = 0;
+  /// J, of forces that were held over a step which ended with velocities `v`.
+  virtual double work(std::span<const double> external, std::span<const double> v) noexcept {
+    double power_w = 0;
+    for (std::size_t c = 0; c < external.size(); ++c) power_w += external[c] * v[c];
+    return power_w * step_s();
+  }
 
   /// Tetrahedra go, and all come back (KeptFactor::remove and restore).
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;

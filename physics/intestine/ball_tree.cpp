@@ -6,11 +6,18 @@ using geometry::Vec3;
 
 BallTree::BallTree(std::int32_t parts) {
   auto size = static_cast<std::size_t>(parts);
-  levels_.emplace_back(size);
+  levels_.emplace_back(size, 1);
   while (size > kGroup) {
     size = (size + kGroup - 1) / kGroup;
-    levels_.emplace_back(size);
+    levels_.emplace_back(size, levels_.back().span * kGroup);
   }
+}
+
+void BallTree::Level::set(std::size_t ball, const Vec3& centre, double radius_m) {
+  x[ball] = centre.x();
+  y[ball] = centre.y();
+  z[ball] = centre.z();
+  radius[ball] = radius_m;
 }
 
 void BallTree::place(const GutParts& parts, std::span<const Vec3> x,
@@ -18,21 +25,22 @@ void BallTree::place(const GutParts& parts, std::span<const Vec3> x,
   for (std::int32_t part = 0; part < parts.count(); ++part) {
     const auto p = static_cast<std::size_t>(part);
     const Ball ball = parts.ball_around(part, x);
-    levels_[0][p] = {ball.centre, ball.radius_m + around_m[p]};
+    levels_[0].set(p, ball.centre, ball.radius_m + around_m[p]);
   }
   for (std::size_t level = 1; level < levels_.size(); ++level) {
+    const Level& below = levels_[level - 1];
     for (std::size_t i = 0; i < levels_[level].size(); ++i) {
-      const std::size_t begin = i * kGroup, end = std::min(begin + kGroup, levels_[level - 1].size());
-      const std::span<const Node> group = std::span(levels_[level - 1]).subspan(begin, end - begin);
-      Vec3 low = group[0].centre, high = low;
-      for (const Node& node : group) {
-        low = low.cwiseMin(node.centre);
-        high = high.cwiseMax(node.centre);
+      const std::size_t begin = i * kGroup, end = std::min(begin + kGroup, below.size());
+      Vec3 low = below.centre(begin), high = low;
+      for (std::size_t k = begin; k < end; ++k) {
+        low = low.cwiseMin(below.centre(k));
+        high = high.cwiseMax(below.centre(k));
       }
-      Node& around = levels_[level][i];
-      around = {(low + high) / 2, 0};
-      for (const Node& node : group)
-        around.radius_m = std::max(around.radius_m, (node.centre - around.centre).norm() + node.radius_m);
+      const Vec3 centre = (low + high) / 2;
+      double radius_m = 0;
+      for (std::size_t k = begin; k < end; ++k)
+        radius_m = std::max(radius_m, (below.centre(k) - centre).norm() + below.radius[k]);
+      levels_[level].set(i, centre, radius_m);
     }
   }
 }

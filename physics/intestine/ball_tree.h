@@ -2,6 +2,9 @@
 #pragma once
 
 #include "physics/intestine/gut_parts.h"
+#include "physics/intestine/pair_kernels.h"
+
+#include <bit>
 
 namespace omentum::physics {
 
@@ -9,7 +12,7 @@ namespace omentum::physics {
 /// other lie beside each other, in any pose. No allocation after construction.
 class BallTree {
  public:
-  static constexpr std::int32_t kGroup = 16;
+  static constexpr std::int32_t kGroup = kernels::kMostBalls;
 
   explicit BallTree(std::int32_t parts);
 
@@ -19,47 +22,48 @@ class BallTree {
 
   /// Calls visit(part, lower) for every part that may be within `around_m` of the segment p -> q, in the
   /// order of parts from `first` on; `lower`: a lower bound of what separates the part, with what it needs
-  /// around it, from the segment, m (below around_m).
+  /// around it, from the segment, m (not above around_m).
   template <class Visit>
   void visit_near(const geometry::Vec3& p, const geometry::Vec3& q, double around_m, std::int32_t first,
                   const Visit& visit) const {
-    const Line line(p, q);
-    const auto top = levels_.size() - 1;
-    descend(top, 0, static_cast<std::int32_t>(levels_[top].size()), line, around_m, first, visit);
+    const geometry::Vec3 along = q - p;
+    const double squared = along.squaredNorm();
+    const kernels::BallLine line{
+        {p.x(), p.y(), p.z()}, {along.x(), along.y(), along.z()}, squared > 0 ? 1 / squared : 0};
+    descend(levels_.size() - 1, 0, line, around_m, first, visit);
   }
 
  private:
-  struct Node {
-    geometry::Vec3 centre;
-    double radius_m;
+  // Balls by components: a group of them is asked for at once.
+  struct Level {
+    std::vector<double> x, y, z, radius;  // [balls], m
+    std::int32_t span = 1;                // parts of each ball
+    explicit Level(std::size_t size, std::int32_t parts_each)
+        : x(size), y(size), z(size), radius(size), span(parts_each) {}
+    std::size_t size() const { return radius.size(); }
+    geometry::Vec3 centre(std::size_t ball) const { return {x[ball], y[ball], z[ball]}; }
+    void set(std::size_t ball, const geometry::Vec3& centre, double radius_m);
   };
-  // A segment, ready to be asked for distances.
-  struct Line {
-    geometry::Vec3 start, along;
-    double per_length;  // 1 / length^2, 0 without length
-    Line(const geometry::Vec3& p, const geometry::Vec3& q)
-        : start(p), along(q - p), per_length(along.squaredNorm() > 0 ? 1 / along.squaredNorm() : 0) {}
-    double squared_distance(const geometry::Vec3& to) const {
-      const geometry::Vec3 r = to - start;
-      const double t = std::clamp(r.dot(along) * per_length, 0.0, 1.0);
-      return (r - t * along).squaredNorm();
-    }
-  };
-  std::vector<std::vector<Node>> levels_;  // [0]: of the parts
+  std::vector<Level> levels_;  // [0]: of the parts; the last one is one group at most
 
   template <class Visit>
-  void descend(std::size_t level, std::int32_t begin, std::int32_t end, const Line& line, double around_m,
+  void descend(std::size_t level, std::size_t begin, const kernels::BallLine& line, double around_m,
                std::int32_t first, const Visit& visit) const {
-    for (std::int32_t i = begin; i < end; ++i) {
-      const Node& node = levels_[level][static_cast<std::size_t>(i)];
-      const double far = node.radius_m + around_m, squared = line.squared_distance(node.centre);
-      if (squared > far * far) continue;
+    const Level& balls = levels_[level];
+    const std::size_t count = std::min(balls.size() - begin, std::size_t{kGroup});
+    double separation_m[kGroup];
+    std::uint32_t near = kernels::find_near_balls(
+        count, {&balls.x[begin], &balls.y[begin], &balls.z[begin], &balls.radius[begin]}, line, around_m,
+        separation_m);
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(near));
+      const auto ball = static_cast<std::int32_t>(begin + i);
+      if ((ball + 1) * balls.span <= first) continue;
       if (level == 0) {
-        if (i >= first) visit(i, std::sqrt(squared) - node.radius_m);
-        continue;
+        visit(ball, separation_m[i]);
+      } else {
+        descend(level - 1, (begin + i) * kGroup, line, around_m, first, visit);
       }
-      const auto below = static_cast<std::int32_t>(levels_[level - 1].size());
-      descend(level - 1, i * kGroup, std::min((i + 1) * kGroup, below), line, around_m, first, visit);
     }
   }
 };

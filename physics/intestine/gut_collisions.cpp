@@ -3,6 +3,7 @@
 #include "physics/intestine/active_pairs.h"
 #include "physics/intestine/complete_pairs.h"
 #include "physics/intestine/displacement_bound.h"
+#include "physics/intestine/gut_chords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +15,20 @@ namespace {
 using geometry::MassId;
 using geometry::Vec3;
 
-// Room for contacts: with walls and balls for each mass, of pairs for each part. A gut at rest has one for
-// four parts; what finds no room is not corrected, but held apart by the bound.
-constexpr std::size_t kContactsPerMass = 4, kContactsPerPart = 16;
+// Room for contacts: of pairs and of spheres for each part, with walls for each mass. A gut at rest has one
+// for four parts, a box' corner three for each mass in it; what finds no room is told, and held apart by the
+// bound where it is no wall.
+constexpr std::size_t kContactsPerPart = 16, kSpheresPerPart = 4, kWallsPerMass = 8;
 
-std::size_t most_contacts(const PairFinder& finder, const GutParts& parts) {
+// The least way of a sphere, m, in which it meets all the force that drives it: so far it gives way where it
+// would stand.
+constexpr double kGiveWay_m = 1e-3;
+
+ContactRoom room_for(const PairFinder& finder, const GutParts& parts) {
   const auto count = static_cast<std::size_t>(parts.count()),
              masses = static_cast<std::size_t>(parts.gut.mass_count());
-  return std::min(finder.most_pairs(), kContactsPerPart * count) + kContactsPerMass * masses;
+  return {std::min(finder.most_pairs(), kContactsPerPart * count), kSpheresPerPart * count,
+          kWallsPerMass * masses};
 }
 
 void require(bool good, const char* expectation) {
@@ -34,6 +41,14 @@ std::unique_ptr<PairFinder> finder_of(const GutParts& parts, const GutCollisionS
   return std::make_unique<CompletePairs>(parts);
 }
 
+// Normals turn from step to step: what a push has beside its normal then stays within its friction.
+Vec3 within_friction(const Vec3& push, const Vec3& normal, double friction) {
+  const double along = std::max(0.0, push.dot(normal)), most = friction * along;
+  const Vec3 rubbing = push - push.dot(normal) * normal;
+  const double length = rubbing.norm();
+  return along * normal + (length > most ? Vec3(rubbing * (most / length)) : rubbing);
+}
+
 }  // namespace
 
 GutCollisions::GutCollisions(const geometry::GutShape& shape, std::span<const double> masses_kg,
@@ -43,11 +58,12 @@ GutCollisions::GutCollisions(const geometry::GutShape& shape, std::span<const do
       settings_(settings),
       finder_(finder_of(parts_, settings)),
       spheres_(parts_),
-      response_(most_contacts(*finder_, parts_), settings.passes, settings.friction),
-      pushes_(most_contacts(*finder_, parts_)),
+      response_(room_for(*finder_, parts_).all(), settings.passes, settings.friction),
+      room_(room_for(*finder_, parts_)),
+      pushes_(room_.all()),
       carry_(shape.layout.mass_count(),
-             masses_kg.size() + static_cast<std::size_t>(std::max(settings.most_spheres, 0)),
-             most_contacts(*finder_, parts_)) {
+             masses_kg.size() + static_cast<std::size_t>(std::max(settings.most_spheres, 0)), room_.all(),
+             settings.friction) {
   const auto masses = static_cast<std::size_t>(shape.layout.mass_count());
   require(masses_kg.size() == masses, "one mass in kg for each of the grid is expected");
   require(step_s > 0 && std::isfinite(step_s), "a step above 0 s is expected");
@@ -58,9 +74,10 @@ GutCollisions::GutCollisions(const geometry::GutShape& shape, std::span<const do
   near_.pairs.reserve(finder_->most_pairs());
   near_.gap.resize(masses);
   way_.resize(masses);
-  contacts_.reserve(most_contacts(*finder_, parts_));
+  contacts_.reserve(room_.all());
   for (auto* of_all : {&before_, &x_, &v_}) of_all->resize(all);
   gap_.resize(all);
+  held_.resize(all);
   keys_.reserve(contacts_.capacity());
   warm_.reserve(contacts_.capacity());
   outcomes_.reserve(static_cast<std::size_t>(settings.most_spheres));
@@ -86,9 +103,19 @@ void GutCollisions::take_in(std::span<const Vec3> before, const GutState& state,
   }
 }
 
-void GutCollisions::hold_back(std::size_t count) noexcept {
-  report_.bound_acted += bound_displacements(std::span(before_).first(count), std::span(gap_).first(count),
-                                             step_s_, std::span(x_).first(count), std::span(v_).first(count));
+void GutCollisions::hold_back(std::size_t count, std::span<const Vec3> carried) noexcept {
+  bound_displacements(std::span(before_).first(count), carried, std::span(gap_).first(count), step_s_,
+                      std::span(x_).first(count), std::span(v_).first(count), held_);
+}
+
+// A sphere that is stopped gave up its way in this step: its mass is such that this takes all of its force.
+void GutCollisions::limit_forces(std::span<const MovingSphere> spheres) noexcept {
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    const std::size_t mass = way_.size() + k;
+    const double way_m = std::max((x_[mass] - before_[mass]).norm(), kGiveWay_m);
+    const double yield_1_kg = way_m / (spheres[k].most_force_n * step_s_ * step_s_);
+    inverse_mass_[mass] = std::max(inverse_mass_[mass], yield_1_kg);
+  }
 }
 
 void GutCollisions::find_pairs(std::span<const Vec3> before) noexcept {
@@ -99,19 +126,7 @@ void GutCollisions::find_pairs(std::span<const Vec3> before) noexcept {
   }
   finder_->find(before, way_, watched_m(), near_);
   std::ranges::copy(near_.gap, gap_.begin());
-  spread_gaps();
-}
-
-// Masses between two columns of the parts go no farther than these.
-void GutCollisions::spread_gaps() noexcept {
-  const geometry::GutLayout& gut = parts_.gut;
-  for (MassId m(0); parts_.stride > 1 && m < gut.mass_count(); m = MassId(m + 1)) {
-    const std::int32_t row = gut.row(m), column = gut.column(m), since = column % parts_.stride;
-    if (since == 0) continue;
-    const MassId before = gut.mass(row, column - since);
-    const MassId after = gut.mass(row, std::min(column - since + parts_.stride, gut.columns - 1));
-    gap_[m] = std::min({gap_[m], gap_[before], gap_[after]});
-  }
+  spread_gaps(parts_, std::span(gap_).first(before.size()));
 }
 
 double GutCollisions::watched_m() const noexcept {
@@ -121,11 +136,15 @@ double GutCollisions::watched_m() const noexcept {
 // A pair that pushed goes on where it is, also when another pair has come to report the same place.
 void GutCollisions::gather_pairs(std::span<const Vec3> before) noexcept {
   for (const NearPair& pair : near_.pairs) {
-    const double* const push = pushes_.find(pair.segment, pair.part);
-    if (!pair.reports && (push == nullptr || *push <= 0)) continue;
+    const Push* const push = pushes_.find(pair.segment, pair.part);
+    if (!pair.reports && (push == nullptr || push->impulse.isZero())) continue;
     const GutContact contact = contact_of(parts_, before, pair.segment, pair.part, pair.places);
     const double open = (place_of(contact.one, x_) - place_of(contact.other, x_)).dot(contact.normal);
-    if (open >= contact.reach_m + watched_m() || contacts_.size() == contacts_.capacity()) continue;
+    if (open >= contact.reach_m + watched_m()) continue;
+    if (contacts_.size() == room_.pairs) {
+      ++report_.left_out;
+      continue;
+    }
     contacts_.push_back(contact);
     keys_.push_back({pair.segment, pair.part});
   }
@@ -134,20 +153,27 @@ void GutCollisions::gather_pairs(std::span<const Vec3> before) noexcept {
 void GutCollisions::gather_walls(std::span<const GutObstacle> obstacles) noexcept {
   std::int32_t key = -1 - settings_.most_spheres;
   for (const GutObstacle& obstacle : obstacles) {
-    --key;
-    for (MassId m(0); m < parts_.gut.mass_count(); m = MassId(m + 1)) {
-      if (inverse_mass_[m] == 0 || contacts_.size() == contacts_.capacity()) continue;
-      const WallPlace wall = place_at_wall(obstacle, x_[m]);
-      const double radius = parts_.reach.tube_m / 2;
-      const double reach = parts_.gut.row(m) == 0 ? radius : parts_.reach.mesentery_m - radius;
-      if (wall.depth_m >= reach + watched_m()) continue;
-      contacts_.push_back({.one = {{m, MassId(), MassId()}, {1, 0, 0}},
-                           .other = {},
-                           .place = x_[m] - wall.depth_m * wall.inward,
-                           .normal = wall.inward,
-                           .reach_m = reach});
-      keys_.push_back({key, m});
+    key -= WallFaces::kMostFaces;
+    for (MassId m(0); m < parts_.gut.mass_count(); m = MassId(m + 1))
+      if (inverse_mass_[m] != 0) gather_faces(obstacle, m, key);
+  }
+}
+
+void GutCollisions::gather_faces(const GutObstacle& obstacle, MassId m, std::int32_t key) noexcept {
+  const double radius = parts_.reach.tube_m / 2;
+  const double reach = parts_.gut.row(m) == 0 ? radius : parts_.reach.mesentery_m - radius;
+  const WallFaces faces = faces_within(obstacle, x_[m], reach + watched_m());
+  for (const WallPlace& wall : faces.near()) {
+    if (contacts_.size() == room_.all()) {
+      ++report_.left_out;
+      continue;
     }
+    contacts_.push_back({.one = {{m, MassId(), MassId()}, {1, 0, 0}},
+                         .other = {},
+                         .place = x_[m] - wall.depth_m * wall.inward,
+                         .normal = wall.inward,
+                         .reach_m = reach});
+    keys_.push_back({key + wall.face, m});
   }
 }
 
@@ -157,14 +183,15 @@ void GutCollisions::gather_spheres(std::span<const MovingSphere> spheres) noexce
   const std::span<const Vec3> x = std::span(x_).first(masses);
   spheres_.look_at(x);
   for (std::size_t k = 0; k < spheres.size(); ++k)
-    spheres_.add_contacts(x, x_[masses + k], spheres[k].radius_m, MassId(masses + k),
-                          -1 - static_cast<std::int32_t>(k), watched_m(), contacts_, keys_);
+    report_.left_out += spheres_.add_contacts(x, x_[masses + k], spheres[k].radius_m, MassId(masses + k),
+                                              -1 - static_cast<std::int32_t>(k), watched_m(),
+                                              room_.with_spheres(), contacts_, keys_);
 }
 
 void GutCollisions::recall_pushes() noexcept {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const double* const push = pushes_.find(keys_[c].one, keys_[c].other);
-    if (push != nullptr) warm_[c] = *push;
+    const Push* const push = pushes_.find(keys_[c].one, keys_[c].other);
+    if (push != nullptr) warm_[c] = within_friction(push->impulse, contacts_[c].normal, settings_.friction);
   }
 }
 
@@ -172,7 +199,7 @@ void GutCollisions::remember_pushes() noexcept {
   pushes_.forget();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const auto [entry, is_new] = pushes_.remember(keys_[c].one, keys_[c].other);
-    if (is_new) entry->value = response_.push(c);
+    if (is_new) entry->value.impulse = response_.impulse(c);
   }
 }
 
@@ -188,39 +215,60 @@ void GutCollisions::tell_spheres(std::size_t count) noexcept {
 
 void GutCollisions::resolve(std::span<const Vec3> before, GutState& state,
                             std::span<const GutObstacle> obstacles, std::span<const MovingSphere> spheres,
-                            const GutYield* yield) noexcept {
-  spheres = spheres.first(std::min(spheres.size(), static_cast<std::size_t>(settings_.most_spheres)));
+                            GutYield* yield, std::span<const Vec3> carried) noexcept {
+  const std::size_t known = std::min(spheres.size(), static_cast<std::size_t>(settings_.most_spheres));
+  report_.left_out += static_cast<std::int64_t>(spheres.size() - known);
+  spheres = spheres.first(known);
+  gather(before, state, obstacles, spheres, carried);
   const std::size_t count = before.size() + spheres.size();
+  const MovingMasses masses{before_, std::span(x_).first(count), std::span(v_).first(count), inverse_mass_};
+  warm_.assign(yield != nullptr ? contacts_.size() : 0, Vec3::Zero());
+  if (yield != nullptr) {
+    recall_pushes();
+    std::ranges::fill(held_, 0);
+    std::ranges::copy(state.x, x_.begin());
+    std::ranges::copy(state.v, v_.begin());
+    carry_.solve(contacts_, *yield, step_s_, masses, warm_);
+    hold_back(count, carried);
+  }
+  response_.solve(contacts_, warm_, step_s_, masses);
+  if (yield != nullptr) remember_pushes();
+  hold_back(count, carried);
+  keep_near_chords(parts_, step_s_, std::span(x_).first(before.size()), std::span(v_).first(before.size()),
+                   std::span(held_).first(before.size()));
+  tell_spheres(spheres.size());
+  std::copy_n(x_.begin(), before.size(), state.x.begin());
+  std::copy_n(v_.begin(), before.size(), state.v.begin());
+  tell(masses);
+}
+
+// Pairs and contacts, where the masses want to be as far as the bound lets them.
+void GutCollisions::gather(std::span<const Vec3> before, const GutState& state,
+                           std::span<const GutObstacle> obstacles, std::span<const MovingSphere> spheres,
+                           std::span<const Vec3> carried) noexcept {
   contacts_.clear();
   keys_.clear();
   outcomes_.clear();
+  std::ranges::fill(held_, 0);
   take_in(before, state, spheres);
   find_pairs(before);
   if (!spheres.empty()) {
     spheres_.look_at(before);
     spheres_.lower_gaps(before, spheres, gap_);
   }
-  hold_back(count);
+  hold_back(before.size() + spheres.size(), carried);
+  limit_forces(spheres);
   gather_pairs(before);
   gather_spheres(spheres);
   gather_walls(obstacles);
-  const MovingMasses masses{before_, std::span(x_).first(count), std::span(v_).first(count), inverse_mass_};
-  warm_.assign(yield != nullptr ? contacts_.size() : 0, 0);
-  if (yield != nullptr) {
-    recall_pushes();
-    std::ranges::copy(state.x, x_.begin());
-    std::ranges::copy(state.v, v_.begin());
-    carry_.solve(contacts_, *yield, step_s_, masses, warm_);
-    hold_back(count);
-  }
-  response_.solve(contacts_, warm_, step_s_, masses);
-  if (yield != nullptr) remember_pushes();
-  hold_back(count);
-  tell_spheres(spheres.size());
-  std::copy_n(x_.begin(), before.size(), state.x.begin());
-  std::copy_n(v_.begin(), before.size(), state.v.begin());
-  report_ = {response_.pushing(), static_cast<std::int64_t>(finder_->tracked()), finder_->distance_tests(),
-             report_.bound_acted, response_.deepest_m(masses)};
+}
+
+void GutCollisions::tell(const MovingMasses& masses) noexcept {
+  report_.contacts = response_.pushing();
+  report_.pairs_tracked = static_cast<std::int64_t>(finder_->tracked());
+  report_.distance_tests = finder_->distance_tests();
+  report_.bound_acted += std::ranges::count(held_, 1);
+  report_.deepest_m = response_.deepest_m(masses);
 }
 
 void GutCollisions::reset() noexcept {
@@ -234,7 +282,7 @@ void GutCollisions::reset() noexcept {
 void GutCollisions::take_up(const GutCollisions& other) noexcept {
   reset();
   const double longer = step_s_ / other.step_s_;
-  pushes_.take_over(other.pushes_, [longer](double push) { return longer * push; });
+  pushes_.take_over(other.pushes_, [longer](const Push& push) { return Push{longer * push.impulse}; });
 }
 
 }  // namespace omentum::physics

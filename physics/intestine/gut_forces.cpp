@@ -1,5 +1,7 @@
 #include "physics/intestine/gut_forces.h"
 
+#include <algorithm>
+
 namespace omentum::physics {
 
 namespace {
@@ -12,6 +14,17 @@ std::size_t spring_count(const geometry::GutLayout& layout) {
 kernels::SpringRun run_of(const GutSprings& springs, const GutSpringFamily& family) {
   return {spring_count(springs.layout()), static_cast<std::size_t>(family.offset),
           family.stiffness_n_m.data(), family.rest_m.data()};
+}
+
+// So many masses at a time all springs of: what one direction leaves in the cache the next one finds there.
+constexpr std::size_t kBlock = 512;
+
+kernels::SpringRun part_of(const kernels::SpringRun& run, std::size_t first) {
+  return {std::min(kBlock, run.count - first), run.offset, run.k + first, run.rest + first};
+}
+
+kernels::Planes behind(const kernels::Planes& planes, std::size_t first) {
+  return {planes.x + first, planes.y + first, planes.z + first};
 }
 
 kernels::BendRun run_of(const GutBends& bends) {
@@ -40,9 +53,13 @@ void GutForces::begin_step(double step_s) noexcept {
 }
 
 void GutForces::add_implicit(GutPlanes& x, GutPlanes& f) const noexcept {
-  each([&](const auto& loop) {
-    kernels::add_forces(loop.run, 1 + damping_, loop.pull.data(), x.planes(), f.planes());
-  });
+  const double stiffer = 1 + damping_;
+  for (std::size_t first = 0; first < springs_[0].run.count; first += kBlock) {
+    for (const auto& loop : springs_)
+      kernels::add_forces(part_of(loop.run, first), stiffer, &loop.pull[first], behind(x.planes(), first),
+                          behind(f.planes(), first));
+  }
+  kernels::add_forces(bends_.run, stiffer, bends_.pull.data(), x.planes(), f.planes());
 }
 
 void GutForces::add_explicit(GutPlanes& x, GutPlanes& v, GutPlanes& f) const noexcept {

@@ -40,22 +40,54 @@ WallPlace in_ellipsoid(const Vec3& p, const Vec3& e) {
   return {(y - surface).dot(inward), sign.cwiseProduct(inward)};
 }
 
+// Of a box' faces: two on each axis, on its positive side first.
+WallPlace at_face(std::int32_t face, const Vec3& p, const Vec3& half) {
+  const Eigen::Index axis = face / 2;
+  const double side = face % 2 == 0 ? 1 : -1;
+  return {half[axis] - side * p[axis], -side * Vec3::Unit(axis), face};
+}
+
 WallPlace in_box(const Vec3& p, const Vec3& half) {
-  const Vec3 depth = half - p.cwiseAbs();
-  Eigen::Index axis = 0;
-  const double least = depth.minCoeff(&axis);
-  return {least, p[axis] > 0 ? Vec3(-Vec3::Unit(axis)) : Vec3(Vec3::Unit(axis))};
+  WallPlace nearest = at_face(0, p, half);
+  for (std::int32_t face = 1; face < WallFaces::kMostFaces; ++face) {
+    const WallPlace place = at_face(face, p, half);
+    if (place.depth_m < nearest.depth_m) nearest = place;
+  }
+  return nearest;
+}
+
+// In the obstacle's own axes.
+Vec3 in_own_axes(const GutObstacle& obstacle, const Vec3& p) {
+  return obstacle.axes.transpose() * (p - obstacle.centre);
 }
 
 }  // namespace
 
 WallPlace place_at_wall(const GutObstacle& obstacle, const Vec3& p) noexcept {
-  const Vec3 own = obstacle.axes.transpose() * (p - obstacle.centre);
+  const Vec3 own = in_own_axes(obstacle, p);
   WallPlace place{own.z(), Vec3::UnitZ()};
   if (obstacle.kind == GutObstacle::Kind::kInsideEllipsoid) place = in_ellipsoid(own, obstacle.half_axes_m);
   if (obstacle.kind == GutObstacle::Kind::kInsideBox) place = in_box(own, obstacle.half_axes_m);
   place.inward = obstacle.axes * place.inward;
   return place;
+}
+
+WallFaces faces_within(const GutObstacle& obstacle, const Vec3& p, double reach_m) noexcept {
+  WallFaces faces;
+  const auto take = [&](const WallPlace& place) {
+    if (place.depth_m < reach_m) faces.places[faces.count++] = place;
+  };
+  if (obstacle.kind != GutObstacle::Kind::kInsideBox) {
+    take(place_at_wall(obstacle, p));
+    return faces;
+  }
+  const Vec3 own = in_own_axes(obstacle, p);
+  for (std::int32_t face = 0; face < WallFaces::kMostFaces; ++face) {
+    WallPlace place = at_face(face, own, obstacle.half_axes_m);
+    place.inward = obstacle.axes * place.inward;
+    take(place);
+  }
+  return faces;
 }
 
 WallClearance clearance(const geometry::GutShape& gut, const GutObstacle& obstacle) noexcept {

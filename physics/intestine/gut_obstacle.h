@@ -4,6 +4,7 @@
 #include "geometry/gut_shape.h"
 
 #include <limits>
+#include <span>
 
 namespace omentum::physics {
 
@@ -24,6 +25,8 @@ struct MovingSphere {
   geometry::Vec3 after = geometry::Vec3::Zero();   // where it wants to be at the end of it, in W, m
   double radius_m = 0;
   double mass_kg = std::numeric_limits<double>::infinity();  // infinite: the gut does not slow it
+  // What drives it pushes no harder, N: where more is in its way it stays behind, and `reached` says where.
+  double most_force_n = std::numeric_limits<double>::infinity();
 };
 
 /// What a step made of a MovingSphere.
@@ -37,8 +40,19 @@ struct SphereOutcome {
 struct WallPlace {
   double depth_m = 0;
   geometry::Vec3 inward = geometry::Vec3::UnitZ();
+  std::int32_t face = 0;  // of a box, below kMostFaces; else 0
 };
+/// To the nearest face.
 WallPlace place_at_wall(const GutObstacle& obstacle, const geometry::Vec3& p) noexcept;
+
+/// All faces to which a point is nearer than reach_m: several in the corner of a box.
+struct WallFaces {
+  static constexpr std::int32_t kMostFaces = 6;
+  std::array<WallPlace, kMostFaces> places;
+  std::size_t count = 0;
+  std::span<const WallPlace> near() const { return std::span(places).first(count); }
+};
+WallFaces faces_within(const GutObstacle& obstacle, const geometry::Vec3& p, double reach_m) noexcept;
 
 /// The mass of a gut that is nearest to a wall or farthest beyond it.
 struct WallClearance {

@@ -16,13 +16,23 @@ class GutProjective {
   /// `springs` and `band`, which was made with the same step, outlive it.
   GutProjective(const GutSprings& springs, const GutBand& band, double step_s, int iterations);
 
-  /// One step under `forces_n`, [masses], N. Allocates nothing.
+  /// One step under `forces_n`, [masses], N. Nothing of this class allocates.
   void step(std::span<const geometry::Vec3> forces_n, GutState& state) noexcept;
 
- private:
+  /// The same piece by piece, for who comes between the iterations: begin() puts x where they begin, each
+  /// go_downhill() takes x on, under `pushes_n`, [masses], N, beside the forces, and end() sets v for where x
+  /// is then, under these pushes.
   void begin(std::span<const geometry::Vec3> forces_n, GutState& state) noexcept;
+  void go_downhill(std::span<const geometry::Vec3> pushes_n, std::span<geometry::Vec3> x) noexcept;
+  void end(std::span<const geometry::Vec3> pushes_n, std::span<const geometry::Vec3> x,
+           std::span<geometry::Vec3> v) noexcept;
+  int iterations() const { return iterations_; }
+
+ private:
   void go_downhill() noexcept;
-  void keep_energy(std::span<const geometry::Vec3> forces_n, GutState& state) noexcept;
+  void find_residual() noexcept;
+  void keep_energy(std::span<const geometry::Vec3> pushes_n, std::span<const geometry::Vec3> x,
+                   std::span<geometry::Vec3> v) noexcept;
 
   const GutSprings& springs_;
   const GutBand& band_;
@@ -33,6 +43,7 @@ class GutProjective {
   std::vector<double> inertia_;        // [masses] M (1 + dt drag) / dt^2, N/m
   std::vector<std::int32_t> mass_;     // [free masses] of the band, in its order
   std::vector<geometry::Vec3> start_;  // [masses] x at the start of the step
+  std::vector<geometry::Vec3> loads_;  // [masses] N, of the step
   GutPlanes x_, constant_, f_;         // [masses] x'; what does not change in a step, and all that is left, N
   std::vector<GutBand::Node> way_;     // [free masses] N, then m
 };

@@ -1,6 +1,7 @@
 // Raghupathi 2004, section 4.2: displacements and velocities that take overlapping parts apart.
 #pragma once
 
+#include "physics/intestine/contact_kernels.h"
 #include "physics/intestine/gut_contact.h"
 
 #include <span>
@@ -16,7 +17,8 @@ struct MovingMasses {
   std::span<const double> inverse_mass;    // [n], 1/kg; 0: held
 };
 
-/// A fixed number of passes over all contacts, one after the other in their order (Gauss-Seidel). With
+/// A fixed number of passes, or fewer where one corrects nothing, over all contacts, one after the other in
+/// their order (Gauss-Seidel). With
 /// D = sum w^2 / m and u the contact's normal, a pass corrects
 ///   positions by  g u w / m,  g = ((x_c2 - x_c1).u + reach) / D      (eq. 9, sign by eq. 8)
 ///   velocities by f u w / m,  f = ((v_c2 - v_c1).u) / D              (eq. 7)
@@ -24,8 +26,8 @@ struct MovingMasses {
 /// what one contact gave too much, because another one gave it as well, it takes back. Each correction leaves
 /// linear and angular momentum as they are. Velocities are corrected where positions were. Closest points and
 /// normals are those at the start of the step.
-/// What a contact gave in the step before may be there already (`warm`, N s, one for each contact): then g
-/// and f begin with it, and it is taken back as far as it was too much.
+/// What a contact gave in the step before may be there already (`warm`, N s in W on its first point, one for
+/// each contact): then g and f begin with it, and it is taken back as far as it was too much.
 /// Friction (Coulomb): the way along each other in this step, and the velocity, are taken back as far as
 /// `friction` times g and f allow.
 class GutResponse {
@@ -36,39 +38,33 @@ class GutResponse {
   void solve(std::span<const GutContact> contacts, const MovingMasses& masses) noexcept {
     solve(contacts, {}, 0, masses);
   }
-  void solve(std::span<const GutContact> contacts, std::span<const double> warm, double step_s,
+  void solve(std::span<const GutContact> contacts, std::span<const geometry::Vec3> warm, double step_s,
              const MovingMasses& masses) noexcept;
+  /// The same for places alone, in two: what stays the same of contacts, ...
+  void prepare(std::span<const GutContact> contacts, std::span<const geometry::Vec3> before,
+               std::span<const double> inverse_mass) noexcept;
+  /// ... and passes over them; `warm` as above, x: [n], m.
+  void part(std::span<const geometry::Vec3> warm, double step_s, std::span<geometry::Vec3> x) noexcept;
 
-  /// Of the newest solve: f u on the contact's first point, N s, one for each contact.
+  /// Of the newest solve: f u and what rubbed, on the contact's first point, N s, one for each contact.
   geometry::Vec3 impulse(std::size_t contact) const noexcept;
-  /// g of a contact, kg m.
-  double shift(std::size_t contact) const noexcept { return contact < rows_.size() ? rows_[contact].g : 0; }
-  /// The impulse without friction, along the normal: f, N s.
-  double push(std::size_t contact) const noexcept { return contact < rows_.size() ? rows_[contact].f : 0; }
+  /// The same of places: kg m.
+  geometry::Vec3 shift(std::size_t contact) const noexcept;
   /// Contacts that pushed.
   std::int32_t pushing() const noexcept;
   /// The largest overlap of a contact after the newest solve, m, as seen along its normal.
   double deepest_m(const MovingMasses& masses) const noexcept;
 
  private:
-  // A contact as the passes need it. `weight` of the second point is negative, `yield` is weight / m.
-  struct Row {
-    std::array<std::int32_t, 6> mass{};
-    std::array<double, 6> weight{}, yield{};
-    std::int32_t count = 0;
-    geometry::Vec3 normal, wall_velocity;
-    double offset = 0;                        // separation along the normal that is asked for
-    double per_D = 0;                         // 1 / D; 0 where nothing can give way
-    double g = 0, f = 0;                      // sums over the passes
-    geometry::Vec3 rubbed_way, rubbed_speed;  // the same along each other
-  };
+  using Row = kernels::ContactRow;
   std::vector<Row> rows_;
   std::int32_t passes_;
   double friction_;
 
-  Row prepared(const GutContact& contact, const MovingMasses& masses) const noexcept;
-  void correct(Row& row, const MovingMasses& masses) const noexcept;
-  void rub(Row& row, const MovingMasses& masses) const noexcept;
+  Row prepared(const GutContact& contact, std::span<const geometry::Vec3> before,
+               std::span<const double> inverse_mass) const noexcept;
+  void begin_with(Row& row, const geometry::Vec3& warm, double step_s) const noexcept;
+  void pass(std::span<geometry::Vec3> x, double* v) noexcept;
 };
 
 }  // namespace omentum::physics

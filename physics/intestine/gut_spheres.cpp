@@ -65,9 +65,11 @@ void GutSpheres::lower_gaps(std::span<const Vec3> x, std::span<const MovingSpher
   }
 }
 
-void GutSpheres::add_contacts(std::span<const Vec3> x, const Vec3& centre, double radius_m, MassId sphere,
-                              std::int32_t key, double skin_m, std::vector<GutContact>& contacts,
-                              std::vector<ContactKey>& keys) const noexcept {
+std::int64_t GutSpheres::add_contacts(std::span<const Vec3> x, const Vec3& centre, double radius_m,
+                                      MassId sphere, std::int32_t key, double skin_m, std::size_t most,
+                                      std::vector<GutContact>& contacts,
+                                      std::vector<ContactKey>& keys) const noexcept {
+  std::int64_t left_out = 0;
   for (std::size_t p = 0; p < radius_.size(); ++p) {
     const auto part = static_cast<std::int32_t>(p);
     const double near = reach_m(part) + radius_m + skin_m, far = near + radius_[p];
@@ -77,13 +79,18 @@ void GutSpheres::add_contacts(std::span<const Vec3> x, const Vec3& centre, doubl
     contact.one = nearest_on(parts_, part, x, centre);
     const Vec3 between = place_of(contact.one, x) - centre;
     const double distance = between.norm();
-    if (distance >= near || contacts.size() == contacts.capacity()) continue;
+    if (distance >= near) continue;
+    if (contacts.size() >= most) {
+      ++left_out;
+      continue;
+    }
     contact.other = {{sphere, MassId(), MassId()}, {1, 0, 0}};
     contact.normal = distance > kTouching_m ? Vec3(between / distance) : Vec3::UnitZ();
     contact.reach_m = reach_m(part) + radius_m;
     contacts.push_back(contact);
     keys.push_back({key, part});
   }
+  return left_out;
 }
 
 }  // namespace omentum::physics

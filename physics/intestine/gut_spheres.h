@@ -24,10 +24,11 @@ class GutSpheres {
                   std::span<double> gap) const noexcept;
 
   /// Adds the contacts of a ball with `radius_m`, mass `sphere`, whose centre is there now, with their keys
-  /// {key, part}: parts nearer than their reach and `skin_m`.
-  void add_contacts(std::span<const geometry::Vec3> x, const geometry::Vec3& centre, double radius_m,
-                    geometry::MassId sphere, std::int32_t key, double skin_m,
-                    std::vector<GutContact>& contacts, std::vector<ContactKey>& keys) const noexcept;
+  /// {key, part}: parts nearer than their reach and `skin_m`, up to `most` contacts in all. Returns how many
+  /// found no room.
+  std::int64_t add_contacts(std::span<const geometry::Vec3> x, const geometry::Vec3& centre, double radius_m,
+                            geometry::MassId sphere, std::int32_t key, double skin_m, std::size_t most,
+                            std::vector<GutContact>& contacts, std::vector<ContactKey>& keys) const noexcept;
 
  private:
   GutParts parts_;

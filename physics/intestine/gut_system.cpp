@@ -13,7 +13,8 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr double kWildSpeed_m_s = 100;  // of the whole gut: no load of a hand or a fall brings it near that
+// Of any mass, and of the whole gut: no load of a hand or a fall brings them near that.
+constexpr double kWildSpeed_m_s = 100;
 
 GutStepSettings checked(const GutStepSettings& settings) {
   if (!(std::isfinite(settings.step_s) && settings.step_s > 0)) {
@@ -53,6 +54,7 @@ GutSystem::GutSystem(const geometry::GutShape& shape, const GutMaterial& materia
   for (const double m : springs_.mass()) wild_j_ += 0.5 * m * kWildSpeed_m_s * kWildSpeed_m_s;
   reset();
   before_ = state_.x;
+  carried_ = state_.v;
 }
 
 void GutSystem::reset() noexcept {
@@ -71,8 +73,9 @@ void GutSystem::take_up(const GutSystem& other) noexcept {
 void GutSystem::move_to(const GutState& wanted, const GutLoads& loads) noexcept {
   if (report_.diverged) return;
   before_ = state_.x;
+  carried_ = state_.v;
   state_ = wanted;
-  collisions_.resolve(before_, state_, loads.obstacles, {});
+  collisions_.resolve(before_, state_, loads.obstacles, {}, nullptr, carried_);
   observe();
 }
 
@@ -80,13 +83,31 @@ void GutSystem::step(const GutLoads& loads) noexcept {
   if (report_.diverged) return;
   before_ = state_.x;
   gather_forces(loads.forces_n);
-  if (explicit_) explicit_->step(forces_, state_);
-  if (projective_) projective_->step(forces_, state_);
-  // the bound of the collisions would hide what comes next
-  const bool wild = !(kinetic_energy(springs_, state_.v) < wild_j_);
+  is_wild_ = false;
+  if (explicit_) {
+    explicit_->step(forces_, state_);
+    watch(state_.v);
+  }
+  if (projective_) projective_->begin(forces_, state_);
   collisions_.resolve(before_, state_, loads.obstacles, loads.spheres, projective_ ? this : nullptr);
   observe();
-  report_.diverged |= wild;
+  report_.diverged |= is_wild_;
+}
+
+// Before the bound of the collisions hides it.
+void GutSystem::watch(std::span<const Vec3> v) noexcept {
+  is_wild_ = !std::ranges::all_of(
+      v, [](const Vec3& speed) { return speed.squaredNorm() < kWildSpeed_m_s * kWildSpeed_m_s; });
+}
+
+void GutSystem::go_downhill(std::span<const Vec3> pushes_n, std::span<Vec3> x) noexcept {
+  projective_->go_downhill(pushes_n, x);
+}
+
+void GutSystem::end_step(std::span<const Vec3> pushes_n, std::span<const Vec3> x,
+                         std::span<Vec3> v) noexcept {
+  projective_->end(pushes_n, x, v);
+  watch(v);
 }
 
 void GutSystem::gather_forces(std::span<const Vec3> forces_n) noexcept {

@@ -78,9 +78,15 @@ class GutSystem final : public GutYield {
   void yield_to(std::span<const geometry::Vec3> forces_n,
                 std::span<geometry::Vec3> yield_m) const noexcept override;
   std::span<const double> own_yields() const noexcept override { return own_yields_; }
+  /// Of the step in progress, by the projective method (GutYield).
+  int iterations() const noexcept override { return projective_->iterations(); }
+  void go_downhill(std::span<const geometry::Vec3> pushes_n, std::span<geometry::Vec3> x) noexcept override;
+  void end_step(std::span<const geometry::Vec3> pushes_n, std::span<const geometry::Vec3> x,
+                std::span<geometry::Vec3> v) noexcept override;
 
  private:
   void gather_forces(std::span<const geometry::Vec3> forces_n) noexcept;
+  void watch(std::span<const geometry::Vec3> v) noexcept;
   void observe() noexcept;
 
   geometry::GutShape shape_;
@@ -94,8 +100,10 @@ class GutSystem final : public GutYield {
   std::vector<double> own_yields_;  // [masses]
   GutPlanes x_;                     // [masses] of the state, to measure energies
   double wild_j_ = 0;
+  bool is_wild_ = false;  // the springs of this step want what cannot be
   GutState state_;
   std::vector<geometry::Vec3> before_;        // [masses]
+  std::vector<geometry::Vec3> carried_;       // [masses], m/s: the step's, before it is corrected
   std::vector<geometry::Vec3> forces_;        // [masses], N: weight and loads
   mutable std::vector<GutBand::Node> yield_;  // [free masses]
   GutReport report_;

@@ -65,7 +65,7 @@ struct Programs {
         ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
         signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
 
-  Program backdrop, lens, tissue, cut, bared, gut, mesentery, map, solid, ground, signal;
+  Program backdrop, lens, tissue, cut, bared, map, gut, mesentery, solid, ground, signal;
 
   const Program& of(Look look) const {
     switch (look) {

@@ -77,10 +77,14 @@ TEST_F(ContactBookTest, SilentSenderFadesToNothingAndANewContactCountsInFull) {
 TEST_F(ContactBookTest, NewestContactOfEachToolCounts) {
   book_.take(contact_on(0, {1, 2}, {kPush, kPush}), kNs_per_s);
   book_.take(contact_on(0, {5}, {2 * kPush}), kNs_per_s);
-  book_.take(contact_on(3, {6}, {3 * kPush}), kNs_per_s);
+  msg::Contact grasp = contact_on(3, {6}, {3 * kPush});
+  grasp.grasping = true;
+  book_.take(grasp, kNs_per_s);
   book_.advance(kNs_per_s);
   const auto loads = book_.loads(0);
   ASSERT_EQ(loads.size(), 2U);
+  EXPECT_FALSE(loads[0].grasps);
+  EXPECT_TRUE(loads[1].grasps);
   EXPECT_THAT(loads[0].nodes, ::testing::ElementsAre(node_of(5)));
   EXPECT_EQ(loads[0].forces[0], 2 * kPush);
   EXPECT_EQ(loads[1].tool, 3U);

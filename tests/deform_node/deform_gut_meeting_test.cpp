@@ -167,5 +167,102 @@ TEST(GutMeets, NothingOfItTakesMemory) {
   EXPECT_EQ(test::heap_allocations(), before);
 }
 
+/// Two of the small gut side by side, so near that their outermost loops are `deep_m` in one another.
+struct TwoGuts {
+  TwoGuts(double deep_m, physics::GutStepSettings step)
+      : low_y(gut_at(0, step)), high_y(gut_at(way(deep_m), step)) {}
+
+  static double way(double deep_m) {
+    const auto by_y = [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); };
+    const auto [least, most] = std::ranges::minmax_element(small_gut().positions, by_y);
+    return most->y() - least->y() + 2 * small_gut().tube_radius_m - deep_m;
+  }
+  static GutModel gut_at(double y, const physics::GutStepSettings& step) {
+    geometry::GutShape shape = small_gut();
+    for (Vec3& x : shape.positions) x.y() += y;
+    physics::GutStepSettings felt = step;
+    felt.method = physics::GutMethod::kProjective;
+    felt.step_s = std::max(step.step_s, kGutTick_s);
+    const auto make = [&](const physics::GutStepSettings& settings) {
+      return std::make_unique<physics::GutSystem>(shape, physics::GutMaterial(),
+                                                  physics::GutCollisionSettings(), settings);
+    };
+    const physics::GutObstacle floor{.centre = Vec3(0, 0, -0.12)};
+    return GutModel({.system = make(step), .felt = make(felt), .obstacles = {floor}});
+  }
+  void tick(double seconds = kGutTick_s) {
+    for (GutModel* gut : {&low_y, &high_y}) gut->step({}, seconds);
+    EXPECT_TRUE(collision.run());
+  }
+  /// Between both axes, where they are free.
+  double nearest_m() const {
+    const auto axis = static_cast<std::size_t>(small_gut().layout.columns);
+    const std::vector<Vec3> one = masses(low_y), other = masses(high_y);
+    double least_m = 1;
+    for (std::size_t i = 1; i + 1 < axis; ++i)
+      for (std::size_t j = 1; j + 1 < axis; ++j) least_m = std::min(least_m, (one[i] - other[j]).norm());
+    return least_m;
+  }
+
+  GutModel low_y, high_y;
+  OrganCollision collision{{&low_y, &high_y}};
+};
+
+TEST(GutsMeet, WhatFellBesideAnotherRestsWithoutLyingInIt) {
+  TwoGuts guts(-0.002, {.step_s = kGutTick_s});
+  const double touching_m = 2 * small_gut().tube_radius_m;
+  double nearest_m = 1;
+  for (int i = 0; i < 600; ++i) {
+    guts.tick();
+    nearest_m = std::min(nearest_m, guts.nearest_m());
+  }
+  EXPECT_LT(nearest_m, touching_m) << "they touched";
+  EXPECT_GT(nearest_m, touching_m - 0.015) << "at its deepest, as they fall; 35 mm if they did not meet";
+  const std::vector<Vec3> before = masses(guts.low_y);
+  guts.tick();
+  const std::vector<Vec3> after = masses(guts.low_y);
+  double way_m = 0;
+  for (std::size_t m = 0; m < after.size(); ++m)
+    way_m += (after[m] - before[m]).norm() / static_cast<double>(after.size());
+  EXPECT_LT(way_m, 0.02e-3) << "a tick";
+}
+
+// In its first explicit steps nothing reaches the vessel, which is held.
+TEST(GutsMeet, PushesAreOppositeAndEqualFromTheFirstToThoseThatGoOn) {
+  const double step_s = 5e-5;
+  TwoGuts guts(0.01,
+               {.method = physics::GutMethod::kExplicit, .step_s = step_s, .gravity_m_s2 = Vec3::Zero()});
+  const physics::GutSprings springs(small_gut(), physics::GutMaterial());
+  guts.tick(step_s);
+  const Vec3 one = first_moment(guts.low_y, springs.mass()),
+             other = first_moment(guts.high_y, springs.mass());
+  for (int i = 0; i < 3; ++i) guts.tick(step_s);
+  const Vec3 of_one = first_moment(guts.low_y, springs.mass()) - one;
+  const Vec3 of_other = first_moment(guts.high_y, springs.mass()) - other;
+  EXPECT_LT(of_one.y(), 0);
+  EXPECT_GT(of_other.y(), 0) << "they part";
+  EXPECT_LT((of_one + of_other).norm(), 0.03 * of_one.norm()) << of_one.transpose();
+}
+
+TEST(GutsMeet, AfterAResetTheSameRunComesAgain) {
+  TwoGuts guts(0.01, {.step_s = kGutTick_s});
+  const auto run = [&] {
+    for (int i = 0; i < 30; ++i) guts.tick();
+    return masses(guts.high_y);
+  };
+  const std::vector<Vec3> first = run();
+  for (std::size_t organ : {0U, 1U}) guts.collision.reset(organ);
+  guts.low_y.reset();
+  guts.high_y.reset();
+  EXPECT_EQ(run(), first);
+}
+
+TEST(GutsMeet, TakesNoMemory) {
+  TwoGuts guts(0.01, {.step_s = kGutTick_s});
+  const std::size_t before = test::heap_allocations();
+  for (int i = 0; i < 10; ++i) guts.tick();
+  EXPECT_EQ(test::heap_allocations(), before);
+}
+
 }  // namespace
 }  // namespace omentum::deform

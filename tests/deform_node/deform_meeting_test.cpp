@@ -56,6 +56,22 @@ TEST(OrgansThatMeet, ABlockThatFellOnAHeldOneRestsThereWithoutJitter) {
   EXPECT_NEAR(at_first.z(), 0.08, 0.012) << "spheres stand out by some millimetres";
 }
 
+// What the other one pushes is no load before the next step; without it a hand would be told of a fall.
+TEST(OrgansThatMeet, AHandIsToldThatWhatRestsOnAnotherLiesStill) {
+  Block low({6, 6, 2}, {0.12, 0.12, 0.04}, Vec3::Zero(), below, kDown);
+  Block high({4, 4, 4}, kCube, {0.041, 0.039, 0.06}, nowhere, kDown);
+  Meeting meeting({&low, &high});
+  meeting.pass(2);
+  const Vec3 top = high.seen(high.nearest({0.061, 0.059, 0.1}));
+  LocalPatch patch(BodyStepper::kPatchNodes);
+  for (int i = 0; i < 10; ++i) {
+    meeting.tick();
+    ASSERT_TRUE(high.model->local_model({0, top, 0.02}, patch));
+    for (std::size_t n = 0; n < patch.node_count; ++n)
+      EXPECT_LT(patch.velocities[n].norm(), 0.005) << "falling, it would be told 0.09 m/s";
+  }
+}
+
 /// A cube of 10 cm, a kilogram, that is put at rest on what is held.
 struct Resting {
   Block low{{6, 6, 2}, {0.12, 0.12, 0.04}, Vec3::Zero(), below, kDown};

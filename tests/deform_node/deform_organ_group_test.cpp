@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <thread>
 
 namespace omentum::deform {
 namespace {
@@ -214,6 +215,83 @@ TEST(OrganGroup, ARunAfterAResetIsTheSameRunAlsoWhereOrgansTouch) {
   EXPECT_GT(first[0].x(), 0) << "they touch";
   group.reset(book);
   EXPECT_EQ(run(), first);
+}
+
+/// Costs, and notes on which thread its newest step was made.
+class CostlyMass final : public OrganModel {
+ public:
+  explicit CostlyMass(const Vec3& rest) : mass_(rest) {}
+  ModelSizes sizes() const override {
+    ModelSizes sizes = mass_.sizes();
+    sizes.costs = true;
+    return sizes;
+  }
+  void step(const TickLoads& loads, double dt_s) noexcept override {
+    mass_.step(loads, dt_s);
+    stepped_on_ = std::this_thread::get_id();
+  }
+  void reset() noexcept override { mass_.reset(); }
+  OrganView view() const noexcept override { return mass_.view(); }
+  ModelStatus status() const noexcept override { return mass_.status(); }
+  std::span<const CollisionSphere> collidable() const noexcept override { return mass_.collidable(); }
+  void respond(std::span<const OrganContact> contacts) noexcept override { mass_.respond(contacts); }
+
+  const Vec3& velocity() const { return mass_.velocity(); }
+  std::thread::id stepped_on() const { return stepped_on_; }
+
+ private:
+  HangingMass mass_;
+  std::thread::id stepped_on_;
+};
+
+/// Four in a row, each of which touches the next.
+struct CostlyRow {
+  explicit CostlyRow(std::size_t most_threads) : group(masses(), faults, most_threads) {}
+  static std::vector<ServedOrgan> masses() {
+    std::vector<ServedOrgan> organs;
+    for (int i = 0; i < 4; ++i) {
+      organs.push_back(deform_test::hanging_organ("organ " + std::to_string(i)));
+      organs.back().model = std::make_unique<CostlyMass>(Vec3(1.5 * i * HangingMass::kRadius_m, 0, 0));
+    }
+    return organs;
+  }
+  static OrganNumbers numbers() { return deform_test::odd_numbers(1, 0); }
+  CostlyMass& mass(std::size_t i) { return static_cast<CostlyMass&>(*group.organs()[i].model); }
+  std::vector<Vec3> step() {
+    group.step(book, kTick_s);
+    std::vector<Vec3> velocities;
+    for (std::size_t i = 0; i < 4; ++i) velocities.push_back(mass(i).velocity());
+    return velocities;
+  }
+
+  runtime::FaultList faults;
+  OrganGroup group;
+  ContactBook book{{numbers(), numbers(), numbers(), numbers()}, {.tools = 1, .max_force_n = 10}, faults};
+};
+
+TEST(OrganGroup, OnSeveralThreadsOrgansDoWhatTheyDoOnOne) {
+  CostlyRow alone(1), together(3);
+  for (int tick = 0; tick < 200; ++tick) {
+    const std::vector<Vec3> expected = alone.step();
+    ASSERT_EQ(together.step(), expected) << "tick " << tick;
+    if (tick == 0) {
+      EXPECT_NE(expected[3], Vec3::Zero()) << "they meet";
+    }
+  }
+}
+
+TEST(OrganGroup, OneThreadStaysOne) {
+  CostlyRow row(1);
+  row.step();
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(row.mass(i).stepped_on(), std::this_thread::get_id());
+}
+
+TEST(OrganGroup, OnSeveralThreadsAStepTakesNoMemory) {
+  CostlyRow row(2);
+  row.group.step(row.book, kTick_s);
+  const std::size_t before = test::heap_allocations();
+  for (int tick = 0; tick < 100; ++tick) row.group.step(row.book, kTick_s);
+  EXPECT_EQ(test::heap_allocations(), before);
 }
 
 TEST_F(OrganGroupTest, AStepTakesNoMemoryAlsoWhereOrgansMeetAndFail) {

@@ -21,7 +21,7 @@ using ::testing::IsEmpty;
 using ::testing::Pointwise;
 using ::testing::SizeIs;
 
-constexpr std::int32_t kManyNodes = 1000;  // to a block
+constexpr std::int32_t kNodesInABlock = 1000;  // to a block
 
 class StressPublisherTest : public DynamicModelTest {
  protected:
@@ -35,7 +35,7 @@ class StressPublisherTest : public DynamicModelTest {
   }
   DynamicModel& model() { return static_cast<DynamicModel&>(*organs_[0].model); }
   /// On this thread, within wake().
-  StressPublisher make_publisher(std::int32_t nodes_per_block = kManyNodes) {
+  StressPublisher make_publisher(std::int32_t nodes_per_block = kNodesInABlock) {
     return {written_, organs_, nodes_per_block, kRate_hz, work_at_once};
   }
   /// What a state's gauge has to say of the model as it is.
@@ -160,9 +160,9 @@ TEST_F(StressPublisherTest, OfferingTakesNoMemoryInTheLoop) {
     void wake() noexcept override {}
   };
   written_.readers = 1;
-  StressPublisher publisher(written_, organs_, kManyNodes, kRate_hz, [](const std::function<void()>& work) {
-    return std::make_unique<AtFirst>(work);
-  });
+  StressPublisher publisher(
+      written_, organs_, kNodesInABlock, kRate_hz,
+      [](const std::function<void()>& work) { return std::make_unique<AtFirst>(work); });
   const std::size_t before = test::heap_allocations();
   for (int i = 0; i < 20; ++i) publisher.offer({});
   EXPECT_EQ(test::heap_allocations(), before);

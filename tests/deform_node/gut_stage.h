@@ -40,11 +40,16 @@ inline GutModel gut_model(const GutStageOptions& options = {}) {
   physics::GutStepSettings felt = step;
   felt.method = physics::GutMethod::kProjective;
   felt.step_s = std::max(step.step_s, kGutTick_s);
+  physics::GutStepSettings ahead = felt;
+  ahead.step_s = std::max(step.step_s, kGutTick_s / 4);
   const auto make = [](const physics::GutStepSettings& settings) {
     return std::make_unique<physics::GutSystem>(small_gut(), physics::GutMaterial(),
                                                 physics::GutCollisionSettings(), settings);
   };
-  return GutModel({.system = make(step), .felt = make(felt), .obstacles = options.obstacles});
+  return GutModel({.system = make(step),
+                   .felt = make(felt),
+                   .ahead = ahead.step_s < felt.step_s ? make(ahead) : nullptr,
+                   .obstacles = options.obstacles});
 }
 
 inline std::vector<Vec3> skin_places(const GutModel& model) {

@@ -100,6 +100,17 @@ TEST(ForceHold, TheFirstAnswerOfAllFadesIn) {
   EXPECT_LE(largest_step_n(hold, {0, 0, 8}, 0), kStep_n);
 }
 
+// One arrives on another thread, after the tick's moment and before it is looked at.
+TEST(ForceHold, AnAnswerFromAfterTheTicksMomentFadesInFromNothing) {
+  for (const Vec3& force : {Vec3(0, 0, 0), Vec3(0, 0, 2)}) {
+    ForceHold hold(kMaxForce_n, kMaxTorque_nm);
+    ASSERT_TRUE(hold.take(answer(force), 2 * kMs));
+    EXPECT_EQ(hold.at(1 * kMs).force, Vec3(0, 0, 0));
+    EXPECT_EQ(hold.at(1 * kMs).torque, Vec3(0, 0, 0));
+    EXPECT_GE(hold.at(3 * kMs).force.z(), 0);
+  }
+}
+
 TEST(ForceHold, AnExpiryThatNobodyLookedAtFadesInToo) {
   // the device's loop stood still: its motors still exert what was commanded last
   ForceHold hold = holding({0, 0, 1});

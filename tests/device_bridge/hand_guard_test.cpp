@@ -97,6 +97,26 @@ TEST(HandGuard, GivesNoMoreThanTheBound) {
   }
 }
 
+// Tissue that pushes jaws open whichever way they go.
+TEST(HandGuard, GivesJawsNoMoreThanTheBoundAndWithoutAMotorNothing) {
+  for (const std::uint32_t axes : {0u, std::uint32_t{msg::AXIS_GRIP}, std::uint32_t{msg::AXIS_X}}) {
+    HandGuard guard(kGuardedForce_n, kGuardedTorque_nm, axes);
+    double work_j = 0, exerted_nm = 0, opened_rad = 0, largest_nm = 0;
+    for (int i = 1; i <= 5000; ++i) {
+      const double before = opened_rad, acting_nm = exerted_nm;
+      opened_rad = 0.3 + 0.3 * std::sin(0.05 * i);
+      exerted_nm = guard.limit({.grip_torque = 0.3}, i * kMs).grip_torque;
+      EXPECT_LE(std::abs(exerted_nm) - std::abs(acting_nm), HandGuard::kFastest_nm_s * 1e-3 + kRounding);
+      if (i > 1) work_j += std::max(0.0, acting_nm * (opened_rad - before));
+      guard.follow({.valid = true, .measured_ns = i * kMs, .grip = opened_rad}, true, false);
+      largest_nm = std::max(largest_nm, exerted_nm);
+      ASSERT_LE(guard.tank().given_j(), EnergyTank::kBound_j) << i;
+    }
+    EXPECT_EQ(largest_nm > 0, axes != msg::AXIS_X);
+    EXPECT_EQ(work_j > 0, axes != msg::AXIS_X);
+  }
+}
+
 // A tracker of 100 Hz in a loop of 1 kHz, and a force that acts only where the hand is not seen.
 TEST(HandGuard, AForceBetweenTwoLooksCounts) {
   GuardBench bench;

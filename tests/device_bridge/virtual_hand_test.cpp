@@ -42,6 +42,21 @@ TEST(VirtualHand, TheSteadyForceIsThatOfTwoSpringsAtEveryRate) {
   }
 }
 
+TEST(VirtualHand, AGraspersJawsAreDrivenAndTheirTorqueIsReported) {
+  const scene::HandSpec hand;
+  scene::ToolSpec grasper;
+  grasper.shape = "grasper";
+  grasper.points = {geometry::Vec3(0, 0, 0)};
+  EXPECT_FALSE(VirtualHand(hand, {}, 1000).info().actuated_axes & msg::AXIS_GRIP);
+  VirtualHand device(hand, grasper, 1000);
+  EXPECT_TRUE(device.info().actuated_axes & msg::AXIS_GRIP);
+  for (const double nm : {0.01, -0.03, 0.02}) {
+    device.command({.grip_torque = nm});
+    device.measure(0);
+  }
+  EXPECT_EQ(device.report()["peak_grip_torque_nm"], 0.03);
+}
+
 TEST(VirtualHand, TheWholePressFeelsTheSameAt300And1000Hz) {
   const scene::HandSpec hand;
   VirtualHand slow(hand, {}, 300), fast(hand, {}, 1000);

@@ -115,6 +115,28 @@ TEST(MeshEditor, DropsPiecesBelowTheSmallestSize) {
   EXPECT_EQ(editor.piece_count(), 0);
 }
 
+// Neither to repair what a removal left, nor with a small piece; the rest stays manifold all the same.
+TEST(MeshEditor, WhatIsKeptGoesOnlyWhenItIsAskedFor) {
+  const TetraMesh mesh = test::make_box_mesh(5, 4, 4, {0.5, 0.4, 0.4});
+  std::vector<std::uint8_t> kept;
+  for (const Tetrahedron& nodes : mesh.tetrahedra) {
+    double x = 0;
+    for (const NodeId n : nodes) x = std::max(x, mesh.positions[static_cast<std::size_t>(n)].x());
+    kept.push_back(x < 0.301 ? 1 : 0);
+  }
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    MeshEditor editor(mesh, {.smallest_piece_m3 = 1, .kept = kept});
+    for (const TetId t : shuffled(mesh.tetrahedra.size(), seed)) {
+      if (kept[static_cast<std::size_t>(t)] != 0) continue;
+      editor.remove(std::array{t});
+      ASSERT_EQ(difference(editor, mesh), "") << t;
+      for (std::size_t k = 0; k < kept.size(); ++k) ASSERT_FALSE(kept[k] != 0 && editor.is_removed(TetId(k)));
+    }
+    editor.remove(std::array{TetId(0)});
+    EXPECT_TRUE(editor.is_removed(TetId(0)));
+  }
+}
+
 TEST(MeshEditor, UncutSurfaceKeepsThePlacesThatItIsGiven) {
   const TetraMesh mesh = test::make_box_mesh(4, 4, 4, {0.4, 0.4, 0.4});
   std::vector<bool> pinned(mesh.positions.size(), false);

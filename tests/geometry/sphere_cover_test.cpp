@@ -99,5 +99,22 @@ TEST(SphereCover, ItsCentresAreWhereTheirTetrahedraSay) {
   }
 }
 
+// Nodes of a box moved into a line with their neighbours: triangles of the surface without area.
+TEST(SphereCover, ATriangleWithoutAreaSpoilsNothing) {
+  TetraMesh mesh = test::make_box_mesh(4, 4, 3, Vec3(0.12, 0.10, 0.08));
+  const Surface surface = extract_surface(mesh, {});
+  const Triangle& t = surface.triangles[0];
+  const auto at = [&](std::size_t i) -> Vec3& { return mesh.positions[surface.node[t[i]]]; };
+  at(2) = (at(0) + at(1)) / 2;
+  const SphereCover cover = cover_with_spheres(mesh, surface);
+  EXPECT_GT(cover.spheres.size(), 50u);
+  for (const CoverSphere& sphere : cover.spheres) {
+    EXPECT_NE(sphere.below, TriangleId(0));
+    EXPECT_TRUE(sphere.place.allFinite());
+    EXPECT_TRUE(sphere.centre.allFinite());
+    EXPECT_TRUE(std::isfinite(sphere.radius_m));
+  }
+}
+
 }  // namespace
 }  // namespace omentum::geometry

@@ -2,14 +2,13 @@
 #pragma once
 
 #include "haptic_node/haptic_step.h"
-#include "physics/force_tensors.h"
 #include "physics/stiffness.h"
 #include "tests/support/meshes.h"
+#include "tests/support/tensors.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 namespace omentum::haptic_test {
 
@@ -30,24 +29,6 @@ struct TestOrgan {
   physics::SurfaceCompliance compliance;
 };
 
-inline physics::SurfaceCompliance tensors_of(const TestOrgan& organ) {
-  struct Storage {
-    std::vector<float> tiles, bounds;
-  };
-  auto storage = std::make_shared<Storage>();
-  physics::ComplianceTiles<float> tiles{organ.surface.mobile_count, nullptr};
-  constexpr std::size_t kLine = 64;
-  storage->tiles.resize(tiles.size() + kLine / sizeof(float));
-  storage->bounds.resize(static_cast<std::size_t>(tiles.mobile_count) * tiles.cluster_count());
-  void* begin = storage->tiles.data();
-  std::size_t room = storage->tiles.size() * sizeof(float);
-  tiles.values = static_cast<float*>(std::align(kLine, tiles.size() * sizeof(float), begin, room));
-  const physics::FreeDofs free = physics::free_dofs(organ.fixed);
-  const physics::StiffnessFactor factor(organ.stiffness, free);
-  EXPECT_TRUE(physics::compute_force_tensors(factor, free, organ.surface, tiles, storage->bounds, {}));
-  return {tiles.mobile_count, tiles.values, storage->bounds.data(), storage};
-}
-
 /// `held(p)`: which nodes are pinned.
 template <class Held>
 TestOrgan make_organ(geometry::TetraMesh mesh, Held&& held) {
@@ -56,7 +37,7 @@ TestOrgan make_organ(geometry::TetraMesh mesh, Held&& held) {
   organ.stiffness = physics::assemble_stiffness(organ.mesh, kTissue);
   organ.surface = geometry::extract_surface(organ.mesh, physics::pinned_nodes(organ.fixed));
   organ.rest = geometry::surface_positions(organ.mesh, organ.surface);
-  organ.compliance = tensors_of(organ);
+  organ.compliance = test::tensors_of(organ.stiffness, organ.fixed, organ.surface);
   return organ;
 }
 

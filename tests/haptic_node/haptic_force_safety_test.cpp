@@ -83,13 +83,14 @@ TEST(ForceSafety, WhenNothingActsTheModelsForceLeavesUnchanged) {
 }
 
 TEST(ForceSafety, NotANumberLatchesUntilSomebodyClearsIt) {
-  for (int component = 0; component < 6; ++component) {
+  for (int component = 0; component < 7; ++component) {
     ForceSafety safety = ramped_up();
     Wrench bad = force_z(1);
-    (component < 3 ? bad.force : bad.torque)[component % 3] = kNan;
+    (component == 6 ? bad.grip_torque : (component < 3 ? bad.force : bad.torque)[component % 3]) = kNan;
     SafeForce out = safety.pass(fresh(bad));
     EXPECT_TRUE(out.state & msg::FORCE_FAULT);
     EXPECT_EQ(out.wrench.force, Vec3::Zero());
+    EXPECT_EQ(out.wrench.grip_torque, 0);
     for (int i = 0; i < 1000; ++i) out = safety.pass(fresh(force_z(1)));
     EXPECT_EQ(out.wrench.force, Vec3::Zero()) << "good forces do not unlatch";
     safety.clear_fault();
@@ -122,6 +123,71 @@ TEST(ForceSafety, AxesWithoutAMotorGetNothing) {
   EXPECT_LE((out.wrench.torque - Vec3(0.1, 0, 0)).norm(), kRounding_n);
   safety.set_device({.actuated_axes = msg::AXIS_GRIP});
   EXPECT_LE(safety.pass(input).wrench.torque.norm(), kRounding_n);
+}
+
+// ---- the jaws' torque
+
+Wrench on_jaws(double nm) {
+  return {Vec3::Zero(), Vec3::Zero(), nm};
+}
+
+TEST(GripTorque, IsTheModelsWhereNothingActsAndNoneWithoutAMotor) {
+  ForceSafety safety = ramped_up();
+  const SafeForce out = safety.pass(fresh(on_jaws(0.0123)));
+  EXPECT_EQ(out.state, 0u);
+  EXPECT_EQ(out.wrench.grip_torque, 0.0123);
+  safety.set_device({.actuated_axes = msg::AXIS_X | msg::AXIS_Y | msg::AXIS_Z});
+  EXPECT_EQ(safety.pass(fresh(on_jaws(0.0123))).wrench.grip_torque, 0);
+}
+
+TEST(GripTorque, HasTheLimitAndTheSlewOfATorque) {
+  for (const double sign : {-1.0, 1.0}) {
+    ForceSafety safety = ramped_up();
+    double last_nm = 0;
+    for (int i = 0; i < 100; ++i) {
+      const SafeForce out = safety.pass(fresh(on_jaws(sign * 3)));
+      EXPECT_LE(std::abs(out.wrench.grip_torque - last_nm), 0.1 + kRounding_n) << "0.5 N m in 5 ms";
+      EXPECT_TRUE(out.state & msg::FORCE_CLAMPED);
+      last_nm = out.wrench.grip_torque;
+    }
+    EXPECT_NEAR(last_nm, sign * ForceLimits{}.max_torque_nm, kRounding_n);
+    safety.set_device({.max_torque_nm = 0.02});
+    for (int i = 0; i < 10; ++i) last_nm = safety.pass(fresh(on_jaws(sign * 3))).wrench.grip_torque;
+    EXPECT_NEAR(last_nm, sign * 0.02, kRounding_n);
+  }
+}
+
+TEST(GripTorque, FadesInAndDecaysWithTheForce) {
+  ForceSafety safety{ForceLimits{}};
+  EXPECT_LT(safety.pass(fresh(on_jaws(0.1))).wrench.grip_torque, 0.001) << "fades in";
+  for (int i = 0; i < 300; ++i) static_cast<void>(safety.pass(fresh(on_jaws(0.1))));
+  SafetyInput stale = fresh(on_jaws(0.1));
+  stale.way_s = 0;
+  for (int ms = 6; ms <= 40; ++ms) {
+    stale.pose_age_s = 1e-3 * ms;
+    const SafeForce out = safety.pass(stale);
+    EXPECT_TRUE(out.state & msg::FORCE_STALE);
+    if (ms > 25) {
+      EXPECT_EQ(out.wrench.grip_torque, 0) << ms;
+    }
+  }
+}
+
+// A source in the model: it opens the jaws whichever way they go.
+TEST(GripTorque, GivesJawsThatOpenAndCloseNoMoreThanTheTankCovers) {
+  ForceSafety safety = ramped_up();
+  double given_j = 0, most_j = 0, last_nm = 0, grip = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double before = grip;
+    grip = 0.3 + 0.3 * std::sin(0.05 * i);
+    SafetyInput input = fresh(on_jaws(grip > before ? 0.3 : 0));
+    input.grip = grip;
+    given_j += last_nm * (grip - before);
+    most_j = std::max(most_j, given_j);
+    last_nm = safety.pass(input).wrench.grip_torque;
+  }
+  EXPECT_LE(most_j, EnergyTank::kBound_j);
+  EXPECT_GT(most_j, 0.2 * EnergyTank::kReserve_j) << "there was something to hold back";
 }
 
 TEST(ForceSafety, AStallIsNoReasonToStep) {

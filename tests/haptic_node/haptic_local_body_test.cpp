@@ -9,6 +9,18 @@ namespace {
 
 constexpr double kTop_m = 0.04;  // of the block
 
+// What presses the block, by its own nodes, whatever patch of it stands there.
+std::vector<std::pair<SurfaceId, Vec3>> loads_of(Bench& bench) {
+  const std::vector<std::uint32_t>& numbers = bench.model().organs[0].file_node;
+  const std::span<const std::uint32_t> of_body = bench.work().bodies[haptic::BodyId(0)].origin().file_node;
+  std::vector<std::pair<SurfaceId, Vec3>> loads;
+  for (const haptic::NodeForce& entry : bench.state().forces()) {
+    const auto at = std::ranges::find(numbers, of_body[static_cast<std::size_t>(entry.node)]);
+    loads.emplace_back(static_cast<std::size_t>(at - numbers.begin()), entry.force);
+  }
+  return loads;
+}
+
 // What deform_node would tell of the block around a place, under the forces that press it.
 haptic::LocalPatch patch_around(const Vec3& place, double radius_m, Bench& bench) {
   haptic::LocalPatch patch;
@@ -26,12 +38,12 @@ haptic::LocalPatch patch_around(const Vec3& place, double radius_m, Bench& bench
     if (near) patch.triangles.push_back({add(t[0]), add(t[1]), add(t[2])});
   }
   patch.forces.assign(nodes.size(), Vec3::Zero());
-  for (const haptic::NodeForce& entry : bench.state().forces())
-    if (local[entry.node] >= 0) patch.forces[static_cast<std::size_t>(local[entry.node])] += entry.force;
+  const auto loads = loads_of(bench);
+  for (const auto& [node, force] : loads)
+    if (local[node] >= 0) patch.forces[static_cast<std::size_t>(local[node])] += force;
   for (const SurfaceId n : nodes) {
     Vec3 x = organ.rest[n];
-    for (const haptic::NodeForce& entry : bench.state().forces())
-      x += organ.compliance.block(n, entry.node) * entry.force;
+    for (const auto& [node, force] : loads) x += organ.compliance.block(n, node).cast<double>() * force;
     patch.positions.push_back(x);
     patch.nodes.push_back(organ.file_node[n]);
   }
@@ -147,6 +159,49 @@ TEST(LocalBody, WhatIsNoPatchIsRefused) {
   EXPECT_TRUE(refused([](auto& p) { p.triangles[0][1] = SurfaceId(-1); }));
   EXPECT_TRUE(refused([](auto& p) { p.triangles.clear(); }));
   EXPECT_TRUE(refused([](auto& p) { p = {}; }));
+}
+
+// Jaws at the border of a patch, and patches that come around other places.
+TEST(LocalBody, JawsKeepWhatTheNextPatchHasAndLoseTheRestWithoutGain) {
+  haptic::ToolModel grasper = round_tool();
+  grasper.grasps = true;
+  Bench bench(with_spare_place(make_model(block(), {grasper})));
+  const Vec3 border(0.075, 0.05, kTop_m);
+  const haptic::LocalPatch here = patch_around({0.05, 0.05, kTop_m}, 0.035, bench);
+  bench.work().doors[0].post(haptic::make_local_body(here));
+  double given_j = 0, put_in_j = 0;
+  const auto go = [&](const Vec3& to, double grip, int ticks) {
+    const Vec3 from = bench.input().engaged ? bench.input().frame.p_WT : to;
+    const double grip_before = bench.input().grip;
+    for (int i = 1; i <= ticks; ++i) {
+      bench.state().now_ns += 1'000'000;
+      const haptic::ToolInput before = bench.input();
+      const haptic::ToolOutput felt = bench.output();
+      bench.place(0, from + (to - from) * i / ticks, grip_before + (grip - grip_before) * i / ticks).step();
+      given_j += 0.5 * (felt.force + bench.output().force).dot(bench.input().frame.p_WT - before.frame.p_WT) +
+                 0.5 * (felt.grip_torque + bench.output().grip_torque) * (bench.input().grip - before.grip);
+      put_in_j = std::max(put_in_j, -given_j);
+    }
+  };
+  go(border + Vec3(0, 0, 0.003), 0.5, 1);
+  go(border - Vec3(0, 0, 0.002), 0.5, 100);
+  go(border - Vec3(0, 0, 0.002), 0.02, 100);
+  ASSERT_TRUE(bench.output().grasping);
+  go(border + Vec3(0, 0, 0.003), 0.02, 100);
+  const Vec3 pulled = bench.output().force;
+  ASSERT_LT(pulled.z(), -0.1);
+  bench.work().doors[0].post(haptic::make_local_body(patch_around({0.065, 0.05, kTop_m}, 0.03, bench)));
+  go(border + Vec3(0, 0, 0.003), 0.02, 20);
+  EXPECT_TRUE(bench.output().grasping);
+  EXPECT_LE((bench.output().force - pulled).norm(), 0.02 * pulled.norm());
+  bench.work().doors[0].post(haptic::make_local_body(patch_around({0.03, 0.05, kTop_m}, 0.025, bench)));
+  go(border + Vec3(0, 0, 0.003), 0.02, 20);
+  EXPECT_FALSE(bench.output().grasping);
+  EXPECT_EQ(bench.output().force, Vec3::Zero());
+  EXPECT_EQ(bench.output().grip_torque, 0);
+  EXPECT_EQ(bench.state().tools[0].grasps.lost, 1u);
+  go(border + Vec3(0, 0, 0.02), 0.5, 100);
+  EXPECT_LE(given_j, 0.01 * put_in_j);
 }
 
 }  // namespace

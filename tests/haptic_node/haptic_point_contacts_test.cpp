@@ -43,7 +43,7 @@ class PressingTools {
     work_.bodies[haptic::BodyId(0)].contact_nodes().begin_tick();
     haptic::place_tools(model_, inputs_, state, work_.bodies);
     haptic::evaluate_neighbourhood(state, work_.bodies);
-    haptic::leave_astray(state, work_.bodies);
+    haptic::leave_astray(model_, state, work_.bodies);
     haptic::follow_surface(model_, state, work_.bodies);
     haptic::meet_appeared(state, work_.bodies);
     haptic::find_contacts(state, work_.bodies);

@@ -2,6 +2,7 @@
 #include "haptic_node/tool_line.h"
 
 #include "haptic_fixtures.h"
+#include "haptic_node/jaws.h"
 
 #include <limits>
 #include <optional>
@@ -122,6 +123,18 @@ class TwoTools {
   std::int64_t now_ns_ = 0;
   std::uint64_t seq_ = 0, ticks_ = 0;
 };
+
+TEST(ToolLine, JawsOpenNoWiderThanTheyCanWhateverADeviceSays) {
+  LineBench bench;
+  for (const double grip : {0.3, 1e306, 57.3, -1000.0}) {
+    msg::ToolPose pose = LineBench::pose_at({0.05, 0.05, 0.045}, bench.next_seq());
+    pose.grip = grip;
+    bench.hear(pose);
+    bench.tick();
+    EXPECT_EQ(bench.bench().input().grip, std::clamp(grip, 0.0, haptic::kWidest_rad));
+    EXPECT_TRUE(std::isfinite(bench.line().safety().tank().given_j()));
+  }
+}
 
 TEST(SafetyThroughTheStep, ThePressedForceIsTheModelsOwn) {
   LineBench line;

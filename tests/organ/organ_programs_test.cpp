@@ -81,7 +81,10 @@ TEST_F(OrganProgramsTest, BuildRefusesBadInput) {
   expect_refused("organ_build", with("--fixed", "plane:x<10"), "hold every node");
   expect_refused("organ_build", with("--store", "half"), "half");
   expect_refused("organ_build", with("--law", "law.csv"), "not part of this version");
-  expect_refused("organ_build", with("--dynamic", "plane:x>0"), "not part of this version");
+  expect_refused("organ_build", with("--dynamic", "plane:x>0"), "every tetrahedron");
+  expect_refused("organ_build", with("--dynamic", "plane:x>5"), "names no tetrahedron");
+  expect_refused("organ_build", with("--dynamic", "label:2"), "names no tetrahedron");
+  expect_refused("organ_build", with("--dynamic", write("tets.csv", "0\n-3\n")), "tets.csv:2");
   expect_refused("organ_build", with("-o", (folder / "absent" / "o.h5").string()), "absent");
   const std::string before = test::read_text(mesh);
   expect_refused("organ_build", with("-o", mesh.string()), "is the mesh itself");
@@ -125,7 +128,7 @@ TEST_F(OrganProgramsTest, SolveRefusesBadInput) {
   refused("27,0,0,0.001\n", "node 27 is inside");
   expect_refused("organ_solve", solve_arguments((folder / "absent.csv").string()), "absent.csv");
   auto arguments = solve_arguments(write("i.csv", "79,0,0,0.001\n"));
-  for (const auto& [option, value] : {std::pair<std::string, std::string>{"--model", "hybrid"},
+  for (const auto& [option, value] : {std::pair<std::string, std::string>{"--model", "plastic"},
                                       {"--remove", "tets.csv"},
                                       {"--gravity", "1,2"},
                                       {"-o", (folder / "absent" / "s").string()}}) {

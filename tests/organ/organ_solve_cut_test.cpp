@@ -3,11 +3,21 @@
 #include "physics/element_tensors.h"
 #include "tests/organ/organ_programs.h"
 
+#include <numeric>
+#include <random>
+
 namespace omentum::organ {
 namespace {
 
 // Printed with 13 digits; a moving model rests where forces balance to 1e-10 of the largest.
 constexpr double kEqual = 1e-6;
+
+struct RealMesh {
+  const char *file, *scale, *plane;
+};
+constexpr std::array kRealMeshes{RealMesh{"tet/openhelp_liver_7k.msh", "0.001", "plane:x<-0.12"},
+                                 RealMesh{"tet/sofa_liver2.msh", "0.02", "plane:x<-0.015"},
+                                 RealMesh{"tet/sofa_liver.msh", "0.02", "plane:x<-0.06"}};
 
 class OrganSolveCutTest : public OrganProgramsTest {
  protected:
@@ -37,6 +47,35 @@ class OrganSolveCutTest : public OrganProgramsTest {
     ASSERT_EQ(program.wait(), 0) << program.messages();
   }
 
+  static geometry::Vec3 middle(const Organ& organ, std::size_t t) {
+    geometry::Vec3 sum = geometry::Vec3::Zero();
+    for (const geometry::NodeId n : organ.mesh.tetrahedra[t]) sum += organ.mesh.positions[n] / 4;
+    return sum;
+  }
+
+  // All tetrahedra, the farthest from the supports' plane first: what is left of them is in one piece.
+  static std::vector<std::size_t> from_the_free_end(const Organ& organ) {
+    std::vector<std::size_t> order(organ.mesh.tetrahedra.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, std::greater(), [&](std::size_t t) { return middle(organ, t).x(); });
+    return order;
+  }
+
+  static std::string listed(const std::vector<std::size_t>& tetrahedra) {
+    std::string list;
+    for (const std::size_t t : tetrahedra) list += std::to_string(t) + "\n";
+    return list;
+  }
+
+  // At a node of this tetrahedron that is free.
+  std::string pull_at(std::size_t t) const {
+    const Organ loaded = load_organ(organ, Load::kMeshOnly);
+    const auto& nodes = loaded.mesh.tetrahedra[t];
+    const auto n = std::ranges::find(nodes, 0, [&](geometry::NodeId node) { return loaded.fixed[node]; });
+    EXPECT_NE(n, nodes.end());
+    return write("i.csv", std::to_string(std::int32_t(*n)) + ",0.002,0.001,-0.001\n");
+  }
+
   // Every fiftieth tetrahedron.
   std::string some_tetrahedra() const {
     std::string list = "tetrahedron\n";
@@ -62,12 +101,7 @@ TEST_F(OrganSolveCutTest, TensorMassRestsWhereTheDirectSolveIs) {
 }
 
 TEST_F(OrganSolveCutTest, TensorMassRestsWhereTheDirectSolveIsOnRealMeshes) {
-  struct Mesh {
-    const char *file, *scale, *plane;
-  };
-  for (const Mesh& mesh : {Mesh{"tet/openhelp_liver_7k.msh", "0.001", "plane:x<-0.12"},
-                           Mesh{"tet/sofa_liver2.msh", "0.02", "plane:x<-0.015"},
-                           Mesh{"tet/sofa_liver.msh", "0.02", "plane:x<-0.06"}}) {
+  for (const RealMesh& mesh : kRealMeshes) {
     if (!std::filesystem::exists(test::data_file(mesh.file))) GTEST_SKIP() << mesh.file << " is absent";
     SCOPED_TRACE(mesh.file);
     build_from(mesh.file, mesh.scale, mesh.plane);
@@ -76,6 +110,53 @@ TEST_F(OrganSolveCutTest, TensorMassRestsWhereTheDirectSolveIsOnRealMeshes) {
     EXPECT_LE(difference(solve("tensor-mass", whole).u, solve("direct", whole).u), kEqual);
     EXPECT_LE(difference(solve("tensor-mass", cut).u, solve("direct", cut).u), kEqual);
   }
+}
+
+// The free end is eaten away; the direct solve is of the mesh that is left.
+TEST_F(OrganSolveCutTest, TheDowndatedFactorAnswersAsADirectSolveInEveryOrder) {
+  constexpr double kPromised = 1e-5;  // of a cut organ
+  for (const RealMesh& mesh : kRealMeshes) {
+    if (!std::filesystem::exists(test::data_file(mesh.file))) GTEST_SKIP() << mesh.file << " is absent";
+    build_from(mesh.file, mesh.scale, mesh.plane);
+    const std::vector<std::size_t> order = from_the_free_end(load_organ(organ, Load::kMeshOnly));
+    for (const std::size_t count : {1, 30, 300}) {
+      SCOPED_TRACE(mesh.file + (" " + std::to_string(count)));
+      std::vector<std::size_t> away(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+      const auto arguments = [&] {
+        return std::vector<std::string>{"--gravity", "0,-9.81,0",
+                                        "--imposed", pull_at(order[(count + order.size()) / 2]),
+                                        "--remove",  write("t.csv", listed(away))};
+      };
+      const Solved direct = solve("direct", arguments());
+      for (unsigned seed = 0; seed < 2; ++seed) {
+        const Solved cut = solve("cut", arguments());
+        EXPECT_LE(difference(cut.u, direct.u), kPromised) << seed;
+        EXPECT_LE(difference(cut.f, direct.f), kPromised) << seed;
+        std::ranges::shuffle(away, std::mt19937(seed));
+      }
+    }
+  }
+}
+
+TEST_F(OrganSolveCutTest, APieceThatOnlyImposedNodesHoldIsSolvedToo) {
+  build();
+  std::string cut, pulled;
+  const Organ loaded = load_organ(organ, Load::kMeshOnly);
+  for (std::size_t t = 0; t < loaded.mesh.tetrahedra.size(); ++t)
+    if (middle(loaded, t).x() > 0.04 && middle(loaded, t).x() < 0.06) cut += std::to_string(t) + "\n";
+  for (std::size_t n = 0; n < loaded.mesh.positions.size(); ++n)
+    if (loaded.mesh.positions[n].x() > 0.079) pulled += std::to_string(n) + ",0.001,0,0.002\n";
+  const std::vector<std::string> arguments{
+      "--gravity", "0,-9.81,0", "--imposed", write("i.csv", pulled), "--remove", write("t.csv", cut)};
+  const Solved direct = solve("direct", arguments), solved = solve("cut", arguments);
+  EXPECT_LE(difference(solved.u, direct.u), kEqual);
+  EXPECT_LE(difference(solved.f, direct.f), kEqual);
+}
+
+TEST_F(OrganSolveCutTest, TheFactorOfAnUncutOrganAnswersAsADirectSolve) {
+  build();
+  const std::vector<std::string> arguments{"--imposed", write("i.csv", "79,0,0.002,0.001\n74,0.001,0,0\n")};
+  EXPECT_LE(difference(solve("cut", arguments).f, solve("direct", arguments).f), kEqual);
 }
 
 // Where every node is held, each is held against the weight it carries.
@@ -156,9 +237,7 @@ TEST_F(OrganSolveCutTest, BadCutsAreRefused) {
   const Organ loaded = load_organ(organ, Load::kMeshOnly);
   std::string layer;
   for (std::size_t t = 0; t < loaded.mesh.tetrahedra.size(); ++t) {
-    double x = 0;
-    for (const geometry::NodeId n : loaded.mesh.tetrahedra[t]) x += loaded.mesh.positions[n].x() / 4;
-    if (x > 0.04 && x < 0.06) layer += std::to_string(t) + "\n";
+    if (middle(loaded, t).x() > 0.04 && middle(loaded, t).x() < 0.06) layer += std::to_string(t) + "\n";
   }
   refused(layer, "loose");
 }

@@ -97,9 +97,9 @@ TEST_F(IntestineAnatomy, WritesAndDrawsWhatTheSceneAndTheCommandLineSay) {
   test::Process process("intestine_anatomy",
                         {kAbdomen, "--rows", "5", "-o", file, "--picture", picture, "--from", "0,0,1"});
   ASSERT_EQ(process.wait(), 0) << process.messages();
-  EXPECT_THAT(process.output(), HasSubstr("7 legs; 5 x 100 masses"));
+  EXPECT_THAT(process.output(), HasSubstr("5 legs; 5 x 75 masses"));
   EXPECT_THAT(process.output(), HasSubstr("(they touch at 40.0)"));
-  EXPECT_THAT(test::read_text(file), HasSubstr("POINTS 500 double"));
+  EXPECT_THAT(test::read_text(file), HasSubstr("POINTS 375 double"));
   EXPECT_THAT(test::read_text(picture), testing::StartsWith("\x89PNG"));
 }
 

@@ -62,26 +62,38 @@ TEST(PullingHand, TakesOneFreeMassOfTheAxisAndLetsItFall) {
   EXPECT_LT(pulling, 900);
 }
 
-TEST(Recall, TheCompleteSearchFindsAllWithFewTestsAndTheSameSeedFindsTheSame) {
+// What the measure asks of a minute, of half a second behind the fall.
+TEST(Recall, TheCompleteSearchFindsAllAndTheStochasticOneNearlyAllWithATwentiethOfTheTests) {
   RecallOptions options;
-  options.seconds = 0.4;
-  const RecallReport report = measure_recall(options), again = measure_recall(options);
-  EXPECT_EQ(report.samples.size(), 80u);
-  EXPECT_GT(report.regions, 100) << "the gut has come down on itself";
-  EXPECT_GT(report.lasting, 5);
+  options.settle_s = 3;
+  options.seconds = 0.5;
+  const RecallReport report = measure_recall(options);
+  EXPECT_EQ(report.samples.size(), 100u);
+  EXPECT_GT(report.regions, 1000);
+  EXPECT_GT(report.lasting, 20);
   const auto& [stochastic, complete] = report.methods;
   EXPECT_EQ(complete.found, report.regions);
   EXPECT_EQ(complete.found_in_time, report.lasting);
-  EXPECT_GT(stochastic.found, report.regions / 2);
-  EXPECT_LT(stochastic.tests, report.exhaustive_tests / 10);
-  EXPECT_LT(complete.tests, report.exhaustive_tests / 10);
-  EXPECT_EQ(report.exhaustive_tests, 80 * (96 * 97 / 2 + 96 * 97 * 6));
+  EXPECT_GE(100 * stochastic.found, 99 * report.regions);
+  EXPECT_GE(100 * stochastic.found_in_time, 99 * report.lasting)
+      << stochastic.found_in_time << " of " << report.lasting;
+  EXPECT_LE(100 * stochastic.tests, 5 * report.exhaustive_tests);
+  EXPECT_LE(100 * complete.tests, 5 * report.exhaustive_tests);
+  EXPECT_EQ(report.exhaustive_tests, 100 * (96 * 97 / 2 + 96 * 97 * 6));
+}
+
+TEST(Recall, TheSameSeedFindsTheSame) {
+  RecallOptions options;
+  options.settle_s = 0.3;
+  options.seconds = 0.05;
+  const RecallReport report = measure_recall(options), again = measure_recall(options);
+  EXPECT_GT(report.regions, 50) << "the gut has come down on itself";
   for (std::size_t k = 0; k < report.samples.size(); ++k) {
     EXPECT_EQ(report.samples[k].regions, again.samples[k].regions);
     EXPECT_EQ(report.samples[k].found, again.samples[k].found);
     EXPECT_LE(report.samples[k].found[0], report.samples[k].regions);
   }
-  EXPECT_EQ(stochastic.tests, again.methods[0].tests);
+  EXPECT_EQ(report.methods[0].tests, again.methods[0].tests);
 }
 
 bool near(const force_map::Colour& a, const force_map::Colour& b) {

@@ -44,6 +44,22 @@ std::string message_of(const std::filesystem::path& file) {
   return "accepted";
 }
 
+TEST(DynamicsKeys, OneInEquilibriumIsCutButNeitherSwingsNorTears) {
+  const OrganSpec organ =
+      load_scene(with("model = \"quasi-static-cut\"\ncut_delay_s = 0.1\ncut_rate_per_s = 50\n"
+                      "smallest_piece_m3 = 1e-6\ngravity_m_s2 = [0, 0, -1]"))
+          .organs[0];
+  ASSERT_TRUE(organ.dynamics.has_value());
+  EXPECT_EQ(organ.dynamics->cut_delay_s, 0.1);
+  EXPECT_EQ(organ.dynamics->cut_rate_per_s, 50);
+  EXPECT_EQ(organ.dynamics->smallest_piece_m3, 1e-6);
+  EXPECT_EQ(organ.dynamics->gravity_m_s2, Vec3(0, 0, -1));
+  for (const std::string key : {"integrator = \"implicit\"", "step_s = 0.01", "mass_damping_per_s = 1",
+                                "stiffness_damping_s = 1", "tear_edge_elongation = 1"})
+    EXPECT_THAT(message_of(with("model = \"quasi-static-cut\"\n" + key)),
+                HasSubstr(":5: organs[0]." + key.substr(0, key.find(' ')) + ": "));
+}
+
 TEST(DynamicsKeys, ADynamicModelHasThemAndAPrecomputedOneDoesNot) {
   const auto file = with(
       "model = \"tensor-mass\"\nintegrator = \"rk4\"\nstep_s = 0.001\ngravity_m_s2 = [0, 0, -9.81]\n"
@@ -109,6 +125,14 @@ tear_stress_pa = 50
   };
   EXPECT_EQ(load_scene(scene_of("tensor-mass")).organs[1].regions[0].tears.stress_pa, 50);
   EXPECT_THAT(message_of(scene_of("quasi-static")), HasSubstr("organs[1].regions[0].tear_stress_pa"));
+}
+
+TEST(DynamicsKeys, AHybridOrganSaysWhichPartMovesAndStepsImplicitly) {
+  const std::string hybrid = "model = \"hybrid\"\n", part = "dynamic = \"plane:x>0.02\"\n";
+  EXPECT_EQ(load_scene(with(hybrid + part)).organs[0].dynamics->dynamic_part, "plane:x>0.02");
+  EXPECT_THAT(message_of(with(hybrid)), HasSubstr("dynamic: found nothing"));
+  EXPECT_THAT(message_of(with("model = \"tensor-mass\"\n" + part)), HasSubstr("dynamic"));
+  EXPECT_THAT(message_of(with(hybrid + part + "integrator = \"rk4\"")), HasSubstr("one of \"implicit\""));
 }
 
 TEST(DynamicsKeys, MachinesCompareThem) {

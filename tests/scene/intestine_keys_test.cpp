@@ -1,3 +1,4 @@
+#include "scene/intestine_keys.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
 #include "tests/scene/written_scene.h"
@@ -110,6 +111,23 @@ half_axes_m = [0.2, 0.15, 0.1]
               HasSubstr("obstacles[0].half_axes_m: found "));
   EXPECT_THAT(broken("shape = \"box\"\ncentre = [0, 0, 0]\nhalf_axes_m = [1, 1, 1]\nnormal = [0, 0, 1]"),
               HasSubstr("obstacles[0].normal: found an unknown key"));
+}
+
+TEST(IntestineKeys, ObstaclesThatNothingMeetsAreRefused) {
+  const std::string plane = "[[obstacles]]\nshape = \"plane\"\ncentre = [0, 0, 0]\nnormal = [0, 0, 1]\n";
+  const auto file = write_scene(kGood + plane);
+  EXPECT_THAT(message_of(file),
+              AllOf(HasSubstr(":18: obstacles: found 1 in a scene without an intestine, expected none"),
+                    HasSubstr("\"intestine\"")));
+}
+
+TEST(IntestineKeys, ThereAreNoMoreObstaclesThanAStepHasTimeFor) {
+  std::string planes;
+  for (std::size_t i = 0; i < kMostObstacles; ++i)
+    planes += "[[obstacles]]\nshape = \"plane\"\ncentre = [0, 0, -1]\nnormal = [0, 0, 1]\n";
+  EXPECT_EQ(load_scene(intestine("", planes)).obstacles.size(), kMostObstacles);
+  EXPECT_THAT(message_of(intestine("", planes + planes)),
+              HasSubstr("obstacles: found 32, expected at most 16 of [[obstacles]]"));
 }
 
 TEST(IntestineKeys, MachinesCompareThem) {

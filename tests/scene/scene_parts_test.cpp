@@ -68,6 +68,43 @@ TEST(SceneParts, AScoreNamesTheOrganThatIsToBeExposed) {
               HasSubstr("score.exposed: found an unknown key"));
 }
 
+TEST(SceneParts, AScorePlansACutAlongAnOrgan) {
+  const auto scored = [](const std::string& keys) {
+    return write_scene(with("[[organs]]", "[score]\n" + keys + "\n[[organs]]"));
+  };
+  const std::string line = "planned_line = [[0, 0, 0.1], [0.02, 0, 0.1], [0.02, 0.03, 0.1]]";
+  const ScoreSpec score = load_scene(scored(line + "\nline_width_m = 0.004\npull_limit_n = 3")).score;
+  EXPECT_EQ(score.planned_line.size(), 3u);
+  EXPECT_EQ(score.line_of, "liver") << "the first organ";
+  EXPECT_EQ(score.line_width_m, 0.004);
+  EXPECT_EQ(score.pull_limit_n, 3);
+  EXPECT_TRUE(load_scene(scored("from_s = 0")).score.planned_line.empty());
+  const auto refusal = [&](const std::string& keys) { return message_of(scored(keys)); };
+  EXPECT_THAT(refusal("planned_line = [[0, 0, 0.1]]"),
+              HasSubstr("score.planned_line: found 1 points, expected two or more"));
+  EXPECT_THAT(refusal("planned_line = [[0, 0, 0.1], [0, 0, 0.1]]"),
+              HasSubstr("score.planned_line: found points 0 and 1 in one place"));
+  EXPECT_THAT(refusal("planned_line = [[0, 0, 0.1], [0, 0, \"x\"]]"), HasSubstr("score.planned_line"));
+  EXPECT_THAT(refusal(line + "\nline_of = \"spleen\""),
+              HasSubstr("score.line_of: found \"spleen\", expected the name of one of the [[organs]]"));
+  EXPECT_THAT(refusal("line_of = \"liver\""),
+              HasSubstr("score.line_of: found one without a line, expected planned_line beside it"));
+  EXPECT_THAT(refusal(line + "\nline_width_m = 1"), HasSubstr("score.line_width_m: found 1"));
+  EXPECT_THAT(refusal("pull_limit_n = 0"), HasSubstr("score.pull_limit_n: found 0"));
+}
+
+TEST(SceneParts, JawsGripSoHard) {
+  const auto grasper = [](const std::string& keys) {
+    return write_scene(with("shape = \"probe\"", "shape = \"grasper\"\n" + keys));
+  };
+  EXPECT_EQ(load_scene(grasper("")).tools[0].grip_force_n, kGripForce_n);
+  EXPECT_EQ(load_scene(grasper("grip_force_n = 8")).tools[0].grip_force_n, 8);
+  EXPECT_THAT(message_of(grasper("grip_force_n = 0")), HasSubstr("grip_force_n: found 0"));
+  EXPECT_THAT(message_of(write_scene(with("shape = \"probe\"", "shape = \"probe\"\ngrip_force_n = 5"))),
+              HasSubstr("grip_force_n: found an unknown key"))
+      << "of a probe";
+}
+
 TEST(SceneParts, ACuttingToolHasAnEdgeAndAHandMayPressItsButton) {
   const std::string cutting = with("shape = \"probe\"", R"(shape = "probe"
 cuts = true

@@ -20,6 +20,7 @@ const char* const kCorotational = "model = \"corotational\"\nmass_damping_per_s 
 const char* const kSymplectic =
     "model = \"tensor-mass\"\nintegrator = \"symplectic\"\nmass_damping_per_s = 20\nstiffness_damping_s = "
     "0.002";
+const char* const kStatic = "model = \"quasi-static-cut\"";
 const char* const kSprings = "model = \"spring-mass\"\nmass_damping_per_s = 20\nstiffness_damping_s = 0.002";
 
 TEST(DynamicExchange, AHeldPressIsThatOfTheWholeOrganAtEveryRate) {
@@ -31,6 +32,34 @@ TEST(DynamicExchange, AHeldPressIsThatOfTheWholeOrganAtEveryRate) {
       EXPECT_NEAR(session.press().norm(), whole, 0.03 * whole) << hand_hz << " Hz, " << organ_hz << " Hz";
     }
   }
+}
+
+// Without masses there is nothing to wait for: the force is that of the tensors themselves.
+TEST(DynamicExchange, APrecomputedOrganThatCanBeCutIsFeltAsOneThatCannot) {
+  const double whole = test::whole_n();
+  for (const double hand_hz : {300.0, 1000.0}) {
+    for (const double organ_hz : {60.0, 250.0}) {
+      Session session(hand_hz, organ_hz, moving(kStatic));
+      session.begin();
+      EXPECT_NEAR(session.press().norm(), whole, 0.005 * whole) << hand_hz << " Hz, " << organ_hz << " Hz";
+    }
+  }
+}
+
+TEST(DynamicExchange, AHandThatPressesCutsBeneathAndLetsGoGetsNoEnergyAndNoBlow) {
+  Session session(1000, 100, moving(kStatic));
+  session.begin();
+  session.press();
+  const double put_in_j = -session.given_j();
+  session.move_to(kPressed + Vec3(0.03, 0, 0), 0.6, true);
+  session.move_to(kAbove + Vec3(0.03, 0, 0), 0.5);
+  session.move_to(kAbove, 0.5);
+  EXPECT_LT(session.given_j(), 0.02 * put_in_j) << "of " << put_in_j << " J";
+  EXPECT_LE(session.largest_step_n(), 2000 * 0.001 * (1 + 1e-6)) << "beyond the slew limit";
+  const auto hand = session.hand_report(), organ = session.organ_report();
+  EXPECT_EQ(hand["faults"].size(), 0u) << hand["faults"];
+  EXPECT_EQ(organ["faults"].size(), 0u) << organ["faults"];
+  EXPECT_GT(organ["removed_tetrahedra"], 2);
 }
 
 TEST(DynamicExchange, AHeldPressDoesNotDependOnTheRatesWhateverTheModelIs) {
@@ -53,7 +82,7 @@ TEST(DynamicExchange, SpringsAreSeenAndNotFelt) {
 }
 
 TEST(DynamicExchange, APressThatGoesGivesTheHandNoEnergy) {
-  for (const char* model : {kTensorMass, kCorotational}) {
+  for (const char* model : {kTensorMass, kCorotational, kStatic}) {
     Session session(1000, 100, moving(model));
     session.begin();
     session.press();

@@ -69,8 +69,9 @@ class Session {
       organ_s_ += 1 / organ_hz_;
       organ_.tick();
     }
-    const auto force = bus_.newest<msg::ToolForce>();
-    return force ? Vec3(force->force.x, force->force.y, force->force.z) : Vec3(0, 0, 0);
+    for (const msg::ToolForce& force : bus_.take_all<msg::ToolForce>())
+      if (force.tool == 0) felt_ = Vec3(force.force.x, force.force.y, force.force.z);
+    return felt_;
   }
   Vec3 move_to(const Vec3& tip, double seconds, bool pressed = false) {
     const Vec3 from = tip_;
@@ -80,6 +81,7 @@ class Session {
       const Vec3 before = tip_;
       force = step_to(from + (tip - from) * i / ticks, pressed);
       given_j_ += 0.5 * (force + last_).dot(tip_ - before);
+      most_given_j_ = std::max(most_given_j_, given_j_);
       largest_step_n_ = std::max(largest_step_n_, (force - last_).norm());
       last_ = force;
     }
@@ -104,9 +106,26 @@ class Session {
     move_to(kPressed, 1);
   }
 
+  /// Another tool's next pose, upright.
+  void place_other(std::uint32_t tool, const Vec3& tip, bool pressed) {
+    msg::ToolPose pose{};
+    pose.tool = tool;
+    pose.seq = poses_ + 1;
+    pose.stamp_ns = hand_->pace().now_ns();
+    pose.valid = true;
+    pose.position = {tip.x(), tip.y(), tip.z()};
+    pose.orientation.w = 1;
+    pose.buttons = pressed ? msg::BUTTON_CUT : 0;
+    bus_.post(pose);
+  }
   /// Of the next poses: how far the jaws are open.
   void open_jaws(double grip_rad) { grip_rad_ = grip_rad; }
   void stop_organ() { organ_lives_ = false; }
+  /// A busy machine takes the organ's next ticks away.
+  void take_organ_ticks(int count) {
+    organ_.pace().stall(std::llround(1e9 * count / organ_hz_));
+    organ_s_ += count / organ_hz_;
+  }
   /// Another one in its place, which knows of nothing that was.
   void replace_hand() {
     EXPECT_EQ(hand_->end(), "");
@@ -115,6 +134,7 @@ class Session {
     last_.setZero();
   }
   double given_j() const { return given_j_; }
+  double most_given_j() const { return most_given_j_; }
   double largest_step_n() const { return largest_step_n_; }
   nlohmann::json hand_report() {
     EXPECT_EQ(hand_->end(), "");
@@ -152,10 +172,10 @@ class Session {
   std::unique_ptr<StagedLoop<haptic::HapticLoop>> hand_;
   StagedLoop<deform::DeformLoop> organ_;
   std::uint64_t poses_ = 0;
-  Vec3 tip_ = kAbove, last_ = Vec3::Zero();
+  Vec3 tip_ = kAbove, last_ = Vec3::Zero(), felt_ = Vec3::Zero();
   bool organ_lives_ = true;
   double grip_rad_ = 0;
-  double given_j_ = 0, largest_step_n_ = 0;
+  double given_j_ = 0, most_given_j_ = 0, largest_step_n_ = 0;
 };
 
 /// What the tensors say of a press that is held, N: a hand that has them feels it.

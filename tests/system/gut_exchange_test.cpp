@@ -1,10 +1,12 @@
 // The hand's loop and the organ's with an intestine between them.
+#include "device_bridge/hand_model.h"
 #include "geometry/gut_anatomy.h"
 #include "geometry/gut_skin.h"
 #include "tests/support/process.h"
 #include "tests/system/exchange_session.h"
 
 #include <fstream>
+#include <numbers>
 
 namespace omentum {
 namespace {
@@ -21,14 +23,20 @@ class GutExchange : public testing::Test {
  protected:
   GutExchange() : gut_(geometry::make_gut(anatomy())), skin_(gut_) {}
 
-  test::ExchangeScene scene(const std::string& keys = "") {
+  static constexpr const char* kTwoPoints = "[[0,0,0], [0.003,0,0.001]]\n[haptics]\nfriction = 0.5\n";
+  static constexpr const char* kBall =
+      "[[0,0,0], [0.0026,0,0.0009], [-0.0013,0.0022,0.0009], [-0.0013,-0.0022,0.0009], [0.0039,0,0.0033], "
+      "[0,0.0039,0.0033], [-0.0039,0,0.0033], [0,-0.0039,0.0033]]\n";
+
+  test::ExchangeScene scene(const std::string& keys = "", const std::string& points = kTwoPoints) {
     const std::filesystem::path file = folder_ / "scene.toml";
     std::ofstream(file)
         << "name = \"gut\"\n[[organs]]\nname = \"gut\"\nmodel = \"intestine\"\norigin = [0, 0, -0.3]\n"
         << keys
         << "\n[[obstacles]]\nshape = \"plane\"\ncentre = [0, 0, -0.43]\nnormal = [0, 0, 1]\n"
-           "[[tools]]\nid = 0\nname = \"grasper\"\nshape = \"grasper\"\n"
-           "points = [[0,0,0], [0.003,0,0.001]]\n[haptics]\nfriction = 0.5\n";
+           "[[tools]]\nid = 0\nname = \"grasper\"\nshape = \"grasper\"\ngrip_force_n = 40\n"
+           "points = "
+        << points;
     return {.file = file, .felt = scene::kOrganModels, .moved = deform::model_table()};
   }
   std::vector<Vec3> skin_now(Session& session) {
@@ -120,6 +128,79 @@ TEST_F(GutExchange, AGraspedLoopIsLiftedAndComesDownWhenItIsLetGo) {
   const auto hand = session.hand_report(), organ = session.organ_report();
   EXPECT_EQ(hand["faults"].size(), 0u) << hand["faults"];
   EXPECT_EQ(organ["faults"].size(), 0u) << organ["faults"];
+}
+
+/// A hand as the simulated one is: it yields to what it feels, and swings if that swings.
+class YieldingHand {
+ public:
+  YieldingHand(Session& session, const Vec3& begin) : session_(session), at_{begin, Vec3::Zero()} {
+    hand_.stiffness_n_m = 300;
+  }
+
+  /// Its target goes there evenly.
+  Vec3 lead_to(const Vec3& target, double seconds) {
+    const int ticks = static_cast<int>(std::lround(seconds / kPeriod_s));
+    const Vec3 from = target_, velocity = (target - from) / seconds;
+    for (int i = 1; i <= ticks; ++i) {
+      target_ = from + i * kPeriod_s * velocity;
+      for (int k = 0; k < 4; ++k)
+        at_ = device::step_hand(hand_, at_, {target_, velocity}, force_, kPeriod_s / 4);
+      force_ = session_.move_to(at_.position, kPeriod_s);
+    }
+    return force_;
+  }
+
+ private:
+  static constexpr double kPeriod_s = 1e-3;
+  Session& session_;
+  scene::HandSpec hand_;
+  device::Motion at_;
+  Vec3 target_ = at_.position, force_ = Vec3::Zero();
+};
+
+// The path is closed: what others of the pile take, and what the mesentery holds, is the hand's loss.
+TEST_F(GutExchange, AGraspedLoopThatIsDraggedOverOthersNeverFeedsTheHand) {
+  Session session(1000, 100, scene("", kBall));
+  session.open_jaws(0.5);
+  session.move_to(test::kAbove, 5);
+  top_ = highest(session);
+  session.move_to(above(), 0.3);
+  const Vec3 grasped = top_ - Vec3(0, 0, 0.004), lifted = grasped + Vec3(0, 0, 0.03),
+             aside = lifted + Vec3(0.1, 0, 0);
+  YieldingHand hand(session, above());
+  hand.lead_to(grasped, 0.5);
+  session.open_jaws(0);
+  hand.lead_to(lifted, 0.7);
+  hand.lead_to(aside, 1.5);
+  EXPECT_GT(hand.lead_to(aside, 0.5).norm(), 1);
+  hand.lead_to(lifted, 1);
+  hand.lead_to(grasped, 0.7);
+  EXPECT_LT(session.largest_step_n(), 2 * kUnnoticed_n);
+  EXPECT_LT(session.most_given_j(), 1e-3);
+  EXPECT_LT(session.given_j(), -0.05);
+  const auto report = session.hand_report();
+  EXPECT_EQ(report["faults"].size(), 0u) << report["faults"];
+}
+
+TEST_F(GutExchange, JawsThatCircleFastThroughThePileGetNothing) {
+  Session session(1000, 100, scene("", kBall));
+  session.open_jaws(0.5);
+  session.move_to(test::kAbove, 3);
+  top_ = highest(session);
+  session.move_to(above(), 0.3);
+  const Vec3 grasped = top_ - Vec3(0, 0, 0.004), begin = grasped + Vec3(0, 0, 0.02);
+  session.move_to(grasped, 0.5);
+  session.open_jaws(0);
+  session.move_to(begin, 0.5);
+  const double before_j = session.given_j();
+  constexpr double kRadius_m = 0.03, kTurn = 0.5 / kRadius_m / 1000;  // half a metre a second
+  for (double angle = 0; angle < 4 * std::numbers::pi; angle += kTurn)
+    session.move_to(begin + kRadius_m * Vec3(std::cos(angle) - 1, std::sin(angle), 0), 1e-3);
+  session.move_to(begin, 0.2);
+  EXPECT_LT(session.given_j(), before_j - 0.1);
+  EXPECT_LT(session.most_given_j(), 1e-3);
+  const auto report = session.hand_report();
+  EXPECT_EQ(report["faults"].size(), 0u) << report["faults"];
 }
 
 TEST_F(GutExchange, AProbeThatTeleportsThroughTheGutLeavesItWhole) {

@@ -43,7 +43,7 @@ SHAPE = {
     "nodes": {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
                         "contacts": {"ticks_in_contact": int, "nodes_max": int},
-                        "local_models": {"heard": int, "dropped": int, "gone": int}, "faults": list},
+                        "local_models": {"heard": int, "dropped": int, "gone": int}, "hands": list, "faults": list},
         "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "stress_states": int, "steps": int, "removed_tetrahedra": int,
                         "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
                         "real_time_factor": float, "faults": list},
@@ -392,14 +392,14 @@ class Parts(unittest.TestCase):
         environment.start()
         self.addCleanup(environment.stop)
 
-    def build(self, fixed, name="liver", mesh=None, regions=()):
+    def build(self, fixed, name="liver", mesh=None, regions=(), dynamic=""):
         """What build_organ would take from the cache, made by a stand-in for organ_build."""
         mesh = mesh or self.folder / "liver.msh"
         mesh.touch()
         options = mock.Mock(programs=self.folder)
         spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": list(regions)}
         with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
-            return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed)
+            return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed, dynamic)
 
     def test_a_node_without_a_report_has_every_field_all_the_same(self):
         seen_by_the_launcher = {"dds", "exit", "restarts"}
@@ -424,6 +424,22 @@ class Parts(unittest.TestCase):
             self.assertEqual(self.build(fixed), first)
             nodes.write_text("1\n3\n")
             self.assertNotEqual(self.build(fixed), first, fixed)
+
+    def test_a_dynamic_part_and_what_its_file_lists_make_another_organ(self):
+        plain = self.build("plane:x<0")
+        self.assertNotEqual(self.build("plane:x<0", dynamic="plane:x>1"), plain)
+        listed = self.folder / "tetrahedra.csv"
+        listed.write_text("1\n2\n")
+        first = self.build("plane:x<0", dynamic=str(listed))
+        listed.write_text("1\n3\n")
+        self.assertNotEqual(self.build("plane:x<0", dynamic=str(listed)), first)
+        self.assertEqual(organs.support_files("label:3"), [])
+
+    def test_a_foreign_mesh_moves_at_the_end_that_is_not_held(self):
+        measured = {"min": [0, -30, 0], "max": [90, 30, 30]}
+        self.assertEqual(organs.dynamic_spec(measured, 0.001, "plane:x<0.01"), "plane:x>0.06")
+        self.assertEqual(organs.dynamic_spec(measured, 0.001, "plane:y>0.01"), "plane:y<-0.01")
+        self.assertEqual(organs.dynamic_spec(measured, 0.001, "nodes.csv"), "plane:z>0.02")
 
     def test_each_region_is_told_to_organ_build_and_makes_another_organ(self):
         told = []
@@ -736,6 +752,19 @@ time.sleep({PATIENCE_S})"""), 0)
                          "edge; 3.5 cm^3 lost over 12.0 cm of cut")
         torn = {**report.FIELDS["deform_node"], "removed_tetrahedra": 5}
         self.assertEqual(report.removed_line(torn), "removed tetrahedra: 5")
+
+    def test_a_score_is_told_of_a_planned_cut_and_of_jaws_that_closed(self):
+        probe = {"tool": 0, "force_max_n": 1.234, "pull_max_n": 0.0, "pulls_beyond_limit": 0}
+        jaws = {"tool": 1, "force_max_n": 3.0, "pull_max_n": 6.5, "pulls_beyond_limit": 2, "grip_torque_max_nm": 0.012,
+                "grasps": {"begun": 3, "empty": 1, "torn": 1, "lost": 0}}
+        self.assertEqual(report.score_lines({"hands": [probe]}, {}), [])
+        self.assertEqual(report.score_lines({"hands": [probe, jaws]}, {}),
+                         ["hand 1: largest force 3.00 N, largest pull 6.50 N, 2 beyond the limit; "
+                          "3 grasps (1 empty, 1 torn), up to 12.0 mN m on the jaws"])
+        score = {"mean_mm": 1.26, "largest_mm": 4.0, "way_mm": 90.4, "removed_cm3": 5.0, "outside_cm3": 0.25, "seconds": 6.0}
+        self.assertEqual(report.score_lines({"hands": [probe]}, {"score": score}),
+                         ["cut: 1.3 mm from the planned line in the mean, 4.0 mm at most, over 90 mm; "
+                          "0.2 of 5.0 cm^3 outside of it; 6.0 s", "hand 0: largest force 1.23 N"])
 
     def test_a_map_is_asked_of_render_node_alone(self):
         made = session.Session.__new__(session.Session)

@@ -67,6 +67,21 @@ TEST(ImposedPressTest, NoPressPullsAndNoneIsMoreThanTwiceAsStrong) {
   EXPECT_EQ(imposed.impose(stepper, std::array{of_silent_hand}, state)[0], 0.5);
 }
 
+TEST(ImposedPressTest, APatternThatMayPullDoesAndCountsFromHowStrongItWas) {
+  const HeldBody body = test::held_box();
+  ImplicitStep stepper(body.mesh, test::kTissue, body.inertia, {.step_s = 0.005});
+  ImposedPress imposed(body.mesh.positions.size(), 1);
+  const Vec3 f(0, 0, -0.01), place(0, 0, 1e-6);
+  Press press = press_of(kTop, place, f);
+  press.least_strength = -1;
+  BodyState state = state_at_rest(body.mesh.positions.size());
+  const double strength = imposed.impose(stepper, std::array{press}, state)[0];
+  EXPECT_LT(strength, 0);
+  EXPECT_NEAR(at(state.u, kTop).z(), place.z(), 1e-6 * place.z());
+  press.already = strength;
+  EXPECT_NEAR(imposed.impose(stepper, std::array{press}, state)[0], strength, 1e-6 * std::abs(strength));
+}
+
 TEST(ImposedPressTest, APlaceWithAWallOfItsOwnIsDeeperByWhatThatYields) {
   const HeldBody body = test::held_box();
   ImplicitStep stepper(body.mesh, test::kTissue, body.inertia, {.step_s = 0.005});

@@ -175,6 +175,27 @@ TEST(KeptFactorTest, WhatIsLeftStaysPositiveDefinite) {
   for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(block[i], i % 4 == 0 ? expected : 0, 1e-6 * expected) << i;
 }
 
+TEST(KeptFactorTest, MassThatIsAddedIsAsIfItHadBeenThere) {
+  const HeldBody body = test::held_box();
+  HeldBody heavier = body;
+  const std::vector<NodeId> nodes{NodeId(5), NodeId(100), NodeId(41)};
+  constexpr double kMore_kg = 0.02;
+  for (const NodeId n : nodes) heavier.inertia.mass[n] += kMore_kg;
+  KeptFactor factor = kept(body), expected = kept(heavier);
+  ASSERT_TRUE(factor.add_mass(nodes, kMore_kg));
+  const Values b = free_load(body, 5);
+  Values x(b.size()), y(b.size()), Ax(b.size());
+  factor.solve(b, x);
+  expected.solve(b, y);
+  EXPECT_LE(difference(x, y), kRefined);
+  factor.multiply(x, Ax);
+  EXPECT_LE(difference(Ax, b), 1e-11);
+  factor.restore();
+  factor.solve(b, x);
+  kept(body).solve(b, y);
+  EXPECT_EQ(x, y);
+}
+
 TEST(KeptFactorTest, WhatWouldFloatWithoutMassIsSaid) {
   const HeldBody body = test::held_box();
   KeptFactor factor = kept(body, {0, 1});

@@ -2,6 +2,7 @@
 
 #include "physics/intestine/active_pairs.h"
 #include "tests/physics/intestine/restless_gut.h"
+#include "tests/support/effort.h"
 #include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ TEST(GutCollisions, CompleteMethodMissesNothingInAnyStep) {
   GutState state = test::state_of(shape);
   std::mt19937_64 random(5);
   std::size_t overlaps = 0;
-  for (int step = 0; step < 150; ++step) {
+  for (int step = 0; step < test::tried(150); ++step) {
     const std::vector<Vec3> before = state.x;
     const geometry::GutOverlaps all = geometry::all_overlaps(parts.layout, before, parts.reach, parts.near);
     test::shake(parts.layout, 0.3, kStep_s, random, state);
@@ -45,7 +46,7 @@ TEST(GutCollisions, CompleteMethodMissesNothingInAnyStep) {
       EXPECT_TRUE(pairs.contains({sheet.segment, sheet.other + parts.layout.segment_count()}));
     overlaps += all.tube.size() + all.mesentery.size();
   }
-  EXPECT_GT(overlaps, 1000U);
+  EXPECT_GT(overlaps, test::tried(1000U));
 }
 
 class GutSearch : public ::testing::TestWithParam<GutPairMethod> {};
@@ -93,11 +94,12 @@ TEST(GutCollisions, StochasticSearchFindsNearlyAllWithAFewTests) {
   std::mt19937_64 random(9);
   std::size_t there = 0, known = 0;
   std::int64_t tests = 0, pairs = 0;
-  for (int step = 0; step < 300; ++step) {
+  constexpr int kFinding = 200, kCounted = test::tried(100);
+  for (int step = 0; step < kFinding + kCounted; ++step) {
     std::vector<Vec3> x = shape.positions;
     for (Vec3& p : x) p += test::random_vector(random, 0.001);
     search.find(x, ways, 0, near);
-    if (step < 200) continue;
+    if (step < kFinding) continue;
     tests += search.distance_tests();
     pairs += geometry::exhaustive_tests(parts.layout, parts.near);
     const geometry::GutOverlaps all = geometry::all_overlaps(parts.layout, x, parts.reach, parts.near);
@@ -108,7 +110,7 @@ TEST(GutCollisions, StochasticSearchFindsNearlyAllWithAFewTests) {
       known += names.count({sheet.segment, sheet.other + parts.layout.segment_count()});
     there += all.tube.size() + all.mesentery.size();
   }
-  EXPECT_GT(there, 1000U);
+  EXPECT_GT(there, test::tried(1000U));
   EXPECT_GE(static_cast<double>(known), 0.99 * static_cast<double>(there));
   EXPECT_LE(static_cast<double>(tests), 0.05 * static_cast<double>(pairs));
 }
@@ -124,6 +126,80 @@ TEST(GutCollisions, WhatIsNotFiniteGoesNoFartherThanItMay) {
   for (const Vec3& v : state.v) EXPECT_TRUE(v.allFinite());
   const MassId lost = shape.layout.mass(0, 40);
   EXPECT_LT((state.x[lost] - shape.positions[lost]).norm(), collisions.parts().reach.tube_m);
+}
+
+// Every mass wants far into the corner of a box in which the gut just lies.
+TEST(GutCollisions, TheCornerOfABoxHoldsWithBothItsWalls) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s, {.passes = 40});
+  GutObstacle box{.kind = GutObstacle::Kind::kInsideBox};
+  for (const Vec3& p : shape.positions)
+    box.half_axes_m = box.half_axes_m.cwiseMax(p.cwiseAbs() + Vec3::Constant(shape.tube_radius_m));
+  GutState state = test::state_of(shape);
+  for (int step = 0; step < 60; ++step) {
+    const std::vector<Vec3> before = state.x;
+    for (std::size_t m = 0; m < state.x.size(); ++m) {
+      if (!shape.layout.is_held(MassId(m))) state.x[m] += Vec3::Constant(0.004);
+    }
+    collisions.resolve(before, state, std::span(&box, 1), {});
+  }
+  double deepest = 0;
+  for (std::int32_t c = 1; c < shape.layout.columns - 1; ++c) {
+    const auto faces = faces_within(box, state.x[static_cast<std::size_t>(c)], 1);
+    for (const WallPlace& wall : faces.near())
+      deepest = std::max(deepest, shape.tube_radius_m - wall.depth_m);
+  }
+  EXPECT_LT(deepest, 0.05 * shape.tube_radius_m);
+}
+
+// Before and behind the springs and behind the contacts: it is still one mass that was held back.
+TEST(GutCollisions, AMassThatTheBoundHoldsCountsOnceAStep) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s);
+  GutState state = test::state_of(shape);
+  const std::vector<Vec3> before = state.x;
+  for (std::size_t m = 0; m < state.x.size(); ++m)
+    if (!shape.layout.is_held(MassId(m))) state.x[m].z() += 0.5;
+  collisions.resolve(before, state, {}, {});
+  EXPECT_EQ(collisions.report().bound_acted, (shape.layout.rows - 1) * (shape.layout.columns - 2));
+}
+
+TEST(GutCollisions, SpheresThatFindNoRoomAreTold) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s, {.most_spheres = 2});
+  GutState state = test::state_of(shape);
+  const std::vector<MovingSphere> spheres(5, MovingSphere{.radius_m = 0.001});
+  collisions.resolve(shape.positions, state, {}, spheres);
+  EXPECT_EQ(collisions.report().left_out, 3);
+  EXPECT_EQ(collisions.outcomes().size(), 2U);
+}
+
+// Walls come last and keep their room when all masses meet many.
+TEST(GutCollisions, ContactsThatFindNoRoomAreTold) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s);
+  GutState state = test::state_of(shape);
+  const GutObstacle floor{.centre = Vec3(0, 0, 1)};
+  const std::vector<GutObstacle> few(4, floor), many(400, floor);
+  collisions.resolve(shape.positions, state, few, {});
+  EXPECT_EQ(collisions.report().left_out, 0);
+  collisions.resolve(shape.positions, state, many, {});
+  EXPECT_GT(collisions.report().left_out, 0);
+}
+
+// A correction is no step: a mass that the bound stops keeps the velocity that its step gave it.
+TEST(GutCollisions, ABoundCorrectionLeavesTheVelocityOfTheStep) {
+  const geometry::GutShape shape = test::folded_gut();
+  GutCollisions collisions(shape, even_masses(shape), kStep_s);
+  GutState state = test::state_of(shape);
+  const MassId far = shape.layout.mass(0, 40);
+  const std::vector<Vec3> carried(state.x.size(), Vec3(0, 0, 0.01));
+  state.v = carried;
+  state.x[far].z() += 1;
+  collisions.resolve(shape.positions, state, {}, {}, nullptr, carried);
+  const Vec3 way = state.x[far] - shape.positions[far];
+  EXPECT_LT(way.norm(), 0.02);
+  EXPECT_LT((state.v[far] - carried[far] - way / kStep_s).norm(), 1e-9);
 }
 
 TEST(GutCollisions, SaysWhatIsExpected) {

@@ -64,5 +64,21 @@ TEST(GutObstacle, PlaneAndBoxSayHowFarInside) {
   EXPECT_LT((place.inward + box.axes.col(1)).norm(), 1e-12);
 }
 
+TEST(GutObstacle, ABoxTellsEveryFaceOfItsCorners) {
+  const GutObstacle box = turned(GutObstacle::Kind::kInsideBox);
+  const auto at = [&](double x, double y, double z) { return Vec3(box.centre + box.axes * Vec3(x, y, z)); };
+  EXPECT_EQ(faces_within(box, at(0, 0, 0), 0.02).count, 0u);
+  EXPECT_EQ(faces_within(box, at(0.19, 0, 0), 0.02).count, 1u);
+  EXPECT_EQ(faces_within(box, at(0.19, 0.14, 0), 0.02).count, 2u);
+  const Vec3 corner = at(0.19, -0.145, 0.12);  // beyond the third face
+  const WallFaces faces = faces_within(box, corner, 0.02);
+  ASSERT_EQ(faces.count, 3u);
+  for (const WallPlace& place : faces.near()) {
+    const Vec3 foot = box.axes.transpose() * (corner - place.depth_m * place.inward - box.centre);
+    EXPECT_NEAR((foot.cwiseAbs() - box.half_axes_m).cwiseAbs().minCoeff(), 0, 1e-12);
+  }
+  EXPECT_EQ(place_at_wall(box, corner).depth_m, faces.places[2].depth_m);
+}
+
 }  // namespace
 }  // namespace omentum::physics

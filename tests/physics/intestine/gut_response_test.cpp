@@ -1,5 +1,6 @@
 #include "physics/intestine/gut_response.h"
 
+#include "physics/intestine/gut_parts.h"
 #include "tests/physics/intestine/restless_gut.h"
 
 #include <gtest/gtest.h>
@@ -139,6 +140,113 @@ TEST(GutResponse, FrictionStopsWhatSlowlySlidesAndSlowsWhatIsFast) {
     EXPECT_NEAR(v[0].z(), 0, kRounding);
     EXPECT_NEAR(x[0].z(), 0.02, kRounding);
   }
+}
+
+/// The passes as they are written in gut_response.h, mass by mass.
+class PlainPasses {
+ public:
+  PlainPasses(std::span<const GutContact> contacts, std::span<const Vec3> warm, double step_s,
+              double friction, const MovingMasses& masses)
+      : contacts_(contacts), friction_(friction), masses_(masses) {
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Vec3& u = contacts[c].normal;
+      const double f = warm[c].dot(u);
+      const Vec3 rubbed = warm[c] - f * u;
+      of_.push_back({f * step_s, f, rubbed * step_s, rubbed, between(contacts[c], masses.before)});
+    }
+  }
+  void pass() {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) correct(contacts_[c], of_[c]);
+  }
+  Vec3 impulse(std::size_t c) const { return of_[c].f * contacts_[c].normal + of_[c].rubbed_speed; }
+
+ private:
+  struct Given {
+    double g, f;
+    Vec3 rubbed_way, rubbed_speed, before;
+  };
+  static Vec3 between(const GutContact& contact, std::span<const Vec3> of) {
+    return place_of(contact.one, of) - place_of(contact.other, of);
+  }
+  double D(const GutContact& contact) const {
+    double sum = 0;
+    for (const GutPoint* point : {&contact.one, &contact.other})
+      for (std::size_t k = 0; k < 3 && point->mass[k].valid(); ++k)
+        sum += point->weight[k] * point->weight[k] * masses_.inverse_mass[point->mass[k]];
+    return sum;
+  }
+  void add(const GutContact& contact, const Vec3& impulse, std::span<Vec3> to) {
+    for (const auto& [point, sign] : {std::pair(&contact.one, 1.0), std::pair(&contact.other, -1.0)})
+      for (std::size_t k = 0; k < 3 && point->mass[k].valid(); ++k)
+        to[point->mass[k]] += sign * point->weight[k] * masses_.inverse_mass[point->mass[k]] * impulse;
+  }
+  void rub(const GutContact& contact, const Vec3& gone, double most, Vec3& rubbed, std::span<Vec3> of) {
+    Vec3 wish = rubbed - (gone - gone.dot(contact.normal) * contact.normal) / D(contact);
+    if (wish.norm() > most) wish *= most / wish.norm();
+    add(contact, wish - rubbed, of);
+    rubbed = wish;
+  }
+  void correct(const GutContact& contact, Given& given) {
+    const auto push = [&](double gone, double& sum, std::span<Vec3> of) {
+      const double now = std::max(0.0, sum - gone / D(contact));
+      add(contact, (now - sum) * contact.normal, of);
+      sum = now;
+    };
+    push(between(contact, masses_.x).dot(contact.normal) - contact.reach_m, given.g, masses_.x);
+    if (given.g > 0 || given.f > 0) push(between(contact, masses_.v).dot(contact.normal), given.f, masses_.v);
+    if (given.g > 0 || !given.rubbed_way.isZero(0))
+      rub(contact, between(contact, masses_.x) - given.before, friction_ * given.g, given.rubbed_way,
+          masses_.x);
+    if (given.f > 0 || !given.rubbed_speed.isZero(0))
+      rub(contact, between(contact, masses_.v), friction_ * given.f, given.rubbed_speed, masses_.v);
+  }
+
+  std::span<const GutContact> contacts_;
+  double friction_;
+  MovingMasses masses_;
+  std::vector<Given> of_;
+};
+
+// Rounding over two passes of numbers up to 1.
+constexpr double kOfPasses = 1e-12;
+
+TEST(GutResponse, CorrectsAsThePlainPassesDo) {
+  const double step_s = 5e-3, friction = 0.3;
+  std::mt19937_64 random(4);
+  for (int trial = 0; trial < 50; ++trial) {
+    Pair fast = random_pair(random, true);
+    // of the same five masses: each waits for the others
+    std::vector<GutContact> contacts(4, fast.contact);
+    contacts[1].other = {{MassId(3), MassId(2), MassId()}, {0.6, 0.4, 0}};
+    contacts[2].one = {{MassId(1), MassId(), MassId()}, {1, 0, 0}};
+    contacts[3].one = {{MassId(0), MassId(3), MassId()}, {0.5, 0.5, 0}};
+    contacts[3].other = {{MassId(4), MassId(), MassId()}, {1, 0, 0}};
+    std::vector<Vec3> warm;
+    for (GutContact& contact : contacts) {
+      contact.normal = (contact.normal + test::random_vector(random, 0.5)).normalized();
+      warm.push_back(0.01 * contact.normal + test::random_vector(random, 0.001));
+    }
+    Pair plain = fast;
+    GutResponse response(4, 2, friction);
+    response.solve(contacts, warm, step_s, fast.masses());
+    PlainPasses passes(contacts, warm, step_s, friction, plain.masses());
+    for (int pass = 0; pass < 2; ++pass) passes.pass();
+    for (std::size_t m = 0; m < 5; ++m) {
+      EXPECT_LT((fast.x[m] - plain.x[m]).norm(), kOfPasses);
+      EXPECT_LT((fast.v[m] - plain.v[m]).norm(), kOfPasses);
+    }
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      EXPECT_LT((response.impulse(c) - passes.impulse(c)).norm(), kOfPasses);
+  }
+}
+
+TEST(GutResponse, PassesEndWhereOneCorrectsNothing) {
+  std::mt19937_64 random(5);
+  Pair few = random_pair(random, true), many = few;
+  GutResponse(1, 100, 0).solve(std::span(&few.contact, 1), few.masses());
+  GutResponse(1, 1000000000, 0).solve(std::span(&many.contact, 1), many.masses());
+  EXPECT_EQ(few.x, many.x);
+  EXPECT_EQ(few.v, many.v);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "physics/intestine/gut_system.h"
 
-#include "tests/physics/intestine/crossings.h"
 #include "tests/physics/intestine/restless_gut.h"
 
 #include <gtest/gtest.h>
@@ -41,6 +40,23 @@ TEST(GutRest, FoldsOnAPlaneComeToRestAndOverlapByLessThanATwentiethOfTheRadius) 
   EXPECT_TRUE(overlaps.empty());
 }
 
+// Planes this far below the vessel, steps of 5 ms: piles that trembled by 24 and 18 mm/s as long as contacts
+// came behind the springs' iterations.
+class GutPile : public ::testing::TestWithParam<double> {};
+
+TEST_P(GutPile, LiesStillTenSecondsAfterItWasLetGo) {
+  GutSystem gut(test::folded_gut(), GutMaterial{}, {}, {.step_s = 0.005});
+  const GutObstacle floor{.centre = Vec3(0, 0, -GetParam())};
+  double last_second = 0;
+  for (int step = 0; step < 2000; ++step) {
+    gut.step({.obstacles = std::span(&floor, 1)});
+    if (step >= 1800) last_second += mean_speed(gut.state()) / 200;
+  }
+  EXPECT_LT(last_second, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planes, GutPile, ::testing::Values(0.065, 0.1));
+
 // What springs and weight do to all free masses together, N: of a gut at rest it is what else holds it.
 Vec3 springs_and_weight(const GutSystem& gut) {
   const std::vector<Vec3> still(gut.state().x.size(), Vec3::Zero());
@@ -66,15 +82,13 @@ geometry::GutShape curtain() {
   return shape;
 }
 
-double share_of_error(double step_s) {
-  return 0.06 * std::pow(step_s / 0.002, 2);
-}
+// Of the force: what the iterations leave over.
+constexpr double kShareOfError = 0.01;
 
 class GutBall : public ::testing::TestWithParam<double> {};
 
 // It is pushed 4 cm aside by a ball. The impulse on the ball, by the step, is the force that the gut needs to
-// hang like that. The constant matrix of an implicit step is stiffer than its springs, so the force is a
-// little too large: by 28 % at 5 ms, 4 % at 2 ms, 1 % at 1 ms.
+// hang like that, whatever the step: the matrix of an implicit step, stiffer than the springs, is not in it.
 TEST_P(GutBall, FeelsTheForceThatTheGutNeedsToHang) {
   const double step_s = GetParam();
   GutSystem gut(curtain(), GutMaterial{}, {}, {.step_s = step_s});
@@ -88,10 +102,37 @@ TEST_P(GutBall, FeelsTheForceThatTheGutNeedsToHang) {
   }
   const Vec3 expected = springs_and_weight(gut);
   EXPECT_GT(expected.norm(), 0.5);
-  EXPECT_LT((force - expected).norm(), share_of_error(step_s) * expected.norm());
+  EXPECT_LT((force - expected).norm(), kShareOfError * expected.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(Steps, GutBall, ::testing::Values(0.004, 0.002, 0.001));
+INSTANTIATE_TEST_SUITE_P(Steps, GutBall, ::testing::Values(0.01, 0.005, 0.002));
+
+// A probe right through the gut, by a hand of 20 N: loops are pushed aside, and where the mesentery holds
+// them the probe stays behind.
+class GutDrive : public ::testing::TestWithParam<double> {};
+
+TEST_P(GutDrive, AProbeThatIsDrivenThroughOverlapsByLessThanATwentiethOfTheRadius) {
+  constexpr double kStep_s = 0.0025, kHand_n = 20;
+  const geometry::GutShape shape = test::folded_gut();
+  const GutObstacle floor = floor_below(shape, 0.02);
+  GutSystem gut(shape, GutMaterial{}, {}, {.step_s = kStep_s});
+  for (int step = 0; step < 200; ++step) gut.step({.obstacles = std::span(&floor, 1)});
+  const Vec3 from(0.03, 0.4, 0.05), to(0.03, -0.4, 0.05);
+  MovingSphere ball{.before = from, .after = from, .radius_m = 0.01, .most_force_n = kHand_n};
+  double deepest_m = 0, hardest_n = 0;
+  for (double way = 0; way < 1; way += GetParam() * kStep_s / (to - from).norm()) {
+    ball.after = from + way * (to - from);
+    gut.step({.obstacles = std::span(&floor, 1), .spheres = std::span(&ball, 1)});
+    ball.before = gut.outcomes()[0].reached;
+    deepest_m = std::max(deepest_m, gut.report().collisions.deepest_m);
+    hardest_n = std::max(hardest_n, gut.outcomes()[0].impulse.norm() / kStep_s);
+  }
+  EXPECT_GT(hardest_n, 1);
+  EXPECT_LT(hardest_n, 1.2 * kHand_n);
+  EXPECT_LT(deepest_m, 0.05 * shape.tube_radius_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, GutDrive, ::testing::Values(0.5, 5.0));
 
 }  // namespace
 }  // namespace omentum::physics

@@ -1,17 +1,18 @@
-#include "tests/physics/intestine/crossings.h"
+#include "physics/intestine/gut_crossings.h"
 
 #include "geometry/closest_points.h"
 #include "geometry/segment_points.h"
 
 #include <cmath>
 
-namespace omentum::test {
+namespace omentum::physics {
 namespace {
 
 using geometry::Vec3;
 
 // Two that meet at a root of the cubic are this near each other, m: a hundred times the rounding of the root.
 constexpr double kMeeting_m = 1e-9;
+constexpr double kRounding = 1e-9;  // of a way
 
 // ((c - a) x (d - a)) . (b - a) along the ways, as c0 + c1 t + c2 t^2 + c3 t^3.
 std::array<double, 4> volume(const Way& a, const Way& b, const Way& c, const Way& d) {
@@ -66,6 +67,34 @@ Eigen::AlignedBox3d swept(std::span<const geometry::MassId> masses, std::span<co
   return box;
 }
 
+// How far the farthest of a part's masses goes.
+double longest_way(std::span<const geometry::MassId> masses, std::span<const Vec3> from,
+                   std::span<const Vec3> to) {
+  double longest = 0;
+  for (const geometry::MassId m : masses)
+    if (m.valid()) longest = std::max(longest, (to[m] - from[m]).norm());
+  return longest;
+}
+
+double squared_distance(const std::array<geometry::MassId, 3>& s, const std::array<geometry::MassId, 3>& m,
+                        std::span<const Vec3> x) {
+  if (!m[2].valid())
+    return geometry::closest_points_of_segments(x[s[0]], x[s[1]], x[m[0]], x[m[1]]).squared_distance;
+  return geometry::closest_points_of_segment_and_triangle(x[s[0]], x[s[1]], x[m[0]], x[m[1]], x[m[2]])
+      .squared_distance;
+}
+
+bool parts_meet(const std::array<geometry::MassId, 3>& s, const std::array<geometry::MassId, 3>& m,
+                std::span<const Vec3> from, std::span<const Vec3> to) {
+  const auto way = [&](geometry::MassId mass) { return Way{from[mass], to[mass]}; };
+  const Way p = way(s[0]), q = way(s[1]), a = way(m[0]), b = way(m[1]);
+  if (edges_meet(p, q, a, b)) return true;
+  if (!m[2].valid()) return false;
+  const Way c = way(m[2]);
+  return edges_meet(p, q, b, c) || edges_meet(p, q, c, a) || point_meets_triangle(p, a, b, c) ||
+         point_meets_triangle(q, a, b, c);
+}
+
 }  // namespace
 
 bool edges_meet(const Way& p, const Way& q, const Way& a, const Way& b) {
@@ -82,30 +111,26 @@ bool point_meets_triangle(const Way& p, const Way& a, const Way& b, const Way& c
   });
 }
 
-std::int64_t count_crossings(const physics::GutParts& parts, std::span<const Vec3> from,
-                             std::span<const Vec3> to, std::int64_t& pairs) {
+std::int64_t count_crossings(const GutParts& parts, std::span<const Vec3> from, std::span<const Vec3> to,
+                             std::int64_t& pairs) {
   std::vector<Eigen::AlignedBox3d> boxes;
-  for (const auto& masses : parts.masses) boxes.push_back(swept(masses, from, to));
+  std::vector<double> ways;
+  for (const auto& masses : parts.masses) {
+    boxes.push_back(swept(masses, from, to));
+    ways.push_back(longest_way(masses, from, to));
+  }
   std::int64_t crossings = 0;
-  for (std::int32_t i = 0; i < parts.layout.segment_count(); ++i) {
-    for (std::int32_t j = i + 1; j < parts.count(); ++j) {
-      if (!parts.may_touch(i, j)) continue;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(parts.layout.segment_count()); ++i) {
+    for (std::size_t j = i + 1; j < parts.masses.size(); ++j) {
+      if (!parts.may_touch(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j))) continue;
       ++pairs;
-      if (!boxes[static_cast<std::size_t>(i)].intersects(boxes[static_cast<std::size_t>(j)])) continue;
-      const auto way = [&](geometry::MassId m) { return Way{from[m], to[m]}; };
-      const auto &s = parts.masses[static_cast<std::size_t>(i)],
-                 &m = parts.masses[static_cast<std::size_t>(j)];
-      const Way p = way(s[0]), q = way(s[1]), a = way(m[0]), b = way(m[1]);
-      bool met = edges_meet(p, q, a, b);
-      if (m[2].valid()) {
-        const Way c = way(m[2]);
-        met = met || edges_meet(p, q, b, c) || edges_meet(p, q, c, a) || point_meets_triangle(p, a, b, c) ||
-              point_meets_triangle(q, a, b, c);
-      }
-      crossings += met ? 1 : 0;
+      if (!boxes[i].intersects(boxes[j])) continue;
+      const double both = (1 + kRounding) * (ways[i] + ways[j]) + kMeeting_m;
+      if (squared_distance(parts.masses[i], parts.masses[j], from) > both * both) continue;
+      crossings += parts_meet(parts.masses[i], parts.masses[j], from, to) ? 1 : 0;
     }
   }
   return crossings;
 }
 
-}  // namespace omentum::test
+}  // namespace omentum::physics

@@ -1,4 +1,4 @@
-#include "deform_node/gut_spheres.h"
+#include "deform_node/axis_spheres.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@ namespace omentum::deform {
 
 using geometry::Vec3;
 
-GutSpheres::GutSpheres(const geometry::GutShape& shape, std::span<const double> masses_kg) {
+AxisSpheres::AxisSpheres(const geometry::GutShape& shape, std::span<const double> masses_kg) {
   const geometry::GutLayout& layout = shape.layout;
   double since_m = 0, carried_kg = 0;  // the last sphere
   for (std::int32_t s = 0; s < layout.segment_count(); ++s) {
@@ -28,8 +28,8 @@ GutSpheres::GutSpheres(const geometry::GutShape& shape, std::span<const double> 
   }
 }
 
-std::span<const CollisionSphere> GutSpheres::follow(std::span<const Vec3> x,
-                                                    std::span<const Vec3> v) noexcept {
+std::span<const CollisionSphere> AxisSpheres::follow(std::span<const Vec3> x,
+                                                     std::span<const Vec3> v) noexcept {
   for (std::size_t s = 0; s < places_.size(); ++s) {
     const auto [i, at] = places_[s];
     shown_[s].centre = (1 - at) * x[i] + at * x[i + 1];
@@ -38,7 +38,7 @@ std::span<const CollisionSphere> GutSpheres::follow(std::span<const Vec3> x,
   return shown_;
 }
 
-void GutSpheres::push(std::span<const OrganContact> contacts, std::span<Vec3> impulses) const noexcept {
+void AxisSpheres::push(std::span<const OrganContact> contacts, std::span<Vec3> impulses) const noexcept {
   for (const OrganContact& contact : contacts) {
     const auto s = static_cast<std::size_t>(contact.sphere);
     if (std::isinf(shown_[s].mass_kg)) continue;

@@ -11,10 +11,10 @@ namespace omentum::deform {
 
 /// Along the axis, about a radius of the tube apart, each with its share of the gut's mass; one between two
 /// held masses does not yield. Takes its memory when it is made; one thread.
-class GutSpheres {
+class AxisSpheres {
  public:
   /// `masses_kg`: [masses].
-  GutSpheres(const geometry::GutShape& shape, std::span<const double> masses_kg);
+  AxisSpheres(const geometry::GutShape& shape, std::span<const double> masses_kg);
 
   std::size_t count() const noexcept { return places_.size(); }
   /// With the masses at `x`, m, going by `v`, m/s, both [masses]; valid until the next call.

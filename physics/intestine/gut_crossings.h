@@ -1,12 +1,12 @@
-// Whether anything of a gut passed through anything between two steps, found in another way than by
-// distances.
+// Whether anything of a gut passed through anything between two steps: a count that shares nothing with what
+// keeps it from doing so.
 #pragma once
 
 #include "physics/intestine/gut_parts.h"
 
 #include <span>
 
-namespace omentum::test {
+namespace omentum::physics {
 
 /// Places of one moving point, edge or triangle corner: at the start and at the end, straight in between.
 struct Way {
@@ -19,8 +19,10 @@ struct Way {
 bool edges_meet(const Way& p, const Way& q, const Way& a, const Way& b);
 bool point_meets_triangle(const Way& p, const Way& a, const Way& b, const Way& c);
 
-/// Pairs of a segment and another part that may touch and met on the way; `pairs` counts how many there were.
-std::int64_t count_crossings(const physics::GutParts& parts, std::span<const geometry::Vec3> from,
+/// Pairs of a segment and another part that may touch and met on the way; `pairs` grows by how many there
+/// were. Looked at closely are those whose boxes around all of the way meet, and which were not farther from
+/// each other at its start than both go. For checks, not for a step: it allocates.
+std::int64_t count_crossings(const GutParts& parts, std::span<const geometry::Vec3> from,
                              std::span<const geometry::Vec3> to, std::int64_t& pairs);
 
-}  // namespace omentum::test
+}  // namespace omentum::physics

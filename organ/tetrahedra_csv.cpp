@@ -1,10 +1,10 @@
-#include "organ_tools/organ_solve/removed_csv.h"
+#include "organ/tetrahedra_csv.h"
 
 #include "organ/csv.h"
 
 #include <array>
 
-namespace omentum::organ_tools {
+namespace omentum::organ {
 
 namespace {
 
@@ -12,29 +12,29 @@ constexpr std::array kNames = {"tetrahedron", "tetrahedra", "tet", "tets", "elem
 
 }  // namespace
 
-std::vector<geometry::TetId> read_removed(const std::filesystem::path& file, const organ::Organ& organ,
-                                          geometry::Numbering numbering) {
-  const organ::CsvTable table = organ::read_csv(file);
+std::vector<geometry::TetId> read_tetrahedra(const std::filesystem::path& file,
+                                             const geometry::TetraMesh& mesh, geometry::Numbering numbering) {
+  const CsvTable table = read_csv(file);
   if (table.numbering.value_or(numbering) != numbering) {
     throw geometry::InputError(table.lines.front().where +
                                ": a comment above says another numbering than --numbering does");
   }
   std::size_t column = 0;
   if (table.header)
-    column = organ::find_column(*table.header, kNames, "named tetrahedron (or tet, element, cell, id)");
-  const geometry::FileNumbers names(organ.mesh.tetrahedron_numbers, organ.mesh.tetrahedra.size(), numbering);
-  std::vector<geometry::TetId> removed;
-  for (const organ::CsvLine& line : table.lines) {
+    column = find_column(*table.header, kNames, "named tetrahedron (or tet, element, cell, id)");
+  const geometry::FileNumbers names(mesh.tetrahedron_numbers, mesh.tetrahedra.size(), numbering);
+  std::vector<geometry::TetId> listed;
+  for (const CsvLine& line : table.lines) {
     const std::string& field = line.fields[column];
-    const auto number = organ::parse_integer(field);
+    const auto number = parse_integer(field);
     const auto position = number ? names.position_of(*number) : std::nullopt;
     if (!position) {
       throw geometry::InputError(line.where + ": found '" + field +
                                  "'; expected the number of a tetrahedron, " + names.range());
     }
-    removed.emplace_back(*position);
+    listed.emplace_back(*position);
   }
-  return removed;
+  return listed;
 }
 
-}  // namespace omentum::organ_tools
+}  // namespace omentum::organ

@@ -1,0 +1,216 @@
+#include "organ_tools/organ_solve/hybrid_solve.h"
+
+#include "organ/stored_tensors.h"
+#include "organ/tensor_check.h"
+#include "organ_tools/organ_solve/move_to_rest.h"
+#include "physics/direct_solve.h"
+#include "physics/dynamics/implicit_step.h"
+#include "physics/hybrid/condensed_stiffness.h"
+#include "physics/tensor_solve.h"
+
+namespace omentum::organ_tools {
+
+namespace {
+
+using geometry::InputError;
+using geometry::NodeId;
+using geometry::SurfaceId;
+using geometry::TetId;
+using geometry::Vec3;
+using physics::MeshPart;
+
+// What is imposed on nodes of the precomputed part that are its own, on its surface.
+struct Contacts {
+  std::vector<SurfaceId> nodes;
+  std::vector<Vec3> displacements;
+};
+
+Contacts contacts_of(const organ::Organ& organ, Imposed imposed, Numbering numbering) {
+  const organ::OrganSplit& split = *organ.split;
+  Contacts contacts;
+  for (const physics::ImposedDisplacement& i : imposed) {
+    if (split.parts.dynamic.own_node[i.node].valid()) continue;
+    contacts.nodes.push_back(split.surface.of_node[split.parts.precomputed.own_node[i.node]]);
+    contacts.displacements.push_back(i.displacement);
+    if (contacts.nodes.back().valid()) continue;
+    const auto position = static_cast<std::size_t>(organ.mesh.file_node[i.node]);
+    throw InputError(
+        "node " + std::to_string(organ.mesh.names_of_nodes(numbering).of(position)) +
+        " is inside the precomputed part and has no tensors; expected nodes of its surface or of "
+        "the dynamic part");
+  }
+  return contacts;
+}
+
+class HybridRest {
+ public:
+  HybridRest(const organ::Organ& organ, const organ::StoredTensors& tensors, const CutOrgan& cut,
+             Imposed imposed, const std::vector<Vec3>& weights, Contacts contacts)
+      : organ_(organ),
+        split_(*organ.split),
+        tensors_(tensors),
+        cut_(cut),
+        imposed_(imposed),
+        weights_(weights),
+        contacts_(std::move(contacts)),
+        stiffness_(physics::assemble_stiffness(split_.parts.precomputed.mesh, organ.material)),
+        loads_(loads_of_precomputed()),
+        sag_(physics::direct_solve(stiffness_, split_.fixed, {}, loads_).displacements) {}
+
+  std::vector<Vec3> displacements() const {
+    const std::vector<double> u = rest_of_dynamic();
+    std::vector<Vec3> displacements(organ_.mesh.positions.size(), Vec3::Zero());
+    const std::vector<Vec3> precomputed = follow(u);
+    for (std::size_t n = 0; n < precomputed.size(); ++n)
+      displacements[split_.parts.precomputed.node[n]] = precomputed[n];
+    for (std::size_t n = 0; n < split_.parts.dynamic.node.size(); ++n)
+      displacements[split_.parts.dynamic.node[n]] = Vec3(u.data() + 3 * n);
+    return displacements;
+  }
+
+ private:
+  // Connection nodes carry theirs as nodes of the dynamic part.
+  std::vector<Vec3> loads_of_precomputed() const {
+    std::vector<Vec3> loads;
+    for (const NodeId n : split_.parts.precomputed.node) {
+      const bool connects = split_.parts.dynamic.own_node[n].valid();
+      loads.push_back(connects ? Vec3::Zero().eval() : weights_[n]);
+    }
+    return loads;
+  }
+
+  Vec3 sag_at(SurfaceId s) const { return sag_[split_.surface.node[s]]; }
+
+  // Of connection nodes, then of contacts.
+  Eigen::MatrixXd stiffness_of_held() const {
+    std::vector<SurfaceId> held = split_.connection;
+    held.insert(held.end(), contacts_.nodes.begin(), contacts_.nodes.end());
+    return physics::condensed_stiffness(tensors_.storage == organ::Storage::kFloat
+                                            ? physics::compliance_among(tensors_.single, held)
+                                            : physics::compliance_among(tensors_.twofold, held));
+  }
+
+  // f_c: what the precomputed part does to its connection nodes while these are at rest.
+  Eigen::VectorXd force_at_rest(const Eigen::MatrixXd& S) const {
+    Eigen::VectorXd away(S.rows());  // of each held node, from where it would be by itself
+    const std::size_t connected = split_.connection.size();
+    for (std::size_t k = 0; k < connected; ++k)
+      away.segment<3>(static_cast<Eigen::Index>(3 * k)) = -sag_at(split_.connection[k]);
+    for (std::size_t k = 0; k < contacts_.nodes.size(); ++k)
+      away.segment<3>(static_cast<Eigen::Index>(3 * (connected + k))) =
+          contacts_.displacements[k] - sag_at(contacts_.nodes[k]);
+    return -S.topRows(static_cast<Eigen::Index>(3 * connected)) * away;
+  }
+
+  physics::Inertia inertia() const {
+    const std::vector<double> mass = physics::lumped_masses(organ_.mesh, organ_.material);
+    physics::Inertia inertia{{}, physics::supports_of(split_.parts.dynamic, cut_.fixed)};
+    for (const NodeId n : split_.parts.dynamic.node) inertia.mass.push_back(mass[n]);
+    for (const physics::ImposedDisplacement& i : imposed_) {
+      const NodeId n = split_.parts.dynamic.own_node[i.node];
+      if (n.valid()) inertia.fixed[n] = physics::kPinned;
+    }
+    return inertia;
+  }
+
+  physics::BodyState start() const {
+    physics::BodyState state = physics::state_at_rest(split_.parts.dynamic.node.size());
+    for (const physics::ImposedDisplacement& i : imposed_) {
+      const NodeId n = split_.parts.dynamic.own_node[i.node];
+      if (n.valid()) Vec3::Map(&state.u[3 * static_cast<std::size_t>(n)]) = i.displacement;
+    }
+    return state;
+  }
+
+  std::vector<TetId> removed() const {
+    std::vector<TetId> own;
+    for (const TetId t : cut_.removed) own.push_back(split_.parts.dynamic.own_tetrahedron[t]);
+    return own;
+  }
+
+  std::vector<double> rest_of_dynamic() const {
+    const MeshPart& dynamic = split_.parts.dynamic;
+    const Eigen::MatrixXd S = stiffness_of_held();
+    const Eigen::VectorXd f_c = force_at_rest(S);
+    physics::AddedStiffness added{{}, S.topLeftCorner(f_c.size(), f_c.size())};
+    std::vector<double> external;
+    for (const NodeId n : dynamic.node)
+      external.insert(external.end(), weights_[n].begin(), weights_[n].end());
+    for (const NodeId n : split_.parts.connection) {
+      const auto at = 3 * static_cast<std::size_t>(dynamic.own_node[n]);
+      Vec3::Map(&external[at]) += f_c.segment<3>(static_cast<Eigen::Index>(3 * added.nodes.size()));
+      added.nodes.push_back(dynamic.own_node[n]);
+    }
+    physics::ImplicitStep stepper(
+        dynamic.mesh, organ_.material, inertia(),
+        {.step_s = kRestStep_s, .most_compliance_nodes = 0, .added = std::move(added)});
+    physics::BodyState state = start();
+    const bool rests =
+        stepper.remove(removed()) && run_to_rest([&] { return stepper.step(state, external); }, state);
+    if (!rests) throw InputError("--model hybrid: found no rest; expected smaller loads or displacements");
+    return state.u;
+  }
+
+  // The precomputed part's nodes where the dynamic ones are at `u`.
+  std::vector<Vec3> follow(std::span<const double> u) const {
+    std::vector<physics::ImposedSurfaceNode> held;
+    for (std::size_t k = 0; k < split_.connection.size(); ++k) {
+      const auto own = static_cast<std::size_t>(split_.parts.dynamic.own_node[split_.parts.connection[k]]);
+      held.push_back({split_.connection[k], Vec3(u.data() + 3 * own) - sag_at(split_.connection[k])});
+    }
+    for (std::size_t k = 0; k < contacts_.nodes.size(); ++k)
+      held.push_back({contacts_.nodes[k], contacts_.displacements[k] - sag_at(contacts_.nodes[k])});
+    const physics::SurfaceSolution surface =
+        tensors_.storage == organ::Storage::kFloat
+            ? physics::tensor_solve(tensors_.single, split_.surface, split_.fixed, held)
+            : physics::tensor_solve(tensors_.twofold, split_.surface, split_.fixed, held);
+    std::vector<Vec3> displacements = sag_;
+    for (std::size_t s = 0; s < surface.displacements.size(); ++s)
+      displacements[split_.surface.node[s]] += surface.displacements[s];
+    return physics::extend_inside(stiffness_, split_.fixed, split_.surface, displacements, loads_);
+  }
+
+  const organ::Organ& organ_;
+  const organ::OrganSplit& split_;
+  const organ::StoredTensors& tensors_;
+  const CutOrgan& cut_;
+  Imposed imposed_;
+  const std::vector<Vec3>& weights_;  // [N] of what is left
+  Contacts contacts_;
+  physics::Stiffness stiffness_;  // of the precomputed part
+  std::vector<Vec3> loads_;       // [n] of its own nodes
+  std::vector<Vec3> sag_;         // [n] under them, without the dynamic part
+};
+
+void require_dynamic(const organ::Organ& organ, const std::filesystem::path& file, const CutOrgan& cut,
+                     Numbering numbering) {
+  if (!organ.split) {
+    throw InputError(file.string() +
+                     ": has no dynamic part; --model hybrid expects an organ of organ_build --dynamic");
+  }
+  const geometry::FileNumbers names(organ.mesh.tetrahedron_numbers, organ.mesh.tetrahedra.size(), numbering);
+  for (const TetId t : cut.removed) {
+    if (organ.split->dynamic[t] != 0) continue;
+    throw InputError("--remove: tetrahedron " + std::to_string(names.of(static_cast<std::size_t>(t))) +
+                     " is of the precomputed part; --model hybrid expects those of the dynamic part");
+  }
+}
+
+}  // namespace
+
+physics::StaticSolution solve_hybrid(const organ::Organ& organ, const std::filesystem::path& file,
+                                     const CutOrgan& cut, Imposed imposed, const Vec3& gravity,
+                                     Numbering numbering) {
+  require_dynamic(organ, file, cut, numbering);
+  const organ::StoredTensors tensors = organ::map_tensors(file, organ);
+  organ::require_whole(tensors, file);
+  const std::vector<Vec3> weights = weights_of(organ, cut, gravity);
+  const HybridRest rest(organ, tensors, cut, imposed, weights, contacts_of(organ, imposed, numbering));
+  physics::StaticSolution solution{rest.displacements(), {}};
+  const std::vector<Vec3> forces = physics::holding_forces(stiffness_of(organ, cut), solution.displacements);
+  for (const physics::ImposedDisplacement& i : imposed)
+    solution.holding_forces.emplace_back(forces[i.node] - weights[i.node]);
+  return solution;
+}
+
+}  // namespace omentum::organ_tools

@@ -1,0 +1,204 @@
+// A beam whose held half is precomputed and whose free half moves, as a scene makes it of an organ file.
+#include "deform_node/dynamic_maker.h"
+
+#include "deform_node/model_table.h"
+#include "deform_node/strain_gauge.h"
+#include "organ/build_organ.h"
+#include "organ/dynamic_spec.h"
+#include "tests/deform_node/rates.h"
+#include "tests/support/heap_count.h"
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace omentum::deform {
+namespace {
+
+constexpr double kBeamLength_m = 0.12;
+constexpr double kBorder_m = 0.06;
+
+class HybridModelTest : public testing::Test {
+ protected:
+  HybridModelTest() {
+    geometry::TetraMesh mesh = test::make_box_mesh(8, 2, 2, Vec3(kBeamLength_m, 0.03, 0.03));
+    physics::FixedComponents fixed;
+    for (const Vec3& x : mesh.positions) fixed.push_back(x.x() < 1e-9 ? physics::kPinned : 0);
+    std::vector<std::uint8_t> dynamic = organ::parse_dynamic(std::vector<std::string>{"plane:x>0.06"}, mesh);
+    const organ::Organ built =
+        organ::make_organ("beam", std::move(mesh), physics::Material{20000, 0.4, 1000}, std::move(fixed),
+                          organ::Storage::kFloat, std::move(dynamic));
+    organ::build_organ(built, folder_ / "beam.h5", {});
+    source_.organ = organ::load_organ(folder_ / "beam.h5", organ::Load::kWithPart);
+    source_.rest = geometry::surface_positions(source_.organ.mesh, source_.organ.surface);
+    spec_.dynamics.emplace();
+    spec_.dynamics->gravity_m_s2 = Vec3(0, 0, -9.81);
+    spec_.dynamics->mass_damping_per_s = 10;
+    spec_.dynamics->cut_delay_s = 0;
+    spec_.dynamics->cut_rate_per_s = 1e6;
+  }
+
+  std::unique_ptr<OrganModel> make(const std::string& model) const {
+    return find_model(model_table(), model).make(source_, spec_);
+  }
+  static void pass(OrganModel& model, double seconds, const TickLoads& loads = {}) {
+    for (int i = 0; i < std::lround(seconds / kTick_s); ++i) {
+      model.step(loads, kTick_s);
+      ASSERT_FALSE(model.status().diverged) << "after " << i << " ticks";
+      ASSERT_EQ(model.status().fault, "") << "after " << i << " ticks";
+    }
+  }
+  NodeId nearest(const Vec3& x) const {
+    const auto& positions = source_.organ.mesh.positions;
+    const auto less = [&](const Vec3& a, const Vec3& b) { return (a - x).norm() < (b - x).norm(); };
+    return NodeId(static_cast<std::size_t>(std::ranges::min_element(positions, less) - positions.begin()));
+  }
+  /// Of the largest displacement.
+  static double difference(const OrganModel& a, const OrganModel& b) {
+    float size = 0, off = 0;
+    for (std::size_t c = 0; c < b.view().values.size(); ++c) {
+      size = std::max(size, std::abs(b.view().values[c]));
+      off = std::max(off, std::abs(a.view().values[c] - b.view().values[c]));
+    }
+    return static_cast<double>(off / size);
+  }
+  std::size_t removed_of_the_precomputed(const OrganModel& model) const {
+    std::size_t count = 0;
+    const auto bits = model.view().removed_bits;
+    for (std::size_t t = 0; t < source_.organ.mesh.tetrahedra.size(); ++t)
+      count += (bits[t / 8] >> t % 8 & 1) != 0 && source_.organ.split->dynamic[t] == 0;
+    return count;
+  }
+
+  test::ScratchFolder folder_;
+  node::OrganSource source_;
+  scene::OrganSpec spec_;
+};
+
+TEST_F(HybridModelTest, ItHangsAndIsPressedAsAWholeDynamicOrganIs) {
+  const auto hybrid = make("hybrid"), whole = make("tensor-mass");
+  const std::array<NodeId, 2> nodes{nearest({0.03, 0.015, 0.03}), nearest({0.105, 0.015, 0.03})};
+  const std::array<Vec3, 2> forces{Vec3(0.01, 0.02, -0.1), Vec3(0, -0.02, -0.05)};
+  const std::array<Vec3, 2> places{Vec3(1e-4, 2e-4, -1e-3), Vec3(0, -2e-3, -2e-2)};
+  std::array<ToolLoad, 2> loads;
+  for (std::uint32_t i = 0; i < 2; ++i)
+    loads[i] = {
+        .tool = i, .nodes = {&nodes[i], 1}, .displacements = {&places[i], 1}, .forces = {&forces[i], 1}};
+  for (OrganModel* model : {hybrid.get(), whole.get()}) pass(*model, 4);
+  EXPECT_LE(difference(*hybrid, *whole), 1e-4) << "under its weight";
+  for (OrganModel* model : {hybrid.get(), whole.get()}) pass(*model, 4, {.presses = loads, .cuts = {}});
+  EXPECT_LE(difference(*hybrid, *whole), 1e-4) << "under presses too";
+  for (OrganModel* model : {hybrid.get(), whole.get()}) pass(*model, 4);
+  EXPECT_LE(difference(*hybrid, *whole), 1e-4) << "without them";
+}
+
+TEST_F(HybridModelTest, StrainAndStressAreTheWholeOrgansOnBothSides) {
+  const auto hybrid = make("hybrid"), whole = make("tensor-mass");
+  std::array<std::vector<float>, 2> strain, stress;
+  std::size_t i = 0;
+  for (OrganModel* model : {hybrid.get(), whole.get()}) {
+    pass(*model, 4);
+    StrainedShape shape(model->sizes());
+    shape.take(model->view());
+    strain[i].resize(shape.node_count());
+    stress[i].resize(shape.node_count());
+    model->strain_gauge()->measure(shape, strain[i], stress[i]);
+    ++i;
+  }
+  const float most = *std::ranges::max_element(stress[1]);
+  for (std::size_t s = 0; s < stress[0].size(); ++s) {
+    EXPECT_NEAR(strain[0][s], strain[1][s], 1e-3 * *std::ranges::max_element(strain[1]));
+    EXPECT_NEAR(stress[0][s], stress[1][s], 1e-3F * most);
+  }
+}
+
+TEST_F(HybridModelTest, AStrokeThroughBothPartsCutsTheDynamicOneAlone) {
+  const auto model = make("hybrid");
+  pass(*model, 0.5);
+  // lengthwise, through all of the beam
+  const CutStroke along{.tool = 0,
+                        .cut = 1,
+                        .from = {Vec3(-1, 0.015, -1), Vec3(-1, 0.015, 1)},
+                        .to = {Vec3(1, 0.015, -1), Vec3(1, 0.015, 1)}};
+  model->step({.presses = {}, .cuts = {&along, 1}}, kTick_s);
+  EXPECT_GT(model->status().removed_tetrahedra, 10u);
+  EXPECT_EQ(removed_of_the_precomputed(*model), 0u);
+  pass(*model, 2);
+}
+
+TEST_F(HybridModelTest, WhatIsCutOffFallsAndTheRestRisesToWhereThePrecomputedPartIsByItself) {
+  const auto model = make("hybrid");
+  pass(*model, 2);
+  const auto held = source_.organ.surface.of_node[nearest({kBorder_m, 0.015, 0})];
+  const float before = model->view().values[3 * static_cast<std::size_t>(held) + 2];
+  const CutStroke across{.tool = 0,
+                         .cut = 1,
+                         .from = {Vec3(0.07, -1, -1), Vec3(0.07, -1, 1)},
+                         .to = {Vec3(0.07, 1, -1), Vec3(0.07, 1, 1)}};
+  model->step({.presses = {}, .cuts = {&across, 1}}, kTick_s);
+  pass(*model, 1);
+  const float after = model->view().values[3 * static_cast<std::size_t>(held) + 2];
+  EXPECT_LT(before, 3 * after) << "both below zero";
+  const auto tip = source_.organ.surface.of_node[nearest({kBeamLength_m, 0.015, 0})];
+  EXPECT_LT(model->view().values[3 * static_cast<std::size_t>(tip) + 2], -0.1) << "it falls";
+  EXPECT_EQ(removed_of_the_precomputed(*model), 0u);
+  model->reset();
+  pass(*model, 0.1);
+  EXPECT_EQ(model->status().removed_tetrahedra, 0u);
+}
+
+// Across the border and on both sides of it, until little is left.
+TEST_F(HybridModelTest, AnyCutsLeaveASoundOrgan) {
+  spec_.dynamics->smallest_piece_m3 = 1e-8;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const auto model = make("hybrid");
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(0, 0.03), along(0.04, kBeamLength_m);
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 a(along(random), place(random), place(random)),
+          b(along(random), place(random), place(random));
+      const CutStroke stroke{
+          .tool = 0, .cut = 1, .from = {a, a + Vec3(0, 0, 0.01)}, .to = {b, b + Vec3(0, 0.01, 0)}};
+      model->step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+      ASSERT_FALSE(model->status().diverged) << "seed " << seed << ", stroke " << i;
+      ASSERT_EQ(removed_of_the_precomputed(*model), 0u) << "seed " << seed << ", stroke " << i;
+      for (const float u : model->view().values) ASSERT_TRUE(std::isfinite(u));
+    }
+    EXPECT_GT(model->status().removed_tetrahedra, 20u);
+  }
+}
+
+// Nodes inside the precomputed part stay where they are in a state: what others meet follows the surface.
+TEST_F(HybridModelTest, OtherOrgansMeetBothPartsWhereTheyAre) {
+  spec_.dynamics->gravity_m_s2 = Vec3(0, 0, -2);  // little turns
+  const auto hybrid = make("hybrid"), whole = make("tensor-mass");
+  for (OrganModel* model : {hybrid.get(), whole.get()}) pass(*model, 4);
+  const auto ours = hybrid->collidable(), theirs = whole->collidable();
+  ASSERT_EQ(ours.size(), theirs.size());
+  float most_m = 0;
+  for (const float u : whole->view().values) most_m = std::max(most_m, std::abs(u));
+  for (std::size_t i = 0; i < ours.size(); ++i)
+    EXPECT_LE((ours[i].centre - theirs[i].centre).norm(), 0.15 * static_cast<double>(most_m)) << i;
+}
+
+TEST_F(HybridModelTest, ATickAllocatesNothing) {
+  const auto model = make("hybrid");
+  const NodeId node = nearest({0.045, 0.015, 0.03});
+  const Vec3 force(0, 0, -0.05), place(0, 0, -1e-3);
+  const ToolLoad load{.tool = 0, .nodes = {&node, 1}, .displacements = {&place, 1}, .forces = {&force, 1}};
+  const CutStroke stroke{.tool = 0,
+                         .cut = 1,
+                         .from = {Vec3(0.09, -1, -1), Vec3(0.09, -1, 1)},
+                         .to = {Vec3(0.09, 1, -1), Vec3(0.09, 1, 1)}};
+  LocalPatch patch(model->sizes().local_nodes);
+  const std::size_t before = test::heap_allocations();
+  model->step({.presses = {&load, 1}, .cuts = {&stroke, 1}}, kTick_s);
+  const bool offered = model->local_model({0, {0.055, 0.015, 0.03}, 0.02}, patch);
+  EXPECT_EQ(test::heap_allocations(), before);
+  EXPECT_TRUE(offered);
+}
+
+}  // namespace
+}  // namespace omentum::deform

@@ -1,0 +1,98 @@
+// organ_solve of organs with a dynamic part: they rest where the single model does (Cotin 1998, fig. 6).
+#include "tests/organ/organ_programs.h"
+
+namespace omentum::organ {
+namespace {
+
+// Of the largest value: the tensors are stored in float.
+constexpr double kEqual = 1e-6;
+
+class OrganSolveHybridTest : public OrganProgramsTest {
+ protected:
+  struct Solved {
+    Rows u, f;
+  };
+
+  Solved solve(const std::string& model, const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{organ.string(),          "--numbering", "position", "-o",
+                                       (folder / "s").string(), "--model",     model};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Process program("organ_solve", arguments);
+    EXPECT_EQ(program.wait(), 0) << program.messages();
+    return {numbers("s.u.csv"), numbers("s.f.csv")};
+  }
+
+  void build_hybrid(const std::vector<std::string>& arguments, const std::string& dynamic) const {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"--dynamic", dynamic});
+    Process program("organ_build", all);
+    ASSERT_EQ(program.wait(), 0) << program.messages();
+  }
+
+  // Presses on both parts and on a connection node, and every thirtieth dynamic tetrahedron gone.
+  std::vector<std::string> everything() const {
+    const Organ loaded = load_organ(organ, Load::kMeshOnly);
+    const physics::MeshSplit& parts = loaded.split->parts;
+    std::string imposed, removed;
+    const auto press = [&](geometry::NodeId n, const std::string& u) {
+      imposed += std::to_string(loaded.mesh.file_node[n]) + "," + u + "\n";
+    };
+    press(parts.precomputed.node[loaded.split->surface.node[0]], "0.001,0.002,-0.001");
+    press(parts.connection[parts.connection.size() / 2], "0.002,0,-0.001");
+    for (std::size_t t = 30; t < parts.dynamic.tetrahedron.size(); t += 30)
+      removed += std::to_string(parts.dynamic.tetrahedron[t]) + "\n";
+    const auto is_free = [&](geometry::NodeId n) { return !std::ranges::binary_search(parts.connection, n); };
+    press(*std::ranges::find_if(parts.dynamic.node, is_free), "0.001,0.002,0");
+    return {
+        "--gravity", "0,-9.81,0", "--imposed", write("i.csv", imposed), "--remove", write("t.csv", removed)};
+  }
+
+  void expect_equal(const std::vector<std::string>& task) const {
+    const Solved direct = solve("direct", task), hybrid = solve("hybrid", task);
+    EXPECT_LE(largest_difference(hybrid.u, direct.u), kEqual * largest_entry(direct.u));
+    EXPECT_LE(largest_difference(hybrid.f, direct.f), 10 * kEqual * largest_entry(direct.f));
+  }
+};
+
+TEST_F(OrganSolveHybridTest, ItRestsWhereTheSingleModelDoesOnRealMeshes) {
+  struct Mesh {
+    const char *file, *scale, *plane, *dynamic;
+  };
+  for (const Mesh& mesh : {Mesh{"tet/openhelp_liver_7k.msh", "0.001", "plane:x<-0.12", "plane:x>0"},
+                           Mesh{"tet/sofa_liver2.msh", "0.02", "plane:x<-0.015", "plane:x>0"},
+                           Mesh{"tet/sofa_liver.msh", "0.02", "plane:x<-0.06", "plane:x>-0.02"}}) {
+    if (!std::filesystem::exists(test::data_file(mesh.file))) GTEST_SKIP() << mesh.file << " is absent";
+    SCOPED_TRACE(mesh.file);
+    build_hybrid(
+        {test::data_file(mesh.file).string(), "-o", organ.string(), "--young", "5000", "--poisson", "0.45",
+         "--density", "1050", "--scale", mesh.scale, "--fixed", mesh.plane, "--numbering", "position"},
+        mesh.dynamic);
+    expect_equal(everything());
+  }
+}
+
+TEST_F(OrganSolveHybridTest, ItDoesWithSeveralDynamicParts) {
+  build_hybrid(build_arguments(mesh), "box:0.05,0,0,1,1,0.02+box:0.05,0,0.04,1,1,1");
+  expect_equal({"--gravity", "0,-9.81,3", "--imposed", write("i.csv", "79,0.001,0,-0.002\n")});
+}
+
+TEST_F(OrganSolveHybridTest, WhatItCannotAnswerIsRefused) {
+  build_hybrid(build_arguments(mesh), "plane:x>0.05");
+  const auto refused = [&](const std::string& model, const std::vector<std::string>& more,
+                           const std::string& named) {
+    std::vector<std::string> arguments{
+        organ.string(), "--numbering", "position",  "-o",    (folder / "s").string(),
+        "--model",      model,         "--gravity", "0,-1,0"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_refused("organ_solve", arguments, named);
+  };
+  refused("hybrid", {"--remove", write("t.csv", "1\n")}, "tetrahedron 1 is of the precomputed part");
+  refused("hybrid", {"--imposed", write("i.csv", "26,0,0,0.001\n")},
+          "node 26 is inside the precomputed part");
+  refused("tensors", {}, "--model hybrid");
+  build();
+  refused("hybrid", {}, "has no dynamic part");
+}
+
+}  // namespace
+}  // namespace omentum::organ
