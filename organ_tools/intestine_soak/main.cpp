@@ -13,7 +13,6 @@ namespace {
 
 using namespace omentum;
 using namespace omentum::intestine_soak;
-using tissue_compare::number_text;
 
 struct SoakCommand {
   double minutes = 10, pair_steps = 1e9;
