@@ -1,5 +1,7 @@
 #include "physics/intestine/gut_carry.h"
 
+#include "physics/intestine/gut_parts.h"
+
 #include <algorithm>
 
 namespace omentum::physics {
@@ -12,15 +14,9 @@ constexpr std::int32_t kPasses = 1;
 // Of all that contacts push: what they would change by less they leave to a later iteration.
 constexpr double kSettled = 1e-4;
 
-Vec3 point_of(const GutPoint& point, std::span<const Vec3> of) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < 3 && point.mass[i].valid(); ++i) sum += point.weight[i] * of[point.mass[i]];
-  return sum;
-}
-
 // J x of a contact: the way of its first point from its second.
 Vec3 between(const GutContact& contact, std::span<const Vec3> x) {
-  return point_of(contact.one, x) - point_of(contact.other, x);
+  return place_of(contact.one, x) - place_of(contact.other, x);
 }
 
 // How far a contact is open, m.

@@ -86,6 +86,21 @@ class OrganProgramsTest : public testing::Test {
 
   using Rows = std::vector<std::vector<double>>;
 
+  // What organ_solve writes, the forces where something is imposed.
+  struct Solved {
+    Rows u, f;
+  };
+
+  Solved solve(const std::string& model, const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{organ.string(),          "--numbering", "position", "-o",
+                                       (folder / "s").string(), "--model",     model};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Process program("organ_solve", arguments);
+    EXPECT_EQ(program.wait(), 0) << program.messages();
+    const bool holds = std::ranges::find(more, "--imposed") != more.end();
+    return {numbers("s.u.csv"), holds ? numbers("s.f.csv") : Rows{}};
+  }
+
   // Over all rows "node, x, y, z", without the node numbers.
   static double largest_entry(const Rows& rows) {
     double largest = 0;

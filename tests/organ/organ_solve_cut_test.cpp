@@ -21,20 +21,6 @@ constexpr std::array kRealMeshes{RealMesh{"tet/openhelp_liver_7k.msh", "0.001", 
 
 class OrganSolveCutTest : public OrganProgramsTest {
  protected:
-  struct Solved {
-    Rows u, f;
-  };
-
-  Solved solve(const std::string& model, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{organ.string(),          "--numbering", "position", "-o",
-                                       (folder / "s").string(), "--model",     model};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    Process program("organ_solve", arguments);
-    EXPECT_EQ(program.wait(), 0) << program.messages();
-    const bool holds = std::ranges::find(more, "--imposed") != more.end();
-    return {numbers("s.u.csv"), holds ? numbers("s.f.csv") : Rows{}};
-  }
-
   // Of the largest value.
   static double difference(const Rows& a, const Rows& b) {
     return largest_difference(a, b) / largest_entry(b);

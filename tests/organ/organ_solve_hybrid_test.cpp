@@ -9,19 +9,6 @@ constexpr double kEqual = 1e-6;
 
 class OrganSolveHybridTest : public OrganProgramsTest {
  protected:
-  struct Solved {
-    Rows u, f;
-  };
-
-  Solved solve(const std::string& model, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{organ.string(),          "--numbering", "position", "-o",
-                                       (folder / "s").string(), "--model",     model};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    Process program("organ_solve", arguments);
-    EXPECT_EQ(program.wait(), 0) << program.messages();
-    return {numbers("s.u.csv"), numbers("s.f.csv")};
-  }
-
   void build_hybrid(const std::vector<std::string>& arguments, const std::string& dynamic) const {
     std::vector<std::string> all = arguments;
     all.insert(all.end(), {"--dynamic", dynamic});
