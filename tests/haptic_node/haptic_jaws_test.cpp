@@ -84,12 +84,15 @@ class GraspingHand {
 
 /// Above the block's middle, on it with open jaws, and closed there.
 const Vec3 kOverBlock(0.05, 0.05, 0.043), kOnBlock(0.05, 0.05, 0.037);
-GraspingHand pinching_hand() {
-  GraspingHand hand(block(), round_jaws());
+GraspingHand pinching_with(const haptic::ToolModel& tool) {
+  GraspingHand hand(block(), tool);
   hand.go_to(kOverBlock, kJawsOpen_rad, 1);
   hand.go_to(kOnBlock, kJawsOpen_rad, 100);
   hand.go_to(kOnBlock, kJawsShut_rad, 200);
   return hand;
+}
+GraspingHand pinching_hand() {
+  return pinching_with(round_jaws());
 }
 /// Jaws around the held_flap's edge, closed.
 GraspingHand clamping_hand() {
@@ -213,10 +216,7 @@ TEST(Jaws, ThatAreClosedAndHoldNothingAreABluntProbe) {
 TEST(Jaws, WhatIsPulledHarderThanTheyGripSlipsOut) {
   haptic::ToolModel weak = round_jaws();
   weak.grip_force_n = 0.5;
-  GraspingHand hand(block(), weak);
-  hand.go_to(kOverBlock, kJawsOpen_rad, 1);
-  hand.go_to(kOnBlock, kJawsOpen_rad, 100);
-  hand.go_to(kOnBlock, kJawsShut_rad, 100);
+  GraspingHand hand = pinching_with(weak);
   ASSERT_TRUE(hand.output().grasping);
   double most_n = 0;
   for (int i = 0; i < 400; ++i) {
@@ -238,10 +238,7 @@ TEST(Jaws, WhatIsPulledHarderThanTheyGripSlipsOut) {
 TEST(Jaws, PressingDoesNotPullAnythingOut) {
   haptic::ToolModel weak = round_jaws();
   weak.grip_force_n = 0.5;
-  GraspingHand hand(block(), weak);
-  hand.go_to(kOverBlock, kJawsOpen_rad, 1);
-  hand.go_to(kOnBlock, kJawsOpen_rad, 100);
-  hand.go_to(kOnBlock, kJawsShut_rad, 100);
+  GraspingHand hand = pinching_with(weak);
   hand.go_to(kOnBlock - Vec3(0, 0, 0.003), kJawsShut_rad, 100);
   EXPECT_GT(hand.output().force.z(), 2 * weak.grip_force_n);
   EXPECT_TRUE(hand.output().grasping);
