@@ -4,12 +4,10 @@
 #include "deform_node/model_table.h"
 #include "deform_node/strain_gauge.h"
 #include "geometry/mesh_editor.h"
-#include "organ/build_organ.h"
-#include "organ/dynamic_spec.h"
+#include "tests/deform_node/hybrid_organ.h"
 #include "tests/deform_node/rates.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
-#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 
@@ -23,24 +21,6 @@ constexpr double kBorder_m = 0.06;
 
 class HybridModelTest : public testing::Test {
  protected:
-  HybridModelTest() {
-    geometry::TetraMesh mesh = test::make_box_mesh(8, 2, 2, Vec3(kBeamLength_m, 0.03, 0.03));
-    physics::FixedComponents fixed;
-    for (const Vec3& x : mesh.positions) fixed.push_back(x.x() < 1e-9 ? physics::kPinned : 0);
-    std::vector<std::uint8_t> dynamic = organ::parse_dynamic(std::vector<std::string>{"plane:x>0.06"}, mesh);
-    const organ::Organ built =
-        organ::make_organ("beam", std::move(mesh), physics::Material{20000, 0.4, 1000}, std::move(fixed),
-                          organ::Storage::kFloat, std::move(dynamic));
-    organ::build_organ(built, folder_ / "beam.h5", {});
-    source_.organ = organ::load_organ(folder_ / "beam.h5", organ::Load::kWithPart);
-    source_.rest = geometry::surface_positions(source_.organ.mesh, source_.organ.surface);
-    spec_.dynamics.emplace();
-    spec_.dynamics->gravity_m_s2 = Vec3(0, 0, -9.81);
-    spec_.dynamics->mass_damping_per_s = 10;
-    spec_.dynamics->cut_delay_s = 0;
-    spec_.dynamics->cut_rate_per_s = 1e6;
-  }
-
   std::unique_ptr<OrganModel> make(const std::string& model) const {
     return find_model(model_table(), model).make(source_, spec_);
   }
@@ -73,9 +53,10 @@ class HybridModelTest : public testing::Test {
     return count;
   }
 
-  test::ScratchFolder folder_;
-  node::OrganSource source_;
-  scene::OrganSpec spec_;
+  geometry::TetraMesh mesh_ = test::make_box_mesh(8, 2, 2, Vec3(kBeamLength_m, 0.03, 0.03));
+  test::HybridOrgan organ_{mesh_, test::held_at_low_x(mesh_, 1e-9), "plane:x>0.06"};
+  node::OrganSource& source_ = organ_.source;
+  scene::OrganSpec& spec_ = organ_.spec;
 };
 
 TEST_F(HybridModelTest, ItHangsAndIsPressedAsAWholeDynamicOrganIs) {
