@@ -108,18 +108,16 @@ double CutScore::aside_m(const Vec3& a, const Vec3& b) const noexcept {
   return std::sqrt(squared);
 }
 
-void CutScore::follow(std::span<const CutStroke> strokes, const OrganView& organ, double way_m,
+void CutScore::follow(std::span<const CutStroke> strokes, const OrganView& organ, std::uint32_t tools,
                       double now_s) noexcept {
-  const bool met = way_m > known_way_m_;
-  known_way_m_ = way_m;
-  if (!met) return;
+  if (tools == 0) return;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     now_[i] = stations_[i].rest;
     if (!organ.body_u.empty()) now_[i] += Eigen::Map<const Vec3>(organ.body_u.data() + 3 * stations_[i].node);
   }
   for (const CutStroke& stroke : strokes) {
     const double step_m = (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
-    if (step_m == 0) continue;
+    if (step_m == 0 || (tools >> stroke.tool % 32 & 1) == 0) continue;
     const double from_line_m = aside_m(stroke.to[0], stroke.to[1]);
     way_m_ += step_m;
     weighted_m2_ += step_m * from_line_m;

@@ -79,6 +79,7 @@ bool OrganCollision::run() noexcept {
 }
 
 void OrganCollision::reset(std::size_t organ) noexcept {
+  bodies_[organ].steps = kNever;
   for (Couple& couple : couples_)
     if (couple.one == &bodies_[organ] || couple.other == &bodies_[organ]) {
       couple.learnt = {};
@@ -93,6 +94,8 @@ void OrganCollision::gather() noexcept {
     body.contacts.clear();
     body.box.setEmpty();
     body.yields = false;
+    const std::uint64_t steps = body.model->status().steps;
+    body.moved = std::exchange(body.steps, steps) != steps;
     for (const CollisionSphere& sphere : body.spheres) {
       body.box.extend(box_of(sphere));
       body.yields |= std::isfinite(sphere.mass_kg);
@@ -104,13 +107,14 @@ void OrganCollision::gather() noexcept {
 bool OrganCollision::collide(Couple& couple) noexcept {
   Body &one = *couple.one, &other = *couple.other;
   const std::size_t pairs = pairs_.size(), of_one = one.contacts.size(), of_other = other.contacts.size();
-  const bool may_meet = (one.yields || other.yields) && one.box.intersects(other.box);
+  couple.waits = couple.pushes && !one.moved && !other.moved;
+  const bool may_meet = !couple.waits && (one.yields || other.yields) && one.box.intersects(other.box);
   const bool complete = !may_meet || find_pairs(one, other);
   couple.pairs = std::span(pairs_).subspan(pairs);
   couple.of_one = std::span(one.contacts).subspan(of_one);
   couple.of_other = std::span(other.contacts).subspan(of_other);
   couple.answers = !couple.pairs.empty();
-  if (couple.pairs.empty()) couple.learnt = {};
+  if (couple.pairs.empty() && !couple.waits) couple.learnt = {};
   return complete;
 }
 
@@ -210,7 +214,7 @@ void OrganCollision::part() noexcept {
       if (couple.answers) goes_on |= part(couple, round == 0);
   }
   for (Couple& couple : couples_)
-    if (couple.pushes) remember(couple);
+    if (couple.pushes && !couple.waits) remember(couple);
 }
 
 // False where too little is lacking. Tissue pushes, never pulls.
