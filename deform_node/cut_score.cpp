@@ -1,5 +1,6 @@
 #include "deform_node/cut_score.h"
 
+#include "geometry/across.h"
 #include "geometry/segment_points.h"
 
 #include <nlohmann/json.hpp>
@@ -59,10 +60,6 @@ void require_near(const scene::Scene& scene, const geometry::TetraMesh& mesh) {
   }
 }
 
-Vec3 across(const Vec3& v, const Vec3& normal) {
-  return v - v.dot(normal) * normal;
-}
-
 bool is_gone(const OrganView& organ, std::size_t t) {
   return t / 8 < organ.removed_bits.size() && (organ.removed_bits[t / 8] >> t % 8 & 1) != 0;
 }
@@ -89,10 +86,10 @@ bool CutScore::lies_outside(geometry::TetId t, double width_m) const noexcept {
   for (std::size_t i = 1; i < stations_.size(); ++i) {
     const Vec3& origin = stations_[i - 1].rest;
     const Vec3& normal = stations_[i].normal;
-    const Vec3 end = across(stations_[i].rest - origin, normal);
+    const Vec3 end = geometry::across(stations_[i].rest - origin, normal);
     for (const auto& [a, b] : kEdges) {
-      const Vec3 from = across(mesh_.positions[corners[a]] - origin, normal),
-                 to = across(mesh_.positions[corners[b]] - origin, normal);
+      const Vec3 from = geometry::across(mesh_.positions[corners[a]] - origin, normal),
+                 to = geometry::across(mesh_.positions[corners[b]] - origin, normal);
       const auto pair = geometry::closest_points_of_segments(Vec3::Zero(), end, from, to);
       if (pair.squared_distance <= width_m * width_m) return false;
     }

@@ -1,5 +1,7 @@
 #include "deform_node/organ_collision.h"
 
+#include "geometry/across.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,11 +31,6 @@ double share_of(const CollisionSphere& own, const CollisionSphere& other) noexce
   if (std::isinf(other.mass_kg)) return 1;
   const double both_kg = own.mass_kg + other.mass_kg;
   return both_kg > 0 ? other.mass_kg / both_kg : 0.5;
-}
-
-// What of a vector lies in the plane of a normal.
-Vec3 across(const Vec3& vector, const Vec3& normal) noexcept {
-  return vector - vector.dot(normal) * normal;
 }
 
 }  // namespace
@@ -177,7 +174,7 @@ void OrganCollision::go_on(Couple& couple) noexcept {
     const Push* const push = couple.pushes->find(pair.one, pair.other);
     if (push == nullptr || !(pair.weight_kg > 0)) continue;
     pair.push_m_s = push->along / pair.weight_kg;
-    pair.rub_m_s = across(push->across, couple.of_one[i].normal) / pair.weight_kg;
+    pair.rub_m_s = geometry::across(push->across, couple.of_one[i].normal) / pair.weight_kg;
     any = true;
   }
   if (any) respond(couple, 1, true);
@@ -196,7 +193,7 @@ void OrganCollision::remember(Couple& couple) noexcept {
 void OrganCollision::rub(Couple& couple, std::size_t i) noexcept {
   Pair& pair = couple.pairs[i];
   const OrganContact& of_one = couple.of_one[i];
-  const Vec3 sliding = across(
+  const Vec3 sliding = geometry::across(
       couple.one->velocity(of_one.sphere) - couple.other->velocity(couple.of_other[i].sphere), of_one.normal);
   const Vec3 wish = pair.rubbed - couple.learnt.scale * sliding;
   const double length = wish.norm(), most = kFriction * pair.pushed;
