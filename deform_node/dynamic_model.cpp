@@ -209,6 +209,15 @@ void DynamicModel::list_removed() noexcept {
     if (editor_.is_removed(TetId(t))) gone_.push_back(TetId(t));
 }
 
+// Whatever somebody says is gone. Rare: at worst O(T) for each.
+void DynamicModel::put_back_precomputed() noexcept {
+  if (std::ranges::all_of(gone_, [&](TetId t) { return can_go(t); })) return;
+  std::erase_if(gone_, [&](TetId t) { return !can_go(t); });
+  editor_.restore();
+  editor_.remove(gone_);
+  list_removed();
+}
+
 void DynamicModel::reset() noexcept {
   list_removed();
   if (!gone_.empty()) ++version_;
@@ -232,8 +241,11 @@ void DynamicModel::take_up(std::span<const std::uint8_t> removed_bits,
   reset();
   editor_.set_removed(removed_bits);
   list_removed();
+  put_back_precomputed();
   if (!gone_.empty()) forgo_gone();
-  std::copy_n(burnt_bits.begin(), std::min(burnt_bits.size(), burnt_.size()), burnt_.begin());
+  const std::span<const std::uint8_t> removed = editor_.removed_bits();
+  for (std::size_t i = 0; i < std::min(burnt_bits.size(), burnt_.size()); ++i)
+    burnt_[i] = burnt_bits[i] & removed[i];
   version_ = version;
   show();
 }
