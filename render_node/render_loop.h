@@ -9,6 +9,7 @@
 #include "render_node/picture_writer.h"
 #include "render_node/pointer_link.h"
 #include "render_node/session_watch.h"
+#include "render_node/video_recorder.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
 #include "runtime/pace.h"
@@ -29,6 +30,9 @@ struct RenderOptions {
   double picture_period_s =
       -1;  // numbered pictures; 0: none; negative: every 2 s off-screen, none in a window
   bool no_panel = false;
+  bool record = false;              // from the start; else when a person asks
+  double record_fps = 25;           // pictures of a second of video
+  float ui_scale = 0;               // of the panel; 0: as monitor and picture ask for
   TissueMap map = TissueMap::kOff;  // at the start
 };
 
@@ -48,7 +52,8 @@ class RenderLoop {
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
   /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h), `removed_tetrahedra` of the newest
-  /// picture and, where the scene names an organ to expose, `exposed_share` (exposure_score.h).
+  /// picture, `videos` (video_recorder.h) and, where the scene names an organ to expose, `exposed_share`
+  /// (exposure_score.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.
@@ -68,11 +73,12 @@ class RenderLoop {
   void watch_slowly(std::int64_t now_ns);
   void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
+  void record();
   void finish_frame(std::int64_t begin_ns, bool for_disk);
   void steer(const Input& input);
   void obey(const PanelActions& actions);
   void show_map(TissueMap map);
-  void command(std::uint32_t command);
+  void command(std::uint32_t command, const std::string& argument = {});
   PanelView panel_view(std::int64_t now_ns) const;
   void tell_status(std::int64_t now_ns);
   double seconds_since_begin(std::int64_t now_ns) const {
@@ -90,9 +96,11 @@ class RenderLoop {
   FeelRing feel_ring_;
   double max_force_n_;  // the scene's
   View seen_;           // in which a person points
+  bool help_ = false;   // is shown
   FrameRateControl control_;
   PictureSchedule schedule_;
   std::unique_ptr<PictureWriter> writer_;
+  VideoRecorder recorder_;
   std::unique_ptr<runtime::LoopLog> log_;
   std::string picture_failure_;   // why the first of the pictures that were lost was
   runtime::TickAccount account_;  // frames, not the pace's ticks: a slow machine skips some of those

@@ -1,6 +1,7 @@
 // What can be drawn, and the seam behind which it is drawn. render_node/gl/ draws with OpenGL; tests record.
 #pragma once
 
+#include "render_node/key_presses.h"
 #include "render_node/pointer.h"
 
 #include <Eigen/Core>
@@ -100,6 +101,7 @@ struct Frame {
   Lighting lighting;
   std::vector<DrawItem> items;
   bool through_endoscope = false;  // round field of view
+  bool wires = false;              // the edges of the organs' triangles, over them
   float middle = 0.5f;             // of the view, share of the width: a panel may cover the left
   bool with_panel = true;          // the one that was laid out since begin_frame()
 };
@@ -115,7 +117,7 @@ struct Input {
   float orbit_x = 0, orbit_y = 0;  // pixels dragged with the left button
   float pan_x = 0, pan_y = 0;      // pixels dragged with the right or middle button
   float zoom = 0;                  // wheel steps, positive towards the target
-  bool switch_map = false;         // the key S went down
+  KeyPresses keys{};               // that went down
   bool close = false;
   Pointer pointer;  // the same, for whom it moves an instrument (pointer_rays.h)
 };
@@ -143,6 +145,8 @@ class Renderer {
 
   virtual Size size() const = 0;
   virtual bool has_window() const = 0;
+  /// Of the panel in this frame, 1 where its text is kPanelFontPixels high (panel_style.h).
+  virtual float ui_scale() const { return 1; }
 };
 
 }  // namespace omentum::render

@@ -199,7 +199,7 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
     if (tool.seen) shafts.push_back({tool.p_WT, tool.q_WT * Vec3::UnitZ()});
   }
   ViewChoices near = choices;
-  near.markers = near.arrows = false;  // they would cover the dent
+  near.markers = near.arrows = near.wires = false;  // they would cover the dent
   std::vector<const MeshData*> meshes;
   for (const DrawnOrgan& organ : organs_) {
     const std::vector<const MeshData*> of_organ = meshes_of(*organ.drawing);
@@ -257,6 +257,7 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.view = view_of(from, ball_, renderer_.size().aspect(), panel_share / 2);
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
+  frame.wires = choices.wires;
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const DrawnOrgan& organ : organs_) add_organ(organ, choices.map != TissueMap::kOff, frame.items);
   for (std::size_t t = 0; t < tools.size(); ++t) {

@@ -31,6 +31,7 @@ struct ViewChoices {
   bool arrows = true;
   TissueMap map = TissueMap::kOff;  // as which organs are drawn whose values are known
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
+  bool wires = false;    // the triangles of what is drawn
 };
 
 /// Arrows: this long per newton, up to a longest one; weaker forces than the least have none.

@@ -52,6 +52,7 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
       tools_(scene.tools.size()),
       rows_(scene.tools.size()),
       histories_(scene.tools.size()),
+      organs_(organs),
       echoes_(organs.size()),
       state_arrived_ns_(organs.size(), 0),
       full_stress_pa_(render::full_stress_pa(largest_young_pa(scene))),
@@ -133,6 +134,8 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
   now.force_n = felt ? node::to_vector(force.sample.force) : Vec3::Zero();
   now.contact_nodes.clear();
   now.contact_forces_n.clear();
+  inbox.force_peaks().believe_up_to(max_force_n_);
+  rows_[tool].most_n = static_cast<float>(inbox.force_peaks().peak_n(ids_[tool]));
   rows_[tool].present = now.seen;
   rows_[tool].state = force_state_words(felt ? force.sample.state : 0);
   rows_[tool].fault = felt && (force.sample.state & msg::FORCE_FAULT) != 0;
@@ -217,6 +220,8 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
     OrganRow& row = panel.organs.emplace_back();
     if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
     row.known = state_arrived_ns_[i] > 0;
+    row.nodes = organs_[i].node_count;
+    row.tetrahedra = organs_[i].tetrahedron_count;
     row.removed_tetrahedra = view.removed_count(i);
     row.length_mm = 1e3 * view.length_m(i);
     row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);

@@ -60,6 +60,7 @@ class SessionWatch {
   std::vector<ToolNow> tools_;
   std::vector<ToolRow> rows_;
   std::vector<ForceHistory> histories_;
+  std::vector<LoadedOrgan> organs_;
   std::vector<std::vector<msg::Echo>> echoes_;  // per organ, of the state that is drawn
   std::vector<std::int64_t> state_arrived_ns_;  // per organ; 0: none came
   TissueMap map_ = TissueMap::kOff;

@@ -5,6 +5,7 @@
 #include "render_node/gl/panel_backend.h"
 #include "render_node/gl/program.h"
 #include "render_node/gl/render_target.h"
+#include "render_node/gl/wires.h"
 #include "render_node/tissue_map.h"
 #include "render_node/tissue_pattern.h"
 #include "shader_sources.h"  // generated from gl/shaders/
@@ -93,10 +94,10 @@ struct Programs {
 
 class GlRenderer final : public Renderer {
  public:
-  explicit GlRenderer(std::unique_ptr<GlContext> context)
+  GlRenderer(std::unique_ptr<GlContext> context, float ui_scale)
       : context_(std::move(context)), pattern_(make_tissue_pattern(kPatternSide)), shadow_(kShadowSide) {
     glGenVertexArrays(1, &no_vertices_);
-    panel_.emplace(*context_);
+    panel_.emplace(*context_, ui_scale);
   }
   ~GlRenderer() override { glDeleteVertexArrays(1, &no_vertices_); }
 
@@ -147,6 +148,7 @@ class GlRenderer final : public Renderer {
 
   Size size() const override { return context_->size(); }
   bool has_window() const override { return context_->has_window(); }
+  float ui_scale() const override { return panel_->scale(); }
 
  private:
   unsigned output() const { return output_ ? output_->framebuffer() : 0; }
@@ -204,8 +206,9 @@ class GlRenderer final : public Renderer {
     for (const Look look : {Look::kSolid, Look::kGut, Look::kTissue, Look::kCut, Look::kBared,
                             Look::kMesentery, Look::kMap, Look::kGround, Look::kSignal})
       draw_items(frame, look);
-    glDisable(GL_CULL_FACE);
     glDepthRange(kSignalDepth, 1);
+    if (frame.wires) wires_.draw(frame, [this](MeshId id) -> const MeshBuffer& { return mesh(id); });
+    glDisable(GL_CULL_FACE);
     glDepthFunc(GL_LEQUAL);
     fill_screen(programs(frame).backdrop, frame);
     glDepthFunc(GL_LESS);
@@ -283,6 +286,7 @@ class GlRenderer final : public Renderer {
   Programs plain_{std::string(shaders::common_glsl)};
   Programs fine_{"#define SOFT_SHADOWS\n" + std::string(shaders::common_glsl)};
   NoiseTexture pattern_;
+  Wires wires_;
   ShadowMap shadow_;
   unsigned no_vertices_ = 0;
   std::vector<MeshBuffer> meshes_;
@@ -295,12 +299,12 @@ class GlRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> open_window(Size size, const std::string& title) {
-  return std::make_unique<GlRenderer>(open_glfw_context(size, title));
+std::unique_ptr<Renderer> open_window(Size size, const std::string& title, float ui_scale) {
+  return std::make_unique<GlRenderer>(open_glfw_context(size, title), ui_scale);
 }
 
-std::unique_ptr<Renderer> open_offscreen(Size size) {
-  return std::make_unique<GlRenderer>(open_egl_context(size));
+std::unique_ptr<Renderer> open_offscreen(Size size, float ui_scale) {
+  return std::make_unique<GlRenderer>(open_egl_context(size), ui_scale);
 }
 
 }  // namespace omentum::render::gl
