@@ -101,6 +101,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   exposed_organ_ = loaded.scene.score.exposed_organ;
   to_expose_ = organ_to_expose(loaded.scene);
   scored_from_s_ = loaded.scene.score.from_s;
+  if (loaded.scene.score.camera) exercise_.emplace(loaded.scene, view_);
   choices_.orbit = view_.first_camera();
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
@@ -130,6 +131,7 @@ void RenderLoop::frame(bool last) {
   account_.start(begin_ns);
   watch_.listen(*inbox_, view_, faults_, begin_ns);
   if (begin_ns >= next_slow_ns_) watch_slowly(begin_ns);
+  if (exercise_) exercise_->look(seconds_since_begin(begin_ns), view_, watch_.tools());
   const std::optional<Dent>& dent = watch_.deepest_dent();
   PicturesDue due;
   if (last) {
@@ -285,6 +287,9 @@ nlohmann::json RenderLoop::report() const {
                         {"videos", recorder_.report()},
                         {"faults", faults_.lines()}};
   if (to_expose_) report["exposed_share"] = to_json(exposure_);
+  if (exercise_) report["camera"] = exercise_->report();
+  if (nlohmann::json trocars = watch_.trocar_report(); !trocars.empty())
+    report["trocars"] = std::move(trocars);
   return report;
 }
 

@@ -1,6 +1,7 @@
 // The node around the renderer: topics in, frames and pictures out.
 #pragma once
 
+#include "render_node/camera_exercise.h"
 #include "render_node/exposure_score.h"
 #include "render_node/feel_ring.h"
 #include "render_node/frame_rate_control.h"
@@ -53,7 +54,8 @@ class RenderLoop {
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
   /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h), `removed_tetrahedra` of the newest
   /// picture, `videos` (video_recorder.h) and, where the scene names an organ to expose, `exposed_share`
-  /// (exposure_score.h).
+  /// (exposure_score.h), where it scores its camera `camera` (camera_score.h), and where its tools have
+  /// trocars `trocars` (trocar_watch.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.
@@ -111,6 +113,7 @@ class RenderLoop {
   ExposureRaster raster_{kExposureSize};
   double scored_from_s_ = 0;
   ExposureScore exposure_;
+  std::optional<CameraExercise> exercise_;  // of a scene that scores its camera
   std::int64_t next_slow_ns_ = 0;
   msg::NodeStatus status_;
 

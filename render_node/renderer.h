@@ -64,6 +64,7 @@ struct Material {
   Vec3f colour{0.5f, 0.5f, 0.5f};
   float metalness = 0;
   float roughness = 0.5f;
+  Vec3f glow = Vec3f::Zero();  // light that a kSolid gives off by itself
 };
 
 struct DrawItem {
@@ -80,11 +81,16 @@ struct View {
   Vec3f eye = Vec3f::Zero();
 };
 
-/// The key light throws shadows inside the box of `clip_from_W`; the fill light sits at the eye.
+/// The key light throws shadows inside of `clip_from_W`, a box, or a scope's cone; the fill light sits at the
+/// eye.
 struct Lighting {
   Vec3f towards_key = Vec3f::UnitZ();  // unit, in W
   Mat4f clip_from_W = Mat4f::Identity();
   float radius_m = 0.1f;  // of what is lit: lengths in shading are shares of it
+  // A scope's light (scope_view.h) is not far away but here, in W, m, and as bright as the key light at that
+  // distance, m; 0: the light is far away.
+  Vec3f lamp = Vec3f::Zero();
+  float lamp_reach_m = 0;
 };
 
 /// How much is spent on a frame (frame_rate_control.h). A panel is always drawn finely.

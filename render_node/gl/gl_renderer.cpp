@@ -236,13 +236,16 @@ class GlRenderer final : public Renderer {
       program.set("material_colour", item.material.colour);
       program.set("material_metalness", item.material.metalness);
       program.set("material_roughness", item.material.roughness);
+      program.set("material_glow", item.material.glow);
       mesh(item.mesh).draw();
     }
   }
 
   void set_scene(const Program& program, const Frame& frame) {
     program.set("eye", frame.view.eye);
-    program.set("towards_key", frame.lighting.towards_key);
+    program.set("far_key", frame.lighting.towards_key);
+    program.set("lamp", frame.lighting.lamp);
+    program.set("lamp_reach", frame.lighting.lamp_reach_m);
     program.set("light_from_W", frame.lighting.clip_from_W);
     program.set("unit_length", frame.lighting.radius_m);
     program.set("picture_size", static_cast<float>(drawn_.width), static_cast<float>(drawn_.height));
