@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   line.flag("--no-panel", options.no_panel, "draw the scene only");
 
   return line.run(argc, argv, [&] {
-    runtime::RateLoop pace(options.fps);
+    runtime::RateLoop pace(render::kTicksPerFrame * options.fps);
     runtime::StopSignal signal([&] { pace.stop(); });
     setpriority(PRIO_PROCESS, 0, 5);  // pictures must never take the force loop's time
     const auto folder = options.out.empty() ? std::filesystem::path(".") : options.out;

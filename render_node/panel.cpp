@@ -301,6 +301,7 @@ PanelActions lay_out_panel(const PanelView& view) {
   node_table(view.nodes);
   latency("hand to force", view.hand_to_force_us, view.hand_to_force_p99_us);
   latency("hand to picture", view.hand_to_picture_us, view.hand_to_picture_p99_us);
+  if (!view.picture.empty()) figure("picture", view.picture);
   forces(view);
   organs(view);
   fault_list(view.faults);

@@ -4,6 +4,7 @@
 #include "render_node/exposure_score.h"
 #include "render_node/frame_rate_control.h"
 #include "render_node/panel.h"
+#include "render_node/picture_account.h"
 #include "render_node/picture_schedule.h"
 #include "render_node/picture_writer.h"
 #include "render_node/session_watch.h"
@@ -30,6 +31,10 @@ struct RenderOptions {
   TissueMap map = TissueMap::kOff;  // at the start
 };
 
+/// A pace's, of the asked rate: a frame that came too late for its tick waits for an eighth of a period, not
+/// a whole one.
+inline constexpr double kTicksPerFrame = 8;
+
 /// Of an organ that is to be exposed so many pixels are looked at: a hundredth of it is seen in some tens.
 inline constexpr Size kExposureSize{160, 120};
 
@@ -46,7 +51,8 @@ class RenderLoop {
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
   /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h), `removed_tetrahedra` of the newest
-  /// picture and, where the scene names an organ to expose, `exposed_share` (exposure_score.h).
+  /// picture, `picture` (picture_account.h) and, where the scene names an organ to expose, `exposed_share`
+  /// (exposure_score.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.
@@ -63,6 +69,7 @@ class RenderLoop {
              Renderer& renderer, runtime::Pace& pace);
   void frame(bool last);
   void measure_exposure();
+  void tell_software(double time_s);
   void watch_slowly(std::int64_t now_ns);
   void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
@@ -86,6 +93,8 @@ class RenderLoop {
   SessionWatch watch_;
   ViewChoices choices_;
   FrameRateControl control_;
+  PictureAccount pictures_;
+  bool told_software_ = false;
   PictureSchedule schedule_;
   std::unique_ptr<PictureWriter> writer_;
   std::unique_ptr<runtime::LoopLog> log_;

@@ -7,6 +7,7 @@
 #include "render_node/organ_drawing.h"
 #include "render_node/tissue_map.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -83,6 +84,9 @@ class SceneView {
   /// Null for an organ that tools do not dent.
   const PressedSurface* surface(std::size_t organ) const { return organs_[organ].drawing->surface(); }
   std::size_t organ_count() const { return organs_.size(); }
+  bool has_tube() const {
+    return std::ranges::any_of(organs_, [](const DrawnOrgan& o) { return o.drawing->length_m() > 0; });
+  }
 
  private:
   struct DrawnOrgan {
