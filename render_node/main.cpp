@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
 
   return line.run(argc, argv, [&] {
     if (options.record) options.fps = std::max(options.fps, options.record_fps);
-    runtime::RateLoop pace(options.fps);
+    runtime::RateLoop pace(render::kTicksPerFrame * options.fps);
     runtime::StopSignal signal([&] { pace.stop(); });
     setpriority(PRIO_PROCESS, 0, 5);  // pictures must never take the force loop's time
     const auto folder = options.out.empty() ? std::filesystem::path(".") : options.out;

@@ -117,6 +117,7 @@ void figures(const PanelView& view) {
   node_table(view.nodes);
   latency("hand to force", view.hand_to_force_us, view.hand_to_force_p99_us);
   latency("hand to picture", view.hand_to_picture_us, view.hand_to_picture_p99_us);
+  if (!view.picture.empty()) figure("picture", view.picture);
   lay_out_forces(view);
   if (!view.mouse_help.empty()) ImGui::TextWrapped("%s", view.mouse_help.c_str());
   lay_out_organs(view, bottom - room_of(view.faults));

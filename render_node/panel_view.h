@@ -91,6 +91,7 @@ struct PanelView {
   double hand_to_force_us = 0, hand_to_force_p99_us = 0;
   double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
   double real_time_factor = 0;  // of the organs that live in time of their own; 0: none does
+  std::string picture;          // how finely and how often it is drawn, in words; empty: unknown
   std::string exposed_organ;    // of which the share below is told
   std::optional<double>
       exposed_share;   // that nothing hides; none: the scene asks for none, or it is out of sight

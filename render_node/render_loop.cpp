@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace omentum::render {
@@ -21,7 +22,9 @@ constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and
                                                   // follow them, within seconds
 constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
-constexpr double kDuty = 0.45;
+constexpr double kDuty = 0.5;
+constexpr double kSettled_s =
+    3;  // the frame rate's control has found its level, and the other nodes are there
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
@@ -139,6 +142,8 @@ void RenderLoop::frame(bool last) {
   } else if (writer_) {
     due = schedule_.due(seconds_since_begin(begin_ns), dent ? dent->depth_m : 0);
   }
+  pictures_.add(control_.quality(), seconds_since_begin(begin_ns));
+  tell_software(seconds_since_begin(begin_ns));
   const Input input = pointer_->share(renderer_.begin_frame(), seen_, watch_.tools(), begin_ns);
   closed_ = closed_ || input.close;
   steer(input);
@@ -154,6 +159,15 @@ void RenderLoop::watch_slowly(std::int64_t now_ns) {
   next_slow_ns_ = now_ns + kSlow_ns;
   view_.shade_ground();
   if (to_expose_ && seconds_since_begin(now_ns) >= scored_from_s_) measure_exposure();
+}
+
+void RenderLoop::tell_software(double time_s) {
+  if (told_software_ || time_s < kSettled_s) return;
+  told_software_ = true;
+  const std::string rasterizer = renderer_.software();
+  if (rasterizer.empty()) return;
+  std::printf("render_node: %s\n", software_words(rasterizer, control_).c_str());
+  std::fflush(stdout);
 }
 
 void RenderLoop::measure_exposure() {
@@ -260,6 +274,7 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   panel.exposed_organ = exposed_organ_;
   panel.exposed_share = exposure_.newest;
   panel.mouse_help = pointer_->rays().help();
+  panel.picture = rate_words(control_, view_.has_tube());
   watch_.describe(view_, now_ns, panel);
   return panel;
 }
@@ -285,6 +300,7 @@ nlohmann::json RenderLoop::report() const {
                         {"removed_tetrahedra", removed},
                         {"closed", closed_},
                         {"videos", recorder_.report()},
+                        {"picture", pictures_.to_json(control_)},
                         {"faults", faults_.lines()}};
   if (to_expose_) report["exposed_share"] = to_json(exposure_);
   if (exercise_) report["camera"] = exercise_->report();

@@ -6,6 +6,7 @@
 #include "render_node/feel_ring.h"
 #include "render_node/frame_rate_control.h"
 #include "render_node/panel.h"
+#include "render_node/picture_account.h"
 #include "render_node/picture_schedule.h"
 #include "render_node/picture_writer.h"
 #include "render_node/pointer_link.h"
@@ -37,6 +38,10 @@ struct RenderOptions {
   TissueMap map = TissueMap::kOff;  // at the start
 };
 
+/// A pace's, of the asked rate: a frame that came too late for its tick waits for an eighth of a period, not
+/// a whole one.
+inline constexpr double kTicksPerFrame = 8;
+
 /// Of an organ that is to be exposed so many pixels are looked at: a hundredth of it is seen in some tens.
 inline constexpr Size kExposureSize{160, 120};
 
@@ -53,9 +58,9 @@ class RenderLoop {
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
   /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h), `removed_tetrahedra` of the newest
-  /// picture, `videos` (video_recorder.h) and, where the scene names an organ to expose, `exposed_share`
-  /// (exposure_score.h), where it scores its camera `camera` (camera_score.h), and where its tools have
-  /// trocars `trocars` (trocar_watch.h).
+  /// picture, `picture` (picture_account.h), `videos` (video_recorder.h) and, where the scene names an organ to
+  /// expose, `exposed_share` (exposure_score.h), where it scores its camera `camera` (camera_score.h), and
+  /// where its tools have trocars `trocars` (trocar_watch.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were
   /// lost, and why.
@@ -72,6 +77,7 @@ class RenderLoop {
              Renderer& renderer, runtime::Pace& pace);
   void frame(bool last);
   void measure_exposure();
+  void tell_software(double time_s);
   void watch_slowly(std::int64_t now_ns);
   void take_close_up(const Dent& deepest);
   void draw(const std::string& picture);  // file name; empty: for the window only
@@ -100,6 +106,8 @@ class RenderLoop {
   View seen_;           // in which a person points
   bool help_ = false;   // is shown
   FrameRateControl control_;
+  PictureAccount pictures_;
+  bool told_software_ = false;
   PictureSchedule schedule_;
   std::unique_ptr<PictureWriter> writer_;
   VideoRecorder recorder_;

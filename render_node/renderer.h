@@ -93,12 +93,17 @@ struct Lighting {
   float lamp_reach_m = 0;
 };
 
-/// How much is spent on a frame (frame_rate_control.h). A panel is always drawn finely.
+/// How much is spent on a frame (picture_quality.h, frame_rate_control.h). A panel is always drawn finely.
 enum class Quality : std::uint8_t {
   kFine,    // smooth edges, soft shadows: pictures, and wherever a graphics card draws
   kPlain,   // one sample per pixel
   kCoarse,  // and fewer pixels, stretched
+  kFlat,    // without shadows
+  kDraft,   // light at the vertices, all pixels
+  kSketch,  // a quarter of them
+  kFaint,   // a ninth
 };
+inline constexpr std::size_t kQualityCount = 7;
 
 /// One picture of the scene.
 struct Frame {
@@ -153,6 +158,8 @@ class Renderer {
   virtual bool has_window() const = 0;
   /// Of the panel in this frame, 1 where its text is kPanelFontPixels high (panel_style.h).
   virtual float ui_scale() const { return 1; }
+  /// The rasterizer, where it is a program and not a graphics card; else empty.
+  virtual std::string software() const { return {}; }
 };
 
 }  // namespace omentum::render

@@ -8,6 +8,7 @@
 #include "render_node/organ_drawing.h"
 #include "render_node/tissue_map.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -92,6 +93,9 @@ class SceneView {
   /// What is drawn of an organ where it is not cut, as many vertices as ever.
   const MeshData& mesh(std::size_t organ) const { return organs_[organ].drawing->mesh(); }
   std::size_t organ_count() const { return organs_.size(); }
+  bool has_tube() const {
+    return std::ranges::any_of(organs_, [](const DrawnOrgan& o) { return o.drawing->length_m() > 0; });
+  }
 
  private:
   struct DrawnOrgan {

@@ -1,5 +1,6 @@
 // Shared by all fragment shaders: lights, shadow, the room that wet surfaces mirror, and the film.
-// SOFT_SHADOWS is defined for fine frames (software OpenGL runs both sides of every branch).
+// SOFT_SHADOWS is defined for fine frames (software OpenGL runs both sides of every branch), NO_SHADOWS for coarse ones,
+// PER_VERTEX where a vertex shader computes light.
 uniform vec3 eye;            // in W, m
 uniform vec3 far_key;        // towards the key light, unit, in W
 uniform vec3 lamp;           // of a scope, in W, m
@@ -73,16 +74,22 @@ vec3 backdrop(vec2 pixel) {
   return mix(mix(table_rim, table_middle, fall), mix(cavity_rim, cavity_middle, fall), scope);
 }
 
-// Linear light to display: a filmic curve (Narkowicz 2015, a fit of ACES), the display's gamma (2: a square root is
-// a tenth of a power's cost in software), and half a step of grain against banding.
-vec3 film(vec3 x) {
+// Linear light to display: a filmic curve (Narkowicz 2015, a fit of ACES), and the display's gamma (2: a square root is
+// a tenth of a power's cost in software).
+vec3 developed(vec3 x) {
   x *= exposure;
-  x = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-  return sqrt(x) + (grain(gl_FragCoord.xy) - 0.5) / 255.0;
+  return sqrt(clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0));
 }
+
+#ifndef PER_VERTEX
+// The same with half a step of grain against banding.
+vec3 film(vec3 x) { return developed(x) + (grain(gl_FragCoord.xy) - 0.5) / 255.0; }
 
 // How much of the key light arrives. The point is moved along its normal against self-shadowing.
 float lit(vec3 p_W, vec3 n, float n_dot_l) {
+#ifdef NO_SHADOWS
+  return 1.0;
+#else
   vec3 q = p_W + n * unit_length * mix(lift_grazing, lift_facing, clamp(n_dot_l, 0.0, 1.0));
   vec4 in_light = light_from_W * vec4(q, 1.0);
   vec3 s = in_light.xyz / in_light.w * 0.5 + 0.5;
@@ -102,7 +109,9 @@ float lit(vec3 p_W, vec3 n, float n_dot_l) {
   // the map's edge is never seen: shadows fade out before it
   vec2 off = abs(s.xy - 0.5) * 2.0;
   return mix(arrives, 1.0, smoothstep(shadow_fade, 1.0, max(off.x, off.y)));
+#endif
 }
+#endif
 
 // The room as a smooth surface mirrors it: dark floor, dim walls, a wide soft box around the key light and a strip.
 vec3 room(vec3 direction, float blur) {
