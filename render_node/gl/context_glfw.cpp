@@ -85,9 +85,6 @@ class GlfwContext final : public GlContext {
       input.zoom = scrolled_;
     }
     input.pointer = pointer_reader_.read(window_, scrolled_, io.WantCaptureMouse);
-    const bool key = glfwGetKey(window_, GLFW_KEY_S) == GLFW_PRESS;
-    input.switch_map = key && !map_key_;
-    map_key_ = key;
     input.keys = std::exchange(typed_, KeyPresses{});
     mouse_ = mouse;
     scrolled_ = 0;
