@@ -15,8 +15,8 @@ struct EnlargedPlace {
 };
 
 /// Enlarges pictures of four bytes per pixel by a whole factor, smoothly: straight lines between the middles
-/// of neighbouring pixels, their last ones held at the edges. Mesa's rasterizer takes three times as long for
-/// the same (picture_bench). Keeps its scratch. One thread.
+/// of neighbouring pixels, their last ones held at the edges. Mesa's rasterizer takes twice as long for the
+/// same (docs/rendering.md). Keeps its scratch. One thread.
 class Enlarger {
  public:
   /// `from`: [height * width * 4] of `size`; `to`: [target.height * target.width * 4], of at least one pixel
