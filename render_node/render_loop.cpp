@@ -119,9 +119,14 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
 
 void RenderLoop::run() {
   while (!closed_ && pace_.wait() != runtime::Pace::Cause::kStopped) {
-    const double time_s = seconds_since_begin(pace_.now_ns());
+    const std::int64_t now_ns = pace_.now_ns();
+    const double time_s = seconds_since_begin(now_ns);
     if (options_.seconds > 0 && time_s >= options_.seconds) break;
-    if (control_.due(time_s)) frame(false);
+    if (control_.due(time_s)) {
+      frame(false);
+    } else {
+      pointer_->look(renderer_, seen_, watch_.tools(), now_ns);
+    }
   }
   if (writer_) frame(true);
   if (writer_) picture_failure_ = writer_->finish();

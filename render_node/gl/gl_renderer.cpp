@@ -75,6 +75,7 @@ class GlRenderer final : public Renderer {
   }
 
   Input begin_frame() override { return panel_->begin_frame(); }
+  Pointer look_at_pointer() override { return context_->look_at_pointer(); }
 
   void draw(const Frame& frame) override {
     fit_targets();
