@@ -267,7 +267,7 @@ PanelActions buttons(const PanelView& view) {
   actions.switch_markers = ImGui::Checkbox("nodes", &markers);
   actions.switch_map =
       ImGui::Button(("map: " + std::string(word(view.map)) + " (key S)" + kMapButton).c_str(), {-1, 0});
-  ImGui::TextDisabled("drag: turn   right drag: move   wheel: zoom");
+  ImGui::TextDisabled("%s", view.help.c_str());
   return actions;
 }
 

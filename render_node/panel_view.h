@@ -86,7 +86,8 @@ struct PanelView {
   double dent_mm = 0;  // the deepest of this moment (dent.h)
   std::vector<OrganRow> organs;
   std::uint64_t incomplete_states = 0;
-  std::vector<std::string> faults;  // of all nodes, their name in front
+  std::vector<std::string> faults;                                   // of all nodes, their name in front
+  std::string help = "drag: turn   right drag: move   wheel: zoom";  // what mouse and keys do
 };
 
 /// What the person pressed.

@@ -89,6 +89,8 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
       begin_ns_(pace_.now_ns()),
       view_(loaded.scene, loaded.shapes, renderer),
       watch_(loaded.scene, loaded.organs, begin_ns_),
+      feel_ring_(renderer),
+      max_force_n_(loaded.scene.haptics.max_force_n),
       control_(options.fps, kDuty),
       schedule_(picture_period_s(options, renderer.has_window())),
       account_(std::llround(1e9 / options.fps)),
@@ -103,6 +105,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   if (!options.node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(options.node.log);
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
+  pointer_ = std::make_unique<PointerLink>(*bus_, loaded.scene);
   inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, pace_, faults_);
   show_map(options.map);
 }
@@ -130,7 +133,7 @@ void RenderLoop::frame(bool last) {
   } else if (writer_) {
     due = schedule_.due(seconds_since_begin(begin_ns), dent ? dent->depth_m : 0);
   }
-  const Input input = renderer_.begin_frame();
+  const Input input = pointer_->share(renderer_.begin_frame(), seen_, watch_.tools(), begin_ns);
   closed_ = closed_ || input.close;
   steer(input);
   if (input.switch_map) show_map(next(choices_.map));
@@ -164,6 +167,9 @@ void RenderLoop::take_close_up(const Dent& deepest) {
 void RenderLoop::draw(const std::string& picture) {
   const double covered = options_.no_panel ? 0 : panel_share(renderer_.size());
   Frame frame = view_.frame(choices_, watch_.tools(), covered);
+  seen_ = frame.view;
+  const PointerRays& mouse = pointer_->rays();
+  if (mouse.drives()) feel_ring_.add(watch_.tools()[mouse.tool()], max_force_n_, frame);
   frame.quality = picture.empty() ? control_.quality() : Quality::kFine;
   renderer_.draw(frame);
   if (!picture.empty()) writer_->write(renderer_.read_back(), picture);
@@ -229,6 +235,7 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   panel.full_stress_pa = watch_.full_stress_pa();
   panel.exposed_organ = exposed_organ_;
   panel.exposed_share = exposure_.newest;
+  if (const std::string help = pointer_->rays().help(); !help.empty()) panel.help = help;
   watch_.describe(view_, now_ns, panel);
   return panel;
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "render_node/exposure_score.h"
+#include "render_node/feel_ring.h"
 #include "render_node/frame_rate_control.h"
 #include "render_node/panel.h"
 #include "render_node/picture_schedule.h"
 #include "render_node/picture_writer.h"
+#include "render_node/pointer_link.h"
 #include "render_node/session_watch.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
@@ -85,6 +87,9 @@ class RenderLoop {
   SceneView view_;
   SessionWatch watch_;
   ViewChoices choices_;
+  FeelRing feel_ring_;
+  double max_force_n_;  // the scene's
+  View seen_;           // in which a person points
   FrameRateControl control_;
   PictureSchedule schedule_;
   std::unique_ptr<PictureWriter> writer_;
@@ -105,6 +110,7 @@ class RenderLoop {
   std::unique_ptr<transport::Bus> bus_;
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
   std::unique_ptr<transport::Writer<msg::SessionCommand>> command_writer_;
+  std::unique_ptr<PointerLink> pointer_;
   std::unique_ptr<Inbox> inbox_;
 };
 

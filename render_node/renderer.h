@@ -1,6 +1,8 @@
 // What can be drawn, and the seam behind which it is drawn. render_node/gl/ draws with OpenGL; tests record.
 #pragma once
 
+#include "render_node/pointer.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -120,6 +122,7 @@ struct Input {
   float zoom = 0;                  // wheel steps, positive towards the target
   bool switch_map = false;         // the key S went down
   bool close = false;
+  Pointer pointer;  // the same, for whom it moves an instrument (pointer_rays.h)
 };
 
 /// Draws frames into a window or an off-screen target. One thread, the one that made it.

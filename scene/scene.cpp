@@ -174,7 +174,6 @@ void read_press(TomlSection& s, HandSpec& hand) {
   s.read("hover_m", hand.hover_m, kOptional, kPositive);
   s.read("depth_m", hand.depth_m, kOptional, kNotNegative);
   s.read("slide_m", hand.slide_m, kOptional, kNotNegative);
-  s.read("cut", hand.cut, kOptional);
   s.read("start_s", hand.start_s, kOptional, kNotNegative);
   s.read("approach_s", hand.approach_s, kOptional, kPositive);
   s.read("press_s", hand.press_s, kOptional, kPositive);
@@ -191,6 +190,7 @@ HandSpec read_hand(TomlSection& s) {
   s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
   s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
   hand.way = read_way(s);
+  s.read("cut", hand.cut, kOptional);
   if (hand.way.empty()) {
     read_press(s, hand);
   } else {

@@ -83,6 +83,7 @@ void add(const DynamicsSpec& dynamics, Table& table) {
   table.add("cut_delay_s", dynamics.cut_delay_s);
   table.add("cut_rate_per_s", dynamics.cut_rate_per_s);
   table.add("smallest_piece_m3", dynamics.smallest_piece_m3);
+  if (!dynamics.law.empty()) table.add("law", dynamics.law);
 }
 
 void add(const geometry::GutAnatomy& anatomy, Table& table) {

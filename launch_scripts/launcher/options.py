@@ -22,7 +22,7 @@ class Options:
     seconds: float = None
     out: pathlib.Path = pathlib.Path("out")
     dds: dict = field(default_factory=dict)  # process -> vendor
-    device: str = "virtual"  # virtual, none or trace
+    device: str = "virtual"  # virtual, mouse, none or trace
     trace: pathlib.Path = None
     organ: pathlib.Path = None
     scale: float = None
@@ -69,7 +69,8 @@ def build_parser():
     add("--out", metavar="DIR", default="out", help="report.json and pictures go here (default: out)")
     add("--dds", default="fast", metavar="VENDOR",
         help="fast, cyclone, or haptic=fast,deform=cyclone,render=fast,device=cyclone")
-    add("--device", default="virtual", metavar="KIND", help="virtual, none or trace:FILE (default: virtual)")
+    add("--device", default="virtual", metavar="KIND", help="virtual, mouse, none or trace:FILE (default: virtual). "
+        "mouse: the pointer in the window moves the first instrument, key Tab picks the next one (docs/devices.md)")
     add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's first one")
     add("--scale", type=float, metavar="METRES_PER_UNIT", help="of that mesh (default: found from its size)")
     add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them "
@@ -146,16 +147,22 @@ def check_vendor(vendor):
 
 def parse_device(text):
     kind, _, file = text.partition(":")
-    if kind == "mouse":
-        raise Refusal("--device mouse is not part of this version; expected virtual, none or trace:FILE")
     if kind == "trace" and file:
         return "trace", existing(file, "--device trace")
-    if text in ("virtual", "none"):
+    if text in ("virtual", "mouse", "none"):
         return text, None
-    raise Refusal(f"--device: found '{text}', expected virtual, none or trace:FILE")
+    raise Refusal(f"--device: found '{text}', expected virtual, mouse, none or trace:FILE")
+
+
+def has_display():
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def check_values(options):
+    if options.device == "mouse" and options.headless:
+        raise Refusal("--device mouse needs a window to point at; run it without --headless")
+    if options.device == "mouse" and not has_display() and not options.prepare_only:
+        raise Refusal("--device mouse needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set")
     if options.seconds is not None and not options.seconds > 0:
         raise Refusal(f"--seconds: found {options.seconds:g}, expected more than 0")
     if options.scale is not None and not options.scale > 0:

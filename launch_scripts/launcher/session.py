@@ -10,16 +10,13 @@ from .keys import Keys
 from .leftovers import Leftovers
 from .machine import StealWatch
 from .messenger import Messenger
+from .options import has_display
 
 POLL_S = 0.1
 REFUSAL_WINDOW_S = 10.0  # a node that ends with code 2 within this refused to start
 RESTART_PAUSE_S = 1.0
 COMMANDS = {"p": "toggle-pause", "r": "reset", "c": "clear-fault"}
 PICTURES = ("frame_[0-9][0-9][0-9][0-9].png", "indent.png", "final.png")
-
-
-def has_display():
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def processors_of(split):
@@ -59,7 +56,7 @@ class Session:
         own = {"haptic_node": [], "deform_node": ["--journal", str(journal)],
                "render_node": ["--out", str(self.options.out.resolve())]}
         if self.options.device != "none":
-            own["virtual_device"] = ["--trace", str(self.options.trace)] if self.options.trace else []
+            own["virtual_device"] = self.device_options()
         if self.options.rate_hz:
             # the loop is stepped by the hand's poses: both keep the rate
             for name in {"haptic_node", "virtual_device"} & own.keys():
@@ -71,6 +68,11 @@ class Session:
         processors = processors_of(self.options.split)
         return [processes.Node(name, self.command(name) + extra, self.report_file(name), processors.get(name))
                 for name, extra in own.items()]
+
+    def device_options(self):
+        if self.options.trace:
+            return ["--trace", str(self.options.trace)]
+        return ["--mouse"] if self.options.device == "mouse" else []
 
     def command(self, name):
         command = [str(self.options.programs / name), "--scene", str(self.scene), "--dds", self.options.dds[name],

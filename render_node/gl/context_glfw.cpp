@@ -1,4 +1,5 @@
 #include "render_node/gl/gl_context.h"
+#include "render_node/gl/pointer_reader.h"
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -33,6 +34,7 @@ class GlfwContext final : public GlContext {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(
         0);  // the render loop keeps the pace; waiting for the screen would add its period to the latency
+    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);  // a key that is tapped between two frames counts
     glfwSetWindowUserPointer(window_, this);
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
       static_cast<GlfwContext*>(glfwGetWindowUserPointer(w))->scrolled_ += static_cast<float>(y);
@@ -67,6 +69,7 @@ class GlfwContext final : public GlContext {
       if (mouse.other && mouse_.other) input.pan_x = dx, input.pan_y = dy;
       input.zoom = scrolled_;
     }
+    input.pointer = pointer_reader_.read(window_, scrolled_, io.WantCaptureMouse);
     const bool key = glfwGetKey(window_, GLFW_KEY_S) == GLFW_PRESS;
     input.switch_map = key && !map_key_;
     map_key_ = key;
@@ -92,6 +95,7 @@ class GlfwContext final : public GlContext {
 
   GLFWwindow* window_ = nullptr;
   Mouse mouse_;
+  PointerReader pointer_reader_;
   float scrolled_ = 0;
   bool map_key_ = false;  // was down
 };

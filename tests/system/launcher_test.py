@@ -345,15 +345,16 @@ class Endings(LauncherTest):
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
 
 
-class Windows(LauncherTest):
+class OnDisplay(LauncherTest):
     """On a display of its own."""
+    SCREEN = "800x600x24"
 
     def setUp(self):
         super().setUp()
         if not shutil.which("Xvfb"):
             self.skipTest("Xvfb is absent")
         reading, writing = os.pipe()
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "800x600x24"],
+        server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", self.SCREEN],
                                   pass_fds=[writing], stderr=subprocess.DEVNULL)
         self.addCleanup(server.wait)
         self.addCleanup(server.terminate)
@@ -366,6 +367,8 @@ class Windows(LauncherTest):
         display.start()
         self.addCleanup(display.stop)
 
+
+class Windows(OnDisplay):
     def test_an_ended_render_node_is_no_closed_window(self):
         process = self.start(HOLD, "--out", self.out)
         nodes = self.nodes_of(process)
@@ -773,6 +776,23 @@ time.sleep({PATIENCE_S})"""), 0)
         made.folder = tempfile.TemporaryDirectory()
         self.addCleanup(made.folder.cleanup)
         self.assertEqual([node.name for node in made.make_nodes() if "--map" in node.command], ["render_node"])
+
+
+    def test_a_mouse_is_a_device_of_sessions_with_a_window(self):
+        with mock.patch.dict(os.environ, {"DISPLAY": ":7"}):
+            made = session.Session.__new__(session.Session)
+            made.options = options.parse([str(HOLD), "--device", "mouse"])
+            with self.assertRaisesRegex(Refusal, "needs a window"):
+                options.parse(["--device", "mouse", "--headless"])
+        made.scene, made.headless, made.domain = HOLD, False, mock.Mock(number=1)
+        made.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(made.folder.cleanup)
+        self.assertEqual([node.name for node in made.make_nodes() if "--mouse" in node.command], ["virtual_device"])
+        with mock.patch.dict(os.environ):
+            os.environ.pop("DISPLAY", None)
+            os.environ.pop("WAYLAND_DISPLAY", None)
+            with self.assertRaisesRegex(Refusal, "needs a display"):
+                options.parse(["--device", "mouse"])
 
 
 class Refusals(LauncherTest):
