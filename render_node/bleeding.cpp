@@ -156,31 +156,38 @@ void Bleeding::deform(std::span<const Vec3f> positions, std::span<const Vec3f> n
   }
 }
 
-void Bleeding::place(const Drop& drop, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
-                     std::span<Vertex> out) const {
+std::size_t Bleeding::feet_of(const Drop& drop, std::span<const Vec3f> positions,
+                              std::span<const Vec3f> normals, std::array<Foot, kWayPoints>& feet) {
   const auto foot = [&](const SurfacePoint& point) {
     const Vec3f normal = at(point, normals);
     return Foot{SurfaceRefinement::curved(point, positions, normals),
                 normal.norm() > 0 ? Vec3f(normal.normalized()) : Vec3f::UnitZ()};
   };
   const auto ran = static_cast<float>(drop.ran_s / kRun_s);
-  const float eased = ran * (2 - ran), to_m = eased * drop.length_m.back();  // it slows down
-  std::array<Foot, kWayPoints> feet;
+  const float to_m = ran * (2 - ran) * drop.length_m.back();  // it slows down
   std::size_t last = 0;
   feet[0] = foot(drop.way[0]);
   for (std::size_t i = 1; i < drop.way.size() && drop.length_m[i - 1] < to_m; ++i) {
-    const Foot next = foot(drop.way[i]);
+    const Foot next = foot(drop.way[i]), before = feet[i - 1];
     const float leg_m = drop.length_m[i] - drop.length_m[i - 1];
     const float share = leg_m > 0 ? std::min(1.0f, (to_m - drop.length_m[i - 1]) / leg_m) : 1;
-    const Foot& before = feet[i - 1];
     feet[i] = {before.place + share * (next.place - before.place),
                (before.normal + share * (next.normal - before.normal)).normalized()};
     last = i;
   }
   for (std::size_t i = last + 1; i < kWayPoints; ++i) feet[i] = feet[last];
-  Vec3f along = last > 0 ? Vec3f(feet[last].place - feet[last - 1].place) : feet[0].normal.unitOrthogonal();
-  along = along - along.dot(feet[last].normal) * feet[last].normal;
-  along = along.norm() > 0 ? along.normalized() : feet[last].normal.unitOrthogonal();
+  return last;
+}
+
+void Bleeding::place(const Drop& drop, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                     std::span<Vertex> out) const {
+  std::array<Foot, kWayPoints> feet;
+  const std::size_t last = feet_of(drop, positions, normals, feet);
+  const Vec3f& normal = feet[last].normal;
+  Vec3f along = last > 0 ? Vec3f(feet[last].place - feet[last - 1].place) : normal.unitOrthogonal();
+  along -= along.dot(normal) * normal;
+  along = along.norm() > 0 ? along.normalized() : normal.unitOrthogonal();
+  const auto ran = static_cast<float>(drop.ran_s / kRun_s);
   const float radius_m = drop.radius_m * std::sqrt(std::min(1.0f, 4 * ran));  // it wells up first
   place_bead(feet[last], along, radius_m, out.first(1 + kRings * kAround));
   place_trail(feet, kTrailWidth * radius_m, out.subspan(1 + kRings * kAround));

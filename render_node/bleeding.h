@@ -17,7 +17,7 @@ namespace omentum::render {
 /// triangle with a burnt node does not bleed. One thread.
 class Bleeding {
  public:
-  static constexpr std::size_t kMostDrops = 48;      // 0.2 ms to place, below 5,000 triangles
+  static constexpr std::size_t kMostDrops = 48;      // 2,600 vertices in all: little beside an organ's
   static constexpr float kAreaPerDrop_m2 = 0.7e-4f;  // a mouth of a vessel that bleeds visibly
   static constexpr float kSmallest_m = 0.0008f, kLargest_m = 0.0019f;  // radii
   static constexpr float kShortestRun_m = 0.003f, kLongestRun_m = 0.016f;
@@ -53,6 +53,10 @@ class Bleeding {
   static Drop make_drop(std::uint64_t seed, std::size_t triangle, const Downhill& downhill,
                         std::span<const Vec3f> rest);
   void make_triangles();
+  // How far the drop has come; all of the way's points, those that it did not reach where it is. The place of
+  // the last one that it reached.
+  static std::size_t feet_of(const Drop& drop, std::span<const Vec3f> positions,
+                             std::span<const Vec3f> normals, std::array<Foot, kWayPoints>& feet);
   void place(const Drop& drop, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
              std::span<Vertex> out) const;
   static void place_bead(const Foot& foot, const Vec3f& along, float radius_m, std::span<Vertex> out);

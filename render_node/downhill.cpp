@@ -41,32 +41,34 @@ std::vector<SurfacePoint> Downhill::way(std::size_t triangle, const Vec3f& weigh
     if (beyond == on_edge_.end()) break;
     place = out.place;
     length_m -= out.length_m;
-    // where the next one slopes back towards this one, the drop stays in the fold
-    const Vec3f edge = corner(triangle, (out.edge + 1) % 3) - corner(triangle, out.edge);
-    const Vec3f next_normal = (corner(beyond->second, 1) - corner(beyond->second, 0))
-                                  .cross(corner(beyond->second, 2) - corner(beyond->second, 0));
-    if (slope(beyond->second).dot(edge.cross(next_normal)) < 0) break;
+    if (folds_back(triangle, out.edge, beyond->second)) break;  // the drop stays in the fold
     triangle = beyond->second;
   }
   return way;
 }
 
+Vec3f Downhill::normal(std::size_t triangle) const {
+  return (corner(triangle, 1) - corner(triangle, 0)).cross(corner(triangle, 2) - corner(triangle, 0));
+}
+
+bool Downhill::folds_back(std::size_t from, std::size_t edge, std::size_t to) const {
+  const Vec3f along = corner(from, (edge + 1) % 3) - corner(from, edge);
+  return slope(to).dot(along.cross(normal(to))) < 0;
+}
+
 Vec3f Downhill::slope(std::size_t triangle) const {
-  const Vec3f normal =
-      (corner(triangle, 1) - corner(triangle, 0)).cross(corner(triangle, 2) - corner(triangle, 0));
-  const float area = normal.norm();
-  if (!(area > 0)) return Vec3f::Zero();
-  const Vec3f n = normal / area;
+  const Vec3f area = normal(triangle);
+  if (!(area.norm() > 0)) return Vec3f::Zero();
+  const Vec3f n = area.normalized();
   return -Vec3f::UnitZ() + n.z() * n;
 }
 
 // Through the first edge that the way meets; those that it leaves behind do not count.
 Downhill::Exit Downhill::exit(std::size_t triangle, const Vec3f& from, const Vec3f& along) const {
-  const Vec3f normal =
-      (corner(triangle, 1) - corner(triangle, 0)).cross(corner(triangle, 2) - corner(triangle, 0));
+  const Vec3f area = normal(triangle);
   Exit first{0, from, std::numeric_limits<float>::infinity()};
   for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3f a = corner(triangle, c), outwards = (corner(triangle, (c + 1) % 3) - a).cross(normal);
+    const Vec3f a = corner(triangle, c), outwards = (corner(triangle, (c + 1) % 3) - a).cross(area);
     const float speed = along.dot(outwards);
     if (speed <= 0) continue;
     const float length_m = std::max(0.0f, (a - from).dot(outwards) / speed);
@@ -77,12 +79,12 @@ Downhill::Exit Downhill::exit(std::size_t triangle, const Vec3f& from, const Vec
 
 SurfacePoint Downhill::point(std::size_t triangle, const Vec3f& place) const {
   const Vec3f a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
-  const Vec3f normal = (b - a).cross(c - a);
-  const float squared = normal.squaredNorm();
+  const Vec3f area = normal(triangle);
+  const float squared = area.squaredNorm();
   Vec3f weight = Vec3f::UnitX();
   if (squared > 0) {
-    weight = Vec3f((c - b).cross(place - b).dot(normal), (a - c).cross(place - c).dot(normal),
-                   (b - a).cross(place - a).dot(normal)) /
+    weight = Vec3f((c - b).cross(place - b).dot(area), (a - c).cross(place - c).dot(area),
+                   (b - a).cross(place - a).dot(area)) /
              squared;
     weight = weight.cwiseMax(0.0f);
     weight /= weight.sum();

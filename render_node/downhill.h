@@ -35,6 +35,9 @@ class Downhill {
     float length_m = 0;
   };
   Vec3f corner(std::size_t triangle, std::size_t c) const { return positions_[triangles_[triangle][c]]; }
+  Vec3f normal(std::size_t triangle) const;  // as long as twice the area
+  // Whether what came over this edge of `from` would come back.
+  bool folds_back(std::size_t from, std::size_t edge, std::size_t to) const;
   Vec3f slope(std::size_t triangle) const;  // unit where z is steepest downwards, times its sine
   Exit exit(std::size_t triangle, const Vec3f& from, const Vec3f& along) const;
   SurfacePoint point(std::size_t triangle, const Vec3f& place) const;

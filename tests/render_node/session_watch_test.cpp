@@ -97,49 +97,6 @@ TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
   EXPECT_THAT(watch_.tools()[0].contact_nodes, ElementsAre(5u));
 }
 
-TEST_F(SessionWatchTest, WhatAToolPressesPalesWithoutAStateUntilTheContactIsOver) {
-  msg::Contact contact{};
-  contact.nodes = {test::kFirstFileNode + 4};  // the top
-  contact.forces = {{0, 0, -1}};
-  contact.displacements = {{0, 0, 0}};
-  bus_.post(contact);
-  const auto palest = [&] {
-    float most = 0;
-    for (const Vertex& vertex : renderer_.meshes.front().vertices) most = std::max(most, vertex.pallor);
-    return most;
-  };
-  const std::int64_t begin_ns = clock_.now_ns();
-  listen(begin_ns + kSecond / 5);
-  const float pressed = palest();
-  EXPECT_GT(pressed, 0.5f);
-  listen(begin_ns + 2 * kSecond);
-  EXPECT_LT(palest(), 0.1f * pressed);
-}
-
-TEST_F(SessionWatchTest, TheHookSmokesWhereItsEdgeIsWhileItCuts) {
-  msg::ToolPose pose{};
-  pose.seq = 1;
-  pose.valid = true;
-  pose.orientation.w = 1;
-  msg::ToolForce force{};
-  force.seq = 1;
-  msg::Contact contact{};
-  contact.nodes = {5};
-  contact.forces = {{0, 0, -1}};
-  contact.displacements = {{0, 0, 0}};
-  contact.cutting = true;
-  contact.edge = {.begin = {0.01, 0, 0.04}, .end = {0.03, 0, 0.04}};
-  bus_.post(pose);
-  bus_.post(force);
-  bus_.post(contact);
-  listen(clock_.now_ns() + kSecond / 10);
-  EXPECT_THAT(watch_.tools()[0].burning_at, testing::Optional(Vec3(0.02, 0, 0.04)));
-  contact.cutting = false;
-  bus_.post(contact);
-  listen(clock_.now_ns() + kSecond / 5);
-  EXPECT_EQ(watch_.tools()[0].burning_at, std::nullopt);
-}
-
 TEST_F(SessionWatchTest, AStateOfAnotherKindIsAFault) {
   msg::OrganState state{};
   state.block_count = 1;
