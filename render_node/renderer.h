@@ -25,6 +25,7 @@ struct Size {
 
 /// A corner of a triangle. `rest` is where it was before any deformation: patterns stick to it.
 /// `openness` is the fraction of ambient light that reaches it, `charring` how far heat browned it, 0 to 1;
+/// `pallor` which share of its blood pressure squeezed out (pallor.h);
 /// `share` how far up a map's scale the tissue there is (tissue_map.h), 1 or more: at its end.
 struct Vertex {
   Vec3f position;
@@ -32,9 +33,10 @@ struct Vertex {
   Vec3f rest;
   float openness = 1;
   float charring = 0;
+  float pallor = 0;
   float share = 0;
 };
-static_assert(sizeof(Vertex) == 12 * sizeof(float), "uploaded as it lies in memory");
+static_assert(sizeof(Vertex) == 13 * sizeof(float), "uploaded as it lies in memory");
 
 using MeshTriangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
 
@@ -51,10 +53,12 @@ enum class Look : std::uint8_t {
   kTissue,     // wet, translucent, patterned
   kCut,        // the same, of an organ that was cut: heat may have charred it
   kBared,      // the inside of tissue, where it was cut or torn
+  kBlood,      // drops on it
   kGut,        // tissue of a tube: fine vessels, rings of muscle
-  kMesentery,  // a sheet of fat and vessels
+  kMesentery,  // a sheet of fat and vessels, through which light goes: its triangles lie back to front
   kMap,        // tissue as a map of what it is under (tissue_map.h)
   kSolid,      // metal or plastic
+  kSmoke,      // soft, and blended over all that lies behind
   kGround,     // the drape below, fading into the background
   kSignal,     // arrows and markers: not part of the world, drawn over it, nearly unlit
 };
@@ -65,6 +69,7 @@ struct Material {
   float metalness = 0;
   float roughness = 0.5f;
   Vec3f glow = Vec3f::Zero();  // light that a kSolid gives off by itself
+  float opacity = 1;  // of smoke
 };
 
 struct DrawItem {

@@ -2,6 +2,7 @@
 
 #include "geometry/rotation.h"
 #include "render_node/lighting.h"
+#include "render_node/organ_look.h"
 #include "render_node/scope_view.h"
 #include "render_node/solids.h"
 
@@ -91,6 +92,7 @@ SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<Orga
   arrow_shaft_ = renderer.add_mesh(unit_shaft());
   arrow_head_ = renderer.add_mesh(unit_head());
   marker_ = renderer.add_mesh(unit_ball());
+  puff_ = renderer.add_mesh(Smoke::square());
 }
 
 Outline SceneView::outline() const {
@@ -117,11 +119,13 @@ void SceneView::deform(std::size_t organ, std::span<const float> values) {
   send_vertices(organs_[organ]);
 }
 
-void SceneView::send_vertices(const DrawnOrgan& organ) {
+void SceneView::send_vertices(DrawnOrgan& organ) {
+  organ.stale = false;
   renderer_.update_vertices(organ.mesh, organ.drawing->mesh().vertices);
   const std::vector<OrganPart> parts = organ.drawing->parts();
   for (std::size_t p = 0; p < parts.size(); ++p)
     renderer_.update_vertices(organ.parts[p], parts[p].mesh->vertices);
+  if (organ.blood) renderer_.update_vertices(*organ.blood, organ.drawing->blood()->vertices);
 }
 
 bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<const float> values,
@@ -141,18 +145,6 @@ bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<con
 
 void SceneView::forget_map() {
   for (DrawnOrgan& organ : organs_) organ.mapped = false;
-}
-
-void SceneView::show_cut(DrawnOrgan& organ) {
-  for (const auto& [first, count] : organ.drawing->changed())
-    renderer_.update_triangles(organ.mesh, first,
-                               std::span(organ.drawing->mesh().triangles).subspan(first, count));
-  const MeshData& bared = *organ.drawing->bared();
-  if (organ.bared) {
-    renderer_.replace_mesh(*organ.bared, bared);
-  } else {
-    organ.bared = renderer_.add_mesh(bared);
-  }
 }
 
 Camera SceneView::first_camera() const {
@@ -175,6 +167,7 @@ Frame SceneView::frame(const ViewChoices& choices, std::span<const ToolNow> tool
   Frame frame = frame_from(camera(choices, tools), choices, tools, panel_share);
   frame.through_endoscope = choices.endoscope;
   if (choices.endoscope) frame.lighting = scope_light(camera(choices, tools), shadow_ball());
+  smoke_.draw(frame.view.eye, puff_, frame.items);
   return frame;
 }
 
@@ -225,6 +218,7 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.wires = choices.wires;
+  order_translucent(frame.view.eye);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const DrawnOrgan& organ : organs_) add_organ(organ, choices.map != TissueMap::kOff, frame.items);
   for (std::size_t t = 0; t < tools.size(); ++t) {
@@ -246,6 +240,7 @@ void SceneView::add_organ(const DrawnOrgan& organ, bool map, std::vector<DrawIte
   const bool is_cut = organ.bared && drawing.removed_count() > 0;
   add(organ.mesh, is_cut ? Look::kCut : drawing.look(), drawing.material());
   if (is_cut) add(*organ.bared, Look::kBared, drawing.bared_material());
+  if (is_cut && organ.blood && !is_map) add(*organ.blood, Look::kBlood, blood_material());
   const std::vector<OrganPart> parts = drawing.parts();
   for (std::size_t p = 0; p < parts.size(); ++p) add(organ.parts[p], parts[p].look, parts[p].material);
 }

@@ -1,11 +1,13 @@
 // The scene as something to draw: organs, instruments, arrows and markers, from state to a Frame.
 #pragma once
 
+#include "render_node/back_to_front.h"
 #include "render_node/camera_score.h"
 #include "render_node/close_up.h"
 #include "render_node/exposure_raster.h"
 #include "render_node/instrument_shape.h"
 #include "render_node/organ_drawing.h"
+#include "render_node/smoke.h"
 #include "render_node/tissue_map.h"
 
 #include <algorithm>
@@ -25,6 +27,7 @@ struct ToolNow {
   std::size_t contact_organ = 0;
   std::vector<std::uint32_t> contact_nodes;  // places in the mesh file, from 0
   std::vector<float> contact_forces_n;       // on each of them
+  std::optional<Vec3> burning_at;            // the middle of its edge, in W, while it cuts
 };
 
 /// What the person at the window chose.
@@ -55,6 +58,13 @@ class SceneView {
   /// changed.
   [[nodiscard]] bool show(std::size_t organ, const RemovedSet& removed, std::span<const float> values,
                           std::span<const float> shares = {});
+  /// `dt_s` go by under these forces (OrganDrawing::live), which is seen from the next show() or refresh()
+  /// on.
+  void live(std::size_t organ, std::span<const NodeForce> forces, double dt_s);
+  /// And smoke rises from edges that burn.
+  void smoke(std::span<const ToolNow> tools, double dt_s);
+  /// Where no state came: shows what changed without one.
+  void refresh(std::size_t organ);
   /// What organs are a map of is of no use any more: until they are shown anew they are drawn as tissue.
   void forget_map();
   /// Whether an organ's shares are known.
@@ -103,6 +113,8 @@ class SceneView {
     MeshId mesh{};
     std::optional<MeshId> bared{};  // made when it is first cut
     std::vector<MeshId> parts;      // as the drawing has them
+    std::optional<MeshId> blood{};  // made when it first bleeds
+    bool stale = false;             // what is on the screen lacks a change
     bool mapped = false;            // its vertices have their shares of the map
   };
   struct DrawnPart {
@@ -110,8 +122,9 @@ class SceneView {
     MeshId mesh{};
   };
   Outline outline() const;
-  void send_vertices(const DrawnOrgan& organ);
+  void send_vertices(DrawnOrgan& organ);
   void show_cut(DrawnOrgan& organ);
+  void order_translucent(const Vec3f& eye) const;  // what is drawn of it with the next frame
   const PressedSurface* touched_surface(const ToolNow& tool) const;
   Ball shadow_ball() const;  // what the shadow map covers
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;
@@ -129,7 +142,9 @@ class SceneView {
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
   MeshData drape_;  // the ground's
-  MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{};
+  MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{}, puff_{};
+  Smoke smoke_;
+  mutable BackToFront back_to_front_;  // workspace
 };
 
 }  // namespace omentum::render

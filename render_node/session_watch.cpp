@@ -51,6 +51,7 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
       max_force_n_(scene.haptics.max_force_n),
       loaded_(node::loaded_scene(scene, infos_of(organs))),
       begin_ns_(begin_ns),
+      listened_ns_(begin_ns),
       tools_(scene.tools.size()),
       rows_(scene.tools.size()),
       histories_(scene.tools.size()),
@@ -73,6 +74,8 @@ void SessionWatch::listen(Inbox& inbox, SceneView& view, runtime::FaultList& fau
   listen_to_scene(inbox, faults, now_ns);
   listen_to_organs(inbox, view, faults, now_ns);
   for (std::size_t t = 0; t < tools_.size(); ++t) listen_to_tool(inbox, t, now_ns);
+  view.smoke(tools_, since_listened_s(now_ns));
+  listened_ns_ = now_ns;
   find_deepest_dent(view, now_ns);
   statuses_ = inbox.statuses();
   incomplete_states_ = inbox.incomplete_states();
@@ -94,8 +97,13 @@ void SessionWatch::listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std
 void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, runtime::FaultList& faults,
                                     std::int64_t now_ns) {
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    forces_on(i, ids_, now_ns - kForceGone_ns, max_force_n_, inbox, forces_);
+    view.live(i, forces_, since_listened_s(now_ns));
     const AssembledState* state = inbox.fetch_state(i);
-    if (!state) continue;
+    if (!state) {
+      view.refresh(i);
+      continue;
+    }
     if (!view.show(i, state->removed, state->values, shares_of(*state))) {
       faults.raise(kMisfitState);
       continue;
@@ -140,6 +148,7 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
   now.contact_forces_n.clear();
   inbox.force_peaks().believe_up_to(max_force_n_);
   rows_[tool].most_n = static_cast<float>(inbox.force_peaks().peak_n(ids_[tool]));
+  now.burning_at.reset();
   rows_[tool].present = now.seen;
   rows_[tool].state = force_state_words(felt ? force.sample.state : 0);
   if (now.seen && trocars_[tool].misses()) rows_[tool].state.emplace_back("off its trocar");
@@ -160,6 +169,8 @@ void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_
     const auto& [contact, arrived_ns] = inbox.contact(organ, ids_[tool]);
     if (now_ns - arrived_ns > kForceGone_ns)
       continue;  // haptic_node tells an organ that was left for a while only
+    if (contact.cutting)
+      now.burning_at = 0.5 * (node::to_vector(contact.edge.begin) + node::to_vector(contact.edge.end));
     const double total_n = node::total_force_n(contact);
     if (contact.nodes.empty() || !is_plausible(contact, max_force_n_) || total_n <= most_n) continue;
     most_n = total_n;

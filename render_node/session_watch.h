@@ -4,6 +4,7 @@
 #include "node_common/loaded_scene.h"
 #include "render_node/force_history.h"
 #include "render_node/inbox.h"
+#include "render_node/node_forces.h"
 #include "render_node/panel_view.h"
 #include "render_node/scene_view.h"
 #include "render_node/trocar_watch.h"
@@ -51,6 +52,9 @@ class SessionWatch {
   std::span<const float> shares_of(const AssembledState& state);
   static void draw_contact(const msg::Contact& contact, ToolNow& now);
   void find_deepest_dent(const SceneView& view, std::int64_t now_ns);
+  double since_listened_s(std::int64_t now_ns) const {
+    return 1e-9 * static_cast<double>(now_ns - listened_ns_);
+  }
   double seconds_since_begin(std::int64_t now_ns) const {
     return 1e-9 * static_cast<double>(now_ns - begin_ns_);
   }
@@ -60,7 +64,8 @@ class SessionWatch {
   double max_force_n_;                // of the scene
   std::vector<TrocarWatch> trocars_;  // per tool
   node::LoadedScene loaded_;
-  std::int64_t begin_ns_;
+  std::int64_t begin_ns_, listened_ns_;
+  std::vector<NodeForce> forces_;  // on an organ, workspace
   std::vector<ToolNow> tools_;
   std::vector<ToolRow> rows_;
   std::vector<ForceHistory> histories_;

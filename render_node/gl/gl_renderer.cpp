@@ -1,7 +1,9 @@
 #include "render_node/gl/gl_renderer.h"
 
+#include "render_node/draw_order.h"
 #include "render_node/gl/gl_context.h"
 #include "render_node/gl/mesh_buffer.h"
+#include "render_node/gl/noise_texture.h"
 #include "render_node/gl/panel_backend.h"
 #include "render_node/gl/programs.h"
 #include "render_node/gl/render_target.h"
@@ -9,7 +11,6 @@
 #include "render_node/gl/wires.h"
 #include "render_node/picture_quality.h"
 #include "render_node/tissue_map.h"
-#include "render_node/tissue_pattern.h"
 #include "shader_sources.h"  // generated from gl/shaders/
 
 #include <epoxy/gl.h>
@@ -27,28 +28,6 @@ constexpr int kShadowUnit = 0, kPatternUnit = 1;  // texture units
 constexpr float kSignalDepth =
     0.02f;  // share of the depth range that is kept for what is drawn over the world
 constexpr float kShadowSlope = 2.0f, kShadowBias = 4.0f;  // glPolygonOffset, against self-shadowing
-
-class NoiseTexture {
- public:
-  explicit NoiseTexture(const TissuePattern& pattern) {
-    glGenTextures(1, &texture_);
-    glBindTexture(GL_TEXTURE_3D, texture_);
-    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, pattern.side, pattern.side, pattern.side, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, pattern.texels.data());
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  }
-  ~NoiseTexture() { glDeleteTextures(1, &texture_); }
-  NoiseTexture(const NoiseTexture&) = delete;
-  NoiseTexture& operator=(const NoiseTexture&) = delete;
-  void bind(int unit) const {
-    glActiveTexture(GL_TEXTURE0 + static_cast<unsigned>(unit));
-    glBindTexture(GL_TEXTURE_3D, texture_);
-  }
-
- private:
-  unsigned texture_ = 0;
-};
 
 class GlRenderer final : public Renderer {
  public:
@@ -147,7 +126,7 @@ class GlRenderer final : public Renderer {
     shadow_program_.use();
     shadow_program_.set("clip_from_W", frame.lighting.clip_from_W);
     for (const DrawItem& item : frame.items) {
-      if (item.look == Look::kGround || item.look == Look::kSignal) continue;
+      if (!casts_shadow(item.look)) continue;
       shadow_program_.set("W_from_mesh", item.W_from_mesh);
       mesh(item.mesh).draw();
     }
@@ -165,16 +144,14 @@ class GlRenderer final : public Renderer {
 
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
-    // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look : {Look::kSolid, Look::kGut, Look::kTissue, Look::kCut, Look::kBared,
-                            Look::kMesentery, Look::kMap, Look::kGround, Look::kSignal})
-      draw_items(frame, look);
+    for (const Look look : opaque_looks(frame.quality)) draw_items(frame, look);
     glDepthRange(kSignalDepth, 1);
     if (frame.wires) wires_.draw(frame, [this](MeshId id) -> const MeshBuffer& { return mesh(id); });
     glDisable(GL_CULL_FACE);
     glDepthFunc(GL_LEQUAL);
     fill_screen(programs(frame).backdrop(), frame);
     glDepthFunc(GL_LESS);
+    blend_looks(frame);
     glDisable(GL_DEPTH_TEST);
 
     if (frame.through_endoscope) {
@@ -183,6 +160,17 @@ class GlRenderer final : public Renderer {
       fill_screen(programs(frame).lens(), frame);
       glDisable(GL_BLEND);
     }
+  }
+
+  void blend_looks(const Frame& frame) {
+    glEnable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    for (const Look look : blended_looks(frame.quality)) draw_items(frame, look);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
   }
 
   void draw_items(const Frame& frame, Look look) {
@@ -200,6 +188,7 @@ class GlRenderer final : public Renderer {
       program.set("material_metalness", item.material.metalness);
       program.set("material_roughness", item.material.roughness);
       program.set("material_glow", item.material.glow);
+      if (look == Look::kSmoke) program.set("material_opacity", item.material.opacity);
       mesh(item.mesh).draw();
     }
   }
