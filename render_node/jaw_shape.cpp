@@ -26,6 +26,8 @@ constexpr float kToothed = 0.82f;  // of the length, from the tip
 
 // At the hinge jaws are narrow, to turn between their cheeks; shares of the radius.
 constexpr float kTongueWidth = 0.56f, kTongueHeight = 0.80f, kCheekInside = 0.60f;
+constexpr float kBlade_m = 0.0022f;                 // how thick jaws are whose inner faces stand apart
+constexpr float kAroundX = 1.35f, kAroundY = 1.2f;  // blunt tips reach so much beyond their points
 constexpr int kArc = 9;
 
 float smooth(float from, float to, float x) {
@@ -44,8 +46,10 @@ Section section_at(const JawForm& form, float z) {
     const float in = std::min(1.0f, z / r), bulge = std::sqrt(std::max(0.0f, 1 - (1 - in) * (1 - in)));
     return {section.height * bulge, section.width * bulge};
   }
-  // the blunt tip's points are near to the rim of an ellipse a little larger than they
-  constexpr float kAroundX = 1.35f, kAroundY = 1.2f, kNarrow = 0.92f;
+  if (form.blades)
+    return {std::lerp(form.gap + kBlade_m, section.height, behind),
+            std::lerp(kAroundY * form.tip_y, section.width, behind)};
+  constexpr float kNarrow = 0.92f;
   const float grown = smooth(0, form.widest_z, z);
   return {std::lerp(kAroundX * form.tip_x, section.height, grown),
           std::lerp(kAroundY * form.tip_y, kNarrow * section.width, grown)};
@@ -54,7 +58,9 @@ Section section_at(const JawForm& form, float z) {
 // The outside from one rim to the other, and the inside back.
 std::vector<Vec3f> ring_at(const JawForm& form, float side, float z, bool tooth) {
   const auto [height, width] = section_at(form, z);
-  const float rim = std::min(form.gap, 0.5f * height);
+  const float apart =
+      form.blades ? std::lerp(form.gap, kRims_m, smooth(0.45f * kLength, kLength, z)) : form.gap;
+  const float rim = std::min(apart, form.blades ? height - 0.5f * kBlade_m : 0.5f * height);
   std::vector<Vec3f> ring;
   for (int a = 0; a <= kArc; ++a) {
     const float angle = kJawPi * static_cast<float>(a) / kArc;
@@ -81,6 +87,16 @@ bool is_inner(const JawForm& form, const Vec3f& p) {
   return outside < kInside * form.radius;
 }
 
+// Whether the points lie on two planes across x: faces that stand apart however far the jaws are closed.
+bool are_blades(const std::vector<geometry::Vec3>& points) {
+  constexpr std::size_t kFaces = 6;  // three points span a face
+  const auto off_first = [&](const geometry::Vec3& p) {
+    return std::abs(std::abs(p.x()) - std::abs(points[0].x())) > static_cast<double>(kTip_m);
+  };
+  return points.size() >= kFaces && std::abs(points[0].x()) > static_cast<double>(kTip_m) &&
+         std::ranges::none_of(points, off_first);
+}
+
 }  // namespace
 
 JawForm jaw_form(const scene::ToolSpec& tool) {
@@ -103,6 +119,12 @@ JawForm jaw_form(const scene::ToolSpec& tool) {
   if (widest > 0 && form.round && form.widest_z > kFront_m)
     form.radius = std::max(widest, 0.5f * (widest * widest / form.widest_z + form.widest_z));
   form.gap = kRims_m;
+  if (are_blades(tool.points)) {
+    form.blades = true, form.hollow = false;
+    form.gap = static_cast<float>(std::abs(tool.points[0].x()));
+    form.radius = static_cast<float>(tool.shaft_radius_m);
+    return form;
+  }
   for (const geometry::Vec3& point : tool.points) {
     const Vec3f p = point.cast<float>();
     if (!is_inner(form, p)) continue;

@@ -13,8 +13,9 @@ struct JawForm {
   float widest_z = 0.0025f;  // there
   bool round = true;         // a hemisphere's tip; else blunt, with these half sizes across
   float tip_x = 0, tip_y = 0;
-  bool hollow = true;  // spoons, whose thin wall has the points; else flat inner faces
-  float gap = 0;       // half of what is between the closed jaws' inner faces or rims
+  bool hollow = true;   // spoons, whose thin wall has the points; else flat inner faces
+  bool blades = false;  // flat faces that stand apart even when closed, on arms from the hinge
+  float gap = 0;        // half of what is between the closed jaws' inner faces or rims
 };
 JawForm jaw_form(const scene::ToolSpec& tool);
 

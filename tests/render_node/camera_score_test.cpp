@@ -100,9 +100,9 @@ TEST(CameraScore, MomentsCountByHowLongTheyLast) {
   score.add(0, {.off_centre_rad = 0, .roll_rad = 0, .in_sight = true});
   score.add(0.2, {.off_centre_rad = 20 * kDegree, .roll_rad = -8 * kDegree, .in_sight = true});
   score.add(0.3, {.off_centre_rad = 5 * kDegree, .roll_rad = {}, .in_sight = false});
-  score.skip(0.4);                                                    // the scope is taken out
-  score.add(0.6, {.off_centre_rad = 5 * kDegree, .in_sight = true});  // and comes again
-  score.skip(5.6);                                                    // a picture that came late
+  score.skip(0.4);  // the scope is taken out
+  score.add(0.6, {.off_centre_rad = 5 * kDegree, .roll_rad = {}, .in_sight = true});  // and comes again
+  score.skip(5.6);  // a picture that came late
   const nlohmann::json report = score.report();
   const double seconds = 0.2 + 0.1 + 0.1 + CameraScore::kLongest_s;
   EXPECT_NEAR(report["seconds"], seconds, 1e-9);

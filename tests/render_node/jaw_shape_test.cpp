@@ -56,7 +56,9 @@ TEST_P(DrawnJaws, AreWithinHalfAMillimetreOfTheCollidingPointsAtEveryOpening) {
   int tested = 0;
   for (const scene::ToolSpec& tool : scene.tools) {
     if (tool.shape != "grasper") continue;
-    const haptic::ToolModel model{.points = tool.points, .grasps = true};
+    haptic::ToolModel model;
+    model.points = tool.points;
+    model.grasps = true;
     const JawForm form = jaw_form(tool);
     for (const InstrumentPart& part : instrument_parts(tool, Vec3f::Ones())) {
       if (part.jaw == 0) continue;
@@ -69,7 +71,9 @@ TEST_P(DrawnJaws, AreWithinHalfAMillimetreOfTheCollidingPointsAtEveryOpening) {
           EXPECT_LT(distance_to(at, part.mesh, pose, Vec3::Zero()), kSeen_m) << point.transpose();
           // tissue between hollow jaws meets the inside of their walls; flat ones have points of their own
           const bool inner = form.hollow || std::abs(point.x()) < 1.5 * static_cast<double>(form.gap);
-          if (inner) EXPECT_LT(distance_to(at, part.mesh, pose, inwards), kSeen_m) << point.transpose();
+          if (inner) {
+            EXPECT_LT(distance_to(at, part.mesh, pose, inwards), kSeen_m) << point.transpose();
+          }
           ++tested;
         }
       }
@@ -78,8 +82,8 @@ TEST_P(DrawnJaws, AreWithinHalfAMillimetreOfTheCollidingPointsAtEveryOpening) {
   EXPECT_GE(tested, 20) << "two points on one jaw and three on the other, at each opening";
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, DrawnJaws,
-                         ::testing::Values("liver", "two_organs", "liver_cut", "liver_dynamic", "abdomen",
-                                           "intestine_plane"),
+                         ::testing::Values("liver", "hepatectomy", "two_organs", "liver_cut", "liver_dynamic",
+                                           "abdomen", "intestine_plane"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(InstrumentShape, AHooksWireIsWhereItsEdgeCutsAndAloneGlowsWhileItDoes) {

@@ -42,7 +42,7 @@ vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred) {
   float torch = clamp(unit_length * torch_sight / distance(eye, p), 0.0, torch_most);
   vec3 light = key_colour * w * w * (1.0 + scattered * (1.0 - w)) + fill_colour * torch * m.nv;
   vec3 kept = vec3(open, open * open, open * open);
-  light += mix(ambient_below, ambient_above, m.n.z * 0.5 + 0.5) * kept;
+  light += mix(ambient_below, ambient_above, m.n.z * 0.5 + 0.5) * kept * mix(vec3(1.0), ambient_in_body, scope);
   vec3 glint = gloss(m.n, m.v, towards_key, max(material_roughness, widest_film), vec3(0.028)) * key_colour;
   glint += gloss(m.n, m.v, m.v, max(material_roughness, widest_film), vec3(0.028)) * fill_colour * torch;
   float grazing = pow(1.0 - m.nv, 5.0);
@@ -52,6 +52,8 @@ vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred) {
 #endif
 
 #ifdef SOLID
+uniform vec3 material_glow;
+
 vec3 solid(Meeting m) {
   vec3 f0 = mix(vec3(0.04), material_colour, material_metalness);
   vec3 base = material_colour * (1.0 - material_metalness);
@@ -59,7 +61,7 @@ vec3 solid(Meeting m) {
   vec3 body = base * (key_colour * max(m.nl, 0.0) + fill_colour * m.nv + ambient);
   vec3 fresnel = f0 + (max(vec3(1.0 - material_roughness), f0) - f0) * pow(1.0 - m.nv, 5.0);
   vec3 mirror = room(reflect(-m.v, m.n), material_roughness) * fresnel * mix(1.0, 1.5, material_metalness);
-  return body + mirror + gloss(m.n, m.v, towards_key, material_roughness, f0) * key_colour * pi * 0.6;
+  return body + mirror + gloss(m.n, m.v, towards_key, material_roughness, f0) * key_colour * pi * 0.6 + material_glow;
 }
 #endif
 
@@ -88,6 +90,7 @@ void light_vertex(vec3 p, vec3 n, vec3 at_rest, float open, float charred, float
   Meeting m;
   m.n = normalize(n);
   m.v = normalize(eye - p);
+  aim_key(p);
   m.nl = dot(m.n, towards_key);
   m.nv = clamp(dot(m.n, m.v), 0.0, 1.0);
 #if defined(TISSUE)
