@@ -12,6 +12,7 @@ const vec3 water_f0 = vec3(0.030);
 const float key_glint = 1.4, fill_glint = 1.2, mirror_straight = 0.05, mirror_grazing = 0.6, mirror_blur = 0.15;
 
 void main() {
+  aim_key(p_W);
   vec3 v = normalize(eye - p_W), n = normalize(n_W);
   float nl = max(dot(n, towards_key), 0.0), nv = clamp(dot(n, v), 0.0, 1.0);
   float shade = lit(p_W, n, nl);

@@ -29,6 +29,6 @@ void main() {
   pallor = pallor_in;
   gl_Position = clip_from_W * p;
 #ifdef PER_VERTEX
-  light_vertex(p_W, n_W, rest, openness, charring, share);
+  light_vertex(p_W, n_W, rest, openness, charring, share, pallor);
 #endif
 }
