@@ -396,6 +396,27 @@ TEST_F(PanelLayout, NoLabelLiesOnTheForceCurve) {
   });
 }
 
+TEST_F(PanelLayout, ALongNameLeavesRoomForWhatForceSafetyDid) {
+  const auto dim_corners = [&](const std::string& name, const std::string& word, float most_n) {
+    PanelView view;
+    ToolRow& tool = view.tools.emplace_back();
+    tool.name = name;
+    tool.present = true;
+    tool.most_n = most_n;
+    tool.state = {word};
+    height_of(view);
+    const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    int count = 0;
+    for_each_corner([&](const ImDrawVert& v) { count += v.col == dim; });
+    return count;
+  };
+  for (const char* word : {"stale", "clamped", "damped"})
+    for (const float most_n : {0.31f, 0.91f, 1.47f, 4.44f, 11.11f})
+      for (const char* name :
+           {"right hand, probe", "left hand, grasper", "iiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiii"})
+        EXPECT_EQ(dim_corners(name, word, most_n), dim_corners("a", word, most_n)) << name << ", " << word;
+}
+
 TEST_F(PanelLayout, EmptyPanelIsLaidOutToo) {
   EXPECT_GT(height_of({}), 0);
 }
