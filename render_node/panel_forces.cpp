@@ -79,7 +79,7 @@ void tool_line(const ToolRow& tool) {
   std::string force = "absent";
   if (tool.present) force = format("%.2f N", static_cast<double>(tool.force_n));
   if (tool.most_n > 0) force += format(", most %.2f", static_cast<double>(tool.most_n));
-  const std::string right = words.empty() ? force : words + "  " + force;
+  const std::string right = words.empty() ? force : words + "   " + force;
   ImGui::TextUnformatted(beside(right, tool.name).c_str());
   if (!words.empty()) {
     ImGui::SameLine();

@@ -62,7 +62,7 @@ class Drawing : public testing::Test {
  protected:
   void SetUp() override {
     try {
-      renderer_ = gl::open_offscreen(kSize);
+      renderer_ = gl::open_offscreen(kSize, 1);
     } catch (const gl::DisplayError& error) {
       GTEST_SKIP() << error.what();
     }
@@ -288,7 +288,7 @@ TEST_F(Drawing, WindowAndOffscreenAgree) {
   const Picture offscreen = draw(*renderer_, tools);
   renderer_.reset();  // one panel at a time
   try {
-    renderer_ = gl::open_window(kSize, "test");
+    renderer_ = gl::open_window(kSize, "test", 1);
   } catch (const gl::DisplayError& error) {
     GTEST_SKIP() << error.what();
   }

@@ -396,6 +396,29 @@ TEST_F(PanelLayout, NoLabelLiesOnTheForceCurve) {
   });
 }
 
+TEST_F(PanelLayout, ALongNameLeavesRoomForWhatForceSafetyDid) {
+  // which letters are dim, as their places in the font: three dots may stand for three letters
+  const auto dim_letters = [&](const std::string& name, const std::string& word, float most_n) {
+    PanelView view;
+    ToolRow& tool = view.tools.emplace_back();
+    tool.name = name;
+    tool.present = true;
+    tool.most_n = most_n;
+    tool.state = {word};
+    height_of(view);
+    const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    double places = 0;
+    for_each_corner([&](const ImDrawVert& v) { places += v.col == dim ? v.uv.x + v.uv.y : 0; });
+    return places;
+  };
+  for (const char* word : {"stale", "clamped", "damped"})
+    for (const float most_n : {0.31f, 0.91f, 1.47f, 4.44f, 11.11f})
+      for (const char* name :
+           {"right hand, probe", "left hand, grasper", "iiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiii"})
+        EXPECT_NEAR(dim_letters(name, word, most_n), dim_letters("a", word, most_n), 1e-6)
+            << name << ", " << word;
+}
+
 TEST_F(PanelLayout, EmptyPanelIsLaidOutToo) {
   EXPECT_GT(height_of({}), 0);
 }
