@@ -4,7 +4,7 @@ import pathlib
 import tempfile
 import time
 
-from . import processes, report
+from . import processes, report, video
 from .domain import Domain
 from .keys import Keys
 from .leftovers import Leftovers
@@ -15,7 +15,7 @@ from .options import has_display
 POLL_S = 0.1
 REFUSAL_WINDOW_S = 10.0  # a node that ends with code 2 within this refused to start
 RESTART_PAUSE_S = 1.0
-COMMANDS = {"p": "toggle-pause", "r": "reset", "c": "clear-fault"}
+COMMANDS = {"p": "toggle-pause", "r": "reset", "c": "clear-fault", "v": "record"}
 PICTURES = ("frame_[0-9][0-9][0-9][0-9].png", "indent.png", "final.png")
 
 
@@ -65,6 +65,9 @@ class Session:
             own["render_node"].append("--headless")
         if self.options.map:
             own["render_node"] += ["--map", self.options.map]
+        for option, value in (("--record", self.options.record), ("--ui-scale", self.options.ui_scale)):
+            if value:
+                own["render_node"] += [option, f"{value:g}"]
         processors = processors_of(self.options.split)
         return [processes.Node(name, self.command(name) + extra, self.report_file(name), processors.get(name))
                 for name, extra in own.items()]
@@ -90,6 +93,7 @@ class Session:
         for pattern in (*PICTURES, "report.json"):
             for file in self.options.out.glob(pattern):
                 file.unlink()
+        video.clear(self.options.out)
 
     def announce(self):
         vendors = sorted(set(self.options.dds[node.name] for node in self.nodes))
@@ -166,6 +170,8 @@ class Session:
             self.stop()
             return 0
         print(f"run: {node.name} {node.how_it_ended()}; the others go on", flush=True)
+        if node.exit == processes.MACHINE_LACKS:
+            return 0  # its own line says what; trying again would not help
         if self.options.restart and node.exit not in (0, processes.REFUSED):
             self.restarts[node.name] = time.monotonic() + RESTART_PAUSE_S
         else:
@@ -207,4 +213,5 @@ class Session:
         report.write(merged, self.options.out / "report.json")
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)
+        video.make_all(merged["nodes"].get("render_node", {}).get("videos", []))
         return 1 if report.never_answered(merged) else 0

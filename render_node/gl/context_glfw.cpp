@@ -1,11 +1,15 @@
 #include "render_node/gl/gl_context.h"
 #include "render_node/gl/pointer_reader.h"
+#include "render_node/gl/window_keys.h"
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace omentum::render::gl {
 namespace {
@@ -39,6 +43,12 @@ class GlfwContext final : public GlContext {
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
       static_cast<GlfwContext*>(glfwGetWindowUserPointer(w))->scrolled_ += static_cast<float>(y);
     });
+    // told, not asked: on a slow machine a key is up again before the next frame
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+      if (action != GLFW_PRESS) return;
+      static_cast<GlfwContext*>(glfwGetWindowUserPointer(w))
+          ->typed_.add(letter_of(key, modifiers, glfwGetKeyName(key, scancode)));
+    });
   }
   ~GlfwContext() override {
     glfwDestroyWindow(window_);
@@ -51,6 +61,11 @@ class GlfwContext final : public GlContext {
     return {std::max(size.width, 1), std::max(size.height, 1)};  // 0 while minimized
   }
   bool has_window() const override { return true; }
+  float content_scale() const override {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return std::max(x, y);
+  }
   void start_panel() override {
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
   }  // after our own callbacks: it chains them
@@ -70,9 +85,7 @@ class GlfwContext final : public GlContext {
       input.zoom = scrolled_;
     }
     input.pointer = read_pointer();
-    const bool key = glfwGetKey(window_, GLFW_KEY_S) == GLFW_PRESS;
-    input.switch_map = key && !map_key_;
-    map_key_ = key;
+    input.keys = std::exchange(typed_, KeyPresses{});
     mouse_ = mouse;
     scrolled_ = seen_scrolled_ = 0;
     return input;
@@ -107,7 +120,7 @@ class GlfwContext final : public GlContext {
   Mouse mouse_;
   PointerReader pointer_reader_;
   float scrolled_ = 0, seen_scrolled_ = 0;  // since the last frame, and of that by who looked at the pointer
-  bool map_key_ = false;                    // was down
+  KeyPresses typed_;                        // since the last frame
 };
 
 }  // namespace
