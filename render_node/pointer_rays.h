@@ -5,6 +5,8 @@
 #include "transport/messages.h"
 
 #include <span>
+#include <string>
+#include <vector>
 
 namespace omentum::render {
 
