@@ -1,6 +1,8 @@
 #include "render_node/tube_drawing.h"
 
+#include "geometry/gut_skin.h"
 #include "geometry/precondition.h"
+#include "render_node/pallor.h"
 #include "render_node/sheet_skin.h"
 #include "render_node/tube_skin.h"
 
@@ -22,7 +24,11 @@ class TubeDrawing final : public OrganDrawing {
         wall_(wall),
         masses_(rest.positions),
         tube_(axis_of(layout_, masses_), rest.tube_radius_m),
-        sheet_(rest) {
+        sheet_(rest),
+        touched_(rest),
+        touched_places_(touched_.node_count()),
+        tube_pallor_(tube_.mesh()),
+        sheet_pallor_(sheet_.mesh()) {
     sheet_.deform(masses_, tube_.shade());
   }
 
@@ -31,6 +37,7 @@ class TubeDrawing final : public OrganDrawing {
   bool wanders() const override { return true; }
   void deform(std::span<const float> values) override;
   [[nodiscard]] bool map(std::span<const float> shares) override;
+  bool live(std::span<const NodeForce> forces, double dt_s) override;
   const MeshData& mesh() const override { return tube_.mesh(); }
   Material material() const override { return wall_; }
   Look look() const override { return Look::kGut; }
@@ -45,7 +52,29 @@ class TubeDrawing final : public OrganDrawing {
   std::vector<geometry::Vec3> masses_;  // of the last state
   TubeSkin tube_;
   SheetSkin sheet_;
+  geometry::GutSkin touched_;  // what tools' forces are told of
+  std::vector<geometry::Vec3> touched_places_;
+  Pallor tube_pallor_, sheet_pallor_;
+  std::vector<Press> on_tube_, on_sheet_;  // workspace
 };
+
+bool TubeDrawing::live(std::span<const NodeForce> forces, double dt_s) {
+  on_tube_.clear();
+  on_sheet_.clear();
+  if (!forces.empty()) touched_.place(masses_, touched_places_);
+  const auto nodes = touched_.node_count();
+  const std::size_t of_sheet = 2 * static_cast<std::size_t>(layout_.mass_count());  // the last ones
+  for (const auto& [node, force_n] : forces) {
+    if (node >= nodes) continue;
+    const geometry::Vec3& place = touched_places_[node];
+    const geometry::NodeId id(std::size_t{node});
+    const geometry::Vec3 outward = place - geometry::weighted(touched_.node(id), masses_);
+    (node + of_sheet < nodes ? on_tube_ : on_sheet_)
+        .push_back(press_of(place.cast<float>(), outward.normalized().cast<float>(), force_n));
+  }
+  const bool tube = tube_pallor_.advance(on_tube_, dt_s, tube_.vertices());
+  return sheet_pallor_.advance(on_sheet_, dt_s, sheet_.vertices()) || tube;
+}
 
 Outline TubeDrawing::outline() const {
   Outline outline;

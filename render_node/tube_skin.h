@@ -25,6 +25,8 @@ class TubeSkin {
 
   /// Closed, as many vertices and triangles as ever.
   const MeshData& mesh() const { return mesh_; }
+  /// For fields that are not this class's.
+  std::span<Vertex> vertices() { return mesh_.vertices; }
   const FoldShade& shade() const { return shade_; }
   /// Along its masses.
   double length_m() const { return length_m_; }

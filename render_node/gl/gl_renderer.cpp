@@ -1,14 +1,16 @@
 #include "render_node/gl/gl_renderer.h"
 
+#include "render_node/draw_order.h"
 #include "render_node/gl/gl_context.h"
 #include "render_node/gl/mesh_buffer.h"
+#include "render_node/gl/noise_texture.h"
 #include "render_node/gl/panel_backend.h"
 #include "render_node/gl/programs.h"
 #include "render_node/gl/render_target.h"
 #include "render_node/gl/stretch.h"
+#include "render_node/gl/wires.h"
 #include "render_node/picture_quality.h"
 #include "render_node/tissue_map.h"
-#include "render_node/tissue_pattern.h"
 #include "shader_sources.h"  // generated from gl/shaders/
 
 #include <epoxy/gl.h>
@@ -27,34 +29,12 @@ constexpr float kSignalDepth =
     0.02f;  // share of the depth range that is kept for what is drawn over the world
 constexpr float kShadowSlope = 2.0f, kShadowBias = 4.0f;  // glPolygonOffset, against self-shadowing
 
-class NoiseTexture {
- public:
-  explicit NoiseTexture(const TissuePattern& pattern) {
-    glGenTextures(1, &texture_);
-    glBindTexture(GL_TEXTURE_3D, texture_);
-    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, pattern.side, pattern.side, pattern.side, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, pattern.texels.data());
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  }
-  ~NoiseTexture() { glDeleteTextures(1, &texture_); }
-  NoiseTexture(const NoiseTexture&) = delete;
-  NoiseTexture& operator=(const NoiseTexture&) = delete;
-  void bind(int unit) const {
-    glActiveTexture(GL_TEXTURE0 + static_cast<unsigned>(unit));
-    glBindTexture(GL_TEXTURE_3D, texture_);
-  }
-
- private:
-  unsigned texture_ = 0;
-};
-
 class GlRenderer final : public Renderer {
  public:
-  explicit GlRenderer(std::unique_ptr<GlContext> context)
+  GlRenderer(std::unique_ptr<GlContext> context, float ui_scale)
       : context_(std::move(context)), pattern_(make_tissue_pattern(kPatternSide)), shadow_(kShadowSide) {
     glGenVertexArrays(1, &no_vertices_);
-    panel_.emplace(*context_);
+    panel_.emplace(*context_, ui_scale);
   }
   ~GlRenderer() override { glDeleteVertexArrays(1, &no_vertices_); }
 
@@ -74,6 +54,7 @@ class GlRenderer final : public Renderer {
   }
 
   Input begin_frame() override { return panel_->begin_frame(); }
+  Pointer look_at_pointer() override { return context_->look_at_pointer(); }
 
   void draw(const Frame& frame) override {
     fit_targets();
@@ -105,6 +86,7 @@ class GlRenderer final : public Renderer {
 
   Size size() const override { return context_->size(); }
   bool has_window() const override { return context_->has_window(); }
+  float ui_scale() const override { return panel_->scale(); }
   std::string software() const override {
     const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const bool is_program = name.find("llvmpipe") == 0 || name.find("softpipe") == 0 || name.find("SWR") == 0;
@@ -144,7 +126,7 @@ class GlRenderer final : public Renderer {
     shadow_program_.use();
     shadow_program_.set("clip_from_W", frame.lighting.clip_from_W);
     for (const DrawItem& item : frame.items) {
-      if (item.look == Look::kGround || item.look == Look::kSignal) continue;
+      if (!casts_shadow(item.look)) continue;
       shadow_program_.set("W_from_mesh", item.W_from_mesh);
       mesh(item.mesh).draw();
     }
@@ -162,15 +144,14 @@ class GlRenderer final : public Renderer {
 
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
-    // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look : {Look::kSolid, Look::kGut, Look::kTissue, Look::kCut, Look::kBared,
-                            Look::kMesentery, Look::kMap, Look::kGround, Look::kSignal})
-      draw_items(frame, look);
-    glDisable(GL_CULL_FACE);
+    for (const Look look : opaque_looks(frame.quality)) draw_items(frame, look);
     glDepthRange(kSignalDepth, 1);
+    if (frame.wires) wires_.draw(frame, [this](MeshId id) -> const MeshBuffer& { return mesh(id); });
+    glDisable(GL_CULL_FACE);
     glDepthFunc(GL_LEQUAL);
     fill_screen(programs(frame).backdrop(), frame);
     glDepthFunc(GL_LESS);
+    blend_looks(frame);
     glDisable(GL_DEPTH_TEST);
 
     if (frame.through_endoscope) {
@@ -179,6 +160,17 @@ class GlRenderer final : public Renderer {
       fill_screen(programs(frame).lens(), frame);
       glDisable(GL_BLEND);
     }
+  }
+
+  void blend_looks(const Frame& frame) {
+    glEnable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    for (const Look look : blended_looks(frame.quality)) draw_items(frame, look);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
   }
 
   void draw_items(const Frame& frame, Look look) {
@@ -195,13 +187,17 @@ class GlRenderer final : public Renderer {
       program.set("material_colour", item.material.colour);
       program.set("material_metalness", item.material.metalness);
       program.set("material_roughness", item.material.roughness);
+      program.set("material_glow", item.material.glow);
+      if (look == Look::kSmoke) program.set("material_opacity", item.material.opacity);
       mesh(item.mesh).draw();
     }
   }
 
   void set_scene(const Program& program, const Frame& frame) {
     program.set("eye", frame.view.eye);
-    program.set("towards_key", frame.lighting.towards_key);
+    program.set("far_key", frame.lighting.towards_key);
+    program.set("lamp", frame.lighting.lamp);
+    program.set("lamp_reach", frame.lighting.lamp_reach_m);
     program.set("light_from_W", frame.lighting.clip_from_W);
     program.set("unit_length", frame.lighting.radius_m);
     program.set("picture_size", static_cast<float>(drawn_.width), static_cast<float>(drawn_.height));
@@ -248,6 +244,7 @@ class GlRenderer final : public Renderer {
   std::array<std::optional<Programs>, kShadingCount> programs_;  // made when first needed
   Stretch stretch_{!software().empty()};
   NoiseTexture pattern_;
+  Wires wires_;
   ShadowMap shadow_;
   unsigned no_vertices_ = 0;
   std::vector<MeshBuffer> meshes_;
@@ -260,12 +257,12 @@ class GlRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> open_window(Size size, const std::string& title) {
-  return std::make_unique<GlRenderer>(open_glfw_context(size, title));
+std::unique_ptr<Renderer> open_window(Size size, const std::string& title, float ui_scale) {
+  return std::make_unique<GlRenderer>(open_glfw_context(size, title), ui_scale);
 }
 
-std::unique_ptr<Renderer> open_offscreen(Size size) {
-  return std::make_unique<GlRenderer>(open_egl_context(size));
+std::unique_ptr<Renderer> open_offscreen(Size size, float ui_scale) {
+  return std::make_unique<GlRenderer>(open_egl_context(size), ui_scale);
 }
 
 }  // namespace omentum::render::gl

@@ -34,6 +34,8 @@ Programs::Programs(Shading shading)
           surface(shading, "bared tissue", "#define CUT\n#define BARED\n", shaders::tissue_frag, "TISSUE")),
       map_(surface(shading, "map", "", shaders::map_frag, "MAP")),
       gut_(surface(shading, "gut", "#define GUT\n", shaders::tissue_frag, "TISSUE")),
+      blood_(surface(shading, "blood", "", shaders::blood_frag, "SOLID")),
+      smoke_("smoke", shaders::surface_vert, prefix_of(shading), shaders::smoke_frag),
       mesentery_(surface(shading, "mesentery", "#define SHEET\n", shaders::tissue_frag, "TISSUE")),
       solid_(surface(shading, "solid", "", shaders::solid_frag, "SOLID")),
       ground_(surface(shading, "ground", "", shaders::ground_frag, "GROUND")),
@@ -51,6 +53,10 @@ const Program& Programs::of(Look look) const {
       return map_;
     case Look::kGut:
       return gut_;
+    case Look::kBlood:
+      return blood_;
+    case Look::kSmoke:
+      return smoke_;
     case Look::kMesentery:
       return mesentery_;
     case Look::kGround:

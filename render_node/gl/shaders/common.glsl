@@ -2,7 +2,9 @@
 // SOFT_SHADOWS is defined for fine frames (software OpenGL runs both sides of every branch), NO_SHADOWS for coarse ones,
 // PER_VERTEX where a vertex shader computes light.
 uniform vec3 eye;            // in W, m
-uniform vec3 towards_key;    // unit, in W
+uniform vec3 far_key;        // towards the key light, unit, in W
+uniform vec3 lamp;           // of a scope, in W, m
+uniform float lamp_reach;    // where it is as bright as the key light, m; 0: that is far away
 uniform mat4 light_from_W;   // clip coordinates of the shadow map
 uniform sampler2DShadow shadow_map;
 uniform vec2 picture_size;   // pixels
@@ -13,8 +15,24 @@ uniform float unit_length;   // radius of what is looked at, m
 const float pi = 3.14159265;
 
 // Radiance scale of the two lights, chosen so that lit tissue lands in the middle of the film's curve.
-const vec3 key_colour = vec3(3.45, 3.24, 2.97);
+const vec3 key_radiance = vec3(3.45, 3.24, 2.97);
 const vec3 fill_colour = vec3(0.46, 0.49, 0.52);
+
+// A scope's light, of the key light's: it meets all that is seen head-on, so less is enough; at most so much brighter nearby (its
+// camera dims it), and how it falls off towards the rim of its cone. Light from all around is what red tissue sends back.
+const float lamp_share = 0.62, lamp_most = 2.4, lamp_cone = 1.5;
+const vec3 ambient_in_body = vec3(0.62, 0.34, 0.28);
+
+// The key light here: towards it, and its radiance. Every main() that is lit begins with aim_key().
+vec3 towards_key = far_key, key_colour = key_radiance;
+void aim_key(vec3 p_W) {
+  if (lamp_reach == 0.0) return;
+  vec3 to_lamp = lamp - p_W;
+  float away = length(to_lamp);
+  towards_key = to_lamp / away;
+  float nearness = lamp_reach / away;
+  key_colour *= lamp_share * min(nearness * nearness, lamp_most) * pow(max(dot(towards_key, far_key), 0.0), lamp_cone);
+}
 
 // The backdrop: how fast it falls off from behind the organ (per squared height of the picture), its height there, and
 // its colours at the rim and in the middle, on a table and inside a body.
@@ -73,7 +91,8 @@ float lit(vec3 p_W, vec3 n, float n_dot_l) {
   return 1.0;
 #else
   vec3 q = p_W + n * unit_length * mix(lift_grazing, lift_facing, clamp(n_dot_l, 0.0, 1.0));
-  vec3 s = (light_from_W * vec4(q, 1.0)).xyz * 0.5 + 0.5;
+  vec4 in_light = light_from_W * vec4(q, 1.0);
+  vec3 s = in_light.xyz / in_light.w * 0.5 + 0.5;
 #ifdef SOFT_SHADOWS
   // the points of a sunflower disc, turned from pixel to pixel
   float turn = 2.0 * pi * grain(gl_FragCoord.xy);

@@ -20,6 +20,7 @@ const float mottle_period = 0.062, grain_period = 0.0135;
 const vec3 creep = vec3(0.26, 0.10, 0.08), blood_tint = vec3(0.78, 0.74, 1.15);
 const vec3 ambient_below = vec3(0.11, 0.05, 0.042), ambient_above = vec3(0.22, 0.245, 0.28);
 const float scattered = 0.35, hollow_share = 0.8, torch_sight = 3.2, torch_most = 1.6;
+const float bloodless = 0.8;
 const vec3 burnt_tint = vec3(0.030, 0.012, 0.007);
 // Glints are wider than a vertex' share of the surface: narrower ones would jump from one to the next.
 const float widest_film = 0.42;
@@ -29,12 +30,13 @@ const float contrast = 0.20;
 const float contrast = 0.38;
 #endif
 
-vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred) {
+vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred, float pale) {
   float mottle = textureLod(pattern, at_rest / mottle_period, 0.0).a - 0.5;
   float fine = textureLod(pattern, at_rest / grain_period, 0.0).a - 0.5;
   float spot = 1.7 * mottle + 0.8 * fine;
   vec3 albedo = material_colour * (1.0 + contrast * spot);
   albedo = mix(albedo, albedo * blood_tint, clamp(-spot, 0.0, 1.0));
+  albedo = mix(albedo, sqrt(albedo), bloodless * pale);
 #ifdef CUT
   albedo = mix(albedo, burnt_tint, 0.85 * smoothstep(0.5, 1.0, charred));
 #endif
@@ -42,7 +44,7 @@ vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred) {
   float torch = clamp(unit_length * torch_sight / distance(eye, p), 0.0, torch_most);
   vec3 light = key_colour * w * w * (1.0 + scattered * (1.0 - w)) + fill_colour * torch * m.nv;
   vec3 kept = vec3(open, open * open, open * open);
-  light += mix(ambient_below, ambient_above, m.n.z * 0.5 + 0.5) * kept;
+  light += mix(ambient_below, ambient_above, m.n.z * 0.5 + 0.5) * kept * mix(vec3(1.0), ambient_in_body, scope);
   vec3 glint = gloss(m.n, m.v, towards_key, max(material_roughness, widest_film), vec3(0.028)) * key_colour;
   glint += gloss(m.n, m.v, m.v, max(material_roughness, widest_film), vec3(0.028)) * fill_colour * torch;
   float grazing = pow(1.0 - m.nv, 5.0);
@@ -52,6 +54,8 @@ vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred) {
 #endif
 
 #ifdef SOLID
+uniform vec3 material_glow;
+
 vec3 solid(Meeting m) {
   vec3 f0 = mix(vec3(0.04), material_colour, material_metalness);
   vec3 base = material_colour * (1.0 - material_metalness);
@@ -59,7 +63,7 @@ vec3 solid(Meeting m) {
   vec3 body = base * (key_colour * max(m.nl, 0.0) + fill_colour * m.nv + ambient);
   vec3 fresnel = f0 + (max(vec3(1.0 - material_roughness), f0) - f0) * pow(1.0 - m.nv, 5.0);
   vec3 mirror = room(reflect(-m.v, m.n), material_roughness) * fresnel * mix(1.0, 1.5, material_metalness);
-  return body + mirror + gloss(m.n, m.v, towards_key, material_roughness, f0) * key_colour * pi * 0.6;
+  return body + mirror + gloss(m.n, m.v, towards_key, material_roughness, f0) * key_colour * pi * 0.6 + material_glow;
 }
 #endif
 
@@ -84,14 +88,15 @@ vec3 map_of(Meeting m, float open, float up) {
 #endif
 
 // `n`: as it is interpolated, not unit; gl_Position is set. Sets `seen`.
-void light_vertex(vec3 p, vec3 n, vec3 at_rest, float open, float charred, float up) {
+void light_vertex(vec3 p, vec3 n, vec3 at_rest, float open, float charred, float up, float pale) {
   Meeting m;
   m.n = normalize(n);
   m.v = normalize(eye - p);
+  aim_key(p);
   m.nl = dot(m.n, towards_key);
   m.nv = clamp(dot(m.n, m.v), 0.0, 1.0);
 #if defined(TISSUE)
-  vec3 light = tissue(m, p, at_rest, open, charred);
+  vec3 light = tissue(m, p, at_rest, open, charred, pale);
 #elif defined(SOLID)
   vec3 light = solid(m);
 #elif defined(GROUND)
