@@ -98,6 +98,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   to_expose_ = organ_to_expose(loaded.scene);
   scored_from_s_ = loaded.scene.score.from_s;
   choices_.orbit = view_.first_camera();
+  choices_.folds = options.folds;
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
   if (!options.node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(options.node.log);

@@ -28,6 +28,7 @@ struct RenderOptions {
       -1;  // numbered pictures; 0: none; negative: every 2 s off-screen, none in a window
   bool no_panel = false;
   TissueMap map = TissueMap::kOff;  // at the start
+  bool folds = false;               // ViewChoices::folds
 };
 
 /// Of an organ that is to be exposed so many pixels are looked at: a hundredth of it is seen in some tens.

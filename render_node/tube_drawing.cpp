@@ -2,6 +2,7 @@
 
 #include "geometry/precondition.h"
 #include "render_node/sheet_skin.h"
+#include "render_node/tube_frames.h"
 #include "render_node/tube_skin.h"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ class TubeDrawing final : public OrganDrawing {
         wall_(wall),
         masses_(rest.positions),
         tube_(axis_of(layout_, masses_), rest.tube_radius_m),
-        sheet_(rest) {
+        sheet_(rest),
+        swept_(axis_of(layout_, masses_), rest.tube_radius_m) {
     sheet_.deform(masses_, tube_.shade());
   }
 
@@ -31,7 +33,8 @@ class TubeDrawing final : public OrganDrawing {
   bool wanders() const override { return true; }
   void deform(std::span<const float> values) override;
   [[nodiscard]] bool map(std::span<const float> shares) override;
-  const MeshData& mesh() const override { return tube_.mesh(); }
+  const MeshData& mesh() const override;
+  TubeFrames* tube() override { return &tube_; }
   Material material() const override { return wall_; }
   Look look() const override { return Look::kGut; }
   std::vector<OrganPart> parts() const override {
@@ -43,13 +46,22 @@ class TubeDrawing final : public OrganDrawing {
   geometry::GutLayout layout_;
   Material wall_;
   std::vector<geometry::Vec3> masses_;  // of the last state
-  TubeSkin tube_;
+  TubeFrames tube_;
   SheetSkin sheet_;
+  // Of the last state once somebody asks: who looks at the wall without a picture does so once in a second.
+  mutable TubeSkin swept_;
+  mutable bool is_swept_ = true;
 };
+
+const MeshData& TubeDrawing::mesh() const {
+  if (!is_swept_) swept_.deform(axis_of(layout_, masses_));
+  is_swept_ = true;
+  return swept_.mesh();
+}
 
 Outline TubeDrawing::outline() const {
   Outline outline;
-  for (const Vertex& vertex : tube_.mesh().vertices) {
+  for (const Vertex& vertex : mesh().vertices) {
     outline.points.push_back(vertex.position.cast<double>());
     outline.normals.push_back(vertex.normal);
   }
@@ -57,7 +69,7 @@ Outline TubeDrawing::outline() const {
   const Vertex lowest = *std::ranges::min_element(sheet_.mesh().vertices, {}, height);
   outline.points.push_back(lowest.position.cast<double>());
   outline.normals.push_back(Vec3f::Zero());
-  outline.area_m2 = 2 * std::numbers::pi * tube_.radius_m() * tube_.length_m();
+  outline.area_m2 = 2 * std::numbers::pi * swept_.radius_m() * tube_.length_m();
   return outline;
 }
 
@@ -65,6 +77,7 @@ void TubeDrawing::deform(std::span<const float> values) {
   geometry::require(values.size() == 3 * masses_.size(), "three values for each mass");
   for (std::size_t m = 0; m < masses_.size(); ++m)
     masses_[m] = {values[3 * m], values[3 * m + 1], values[3 * m + 2]};
+  is_swept_ = false;
   tube_.deform(axis_of(layout_, masses_));
   sheet_.deform(masses_, tube_.shade());
 }

@@ -5,6 +5,7 @@
 #include "render_node/gl/panel_backend.h"
 #include "render_node/gl/program.h"
 #include "render_node/gl/render_target.h"
+#include "render_node/gl/tube_painter.h"
 #include "render_node/tissue_map.h"
 #include "render_node/tissue_pattern.h"
 #include "shader_sources.h"  // generated from gl/shaders/
@@ -115,6 +116,9 @@ class GlRenderer final : public Renderer {
     meshes_[static_cast<std::size_t>(mesh)].replace(with);
   }
 
+  TubeId add_tube() override { return tubes_.add(); }
+  void update_tube(TubeId tube, std::span<const SkinFrame> frames) override { tubes_.update(tube, frames); }
+
   Input begin_frame() override { return panel_->begin_frame(); }
 
   void draw(const Frame& frame) override {
@@ -186,6 +190,7 @@ class GlRenderer final : public Renderer {
       shadow_program_.set("W_from_mesh", item.W_from_mesh);
       mesh(item.mesh).draw();
     }
+    tubes_.cast_shadows(frame);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_DEPTH_CLAMP);
   }
@@ -221,12 +226,16 @@ class GlRenderer final : public Renderer {
 
   void draw_items(const Frame& frame, Look look) {
     const Program& program = programs(frame).of(look);
-    program.use();
-    set_scene(program, frame);
-    program.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
-    if (look == Look::kMap) set_colours(program);
+    const auto set_all = [&](const Program& p) {
+      set_scene(p, frame);
+      p.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
+      if (look == Look::kMap) set_colours(p);
+    };
     const bool over = look == Look::kSignal;
     glDepthRange(over ? 0 : kSignalDepth, over ? kSignalDepth : 1);
+    tubes_.draw(frame, look, set_all);
+    program.use();
+    set_all(program);
     for (const DrawItem& item : frame.items) {
       if (item.look != look) continue;
       program.set("W_from_mesh", item.W_from_mesh);
@@ -282,6 +291,8 @@ class GlRenderer final : public Renderer {
   Program shadow_program_{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
   Programs plain_{std::string(shaders::common_glsl)};
   Programs fine_{"#define SOFT_SHADOWS\n" + std::string(shaders::common_glsl)};
+  TubePainter tubes_{"#define SOFT_SHADOWS\n" + std::string(shaders::common_glsl),
+                     std::string(shaders::common_glsl)};
   NoiseTexture pattern_;
   ShadowMap shadow_;
   unsigned no_vertices_ = 0;
