@@ -81,6 +81,16 @@ std::vector<std::uint8_t> bit_set(const Json& object, const char* key, const std
   return bits;
 }
 
+// A part that is precomputed has its tensors as it is: without a tetrahedron they would be wrong.
+void refuse_kept(const std::vector<std::uint8_t>& removed, const JournalScene::Organ& organ,
+                 const std::string& place) {
+  for (std::size_t t = 0; t < organ.kept.size(); ++t) {
+    if (organ.kept[t] != 0 && (removed[t / 8] >> t % 8 & 1) != 0)
+      refuse(place, "tetrahedron " + std::to_string(t) + ", which is precomputed",
+             "tetrahedra of the dynamic part");
+  }
+}
+
 OrganCuts cuts_of(const Json& entry, const JournalScene::Organ& organ, const std::string& place) {
   const std::string hash = text(entry, "hash", place);
   if (hash != organ.hash) refuse(place + "hash", hash, organ.hash + ", that of organ " + organ.name);
@@ -93,6 +103,7 @@ OrganCuts cuts_of(const Json& entry, const JournalScene::Organ& organ, const std
   for (std::size_t i = 0; i < cuts.removed_bits.size(); ++i)
     if ((cuts.burnt_bits[i] & ~cuts.removed_bits[i]) != 0)
       refuse(place + "burnt", "a tetrahedron that is not removed", "some of those");
+  refuse_kept(cuts.removed_bits, organ, place + "removed");
   if (cuts.version == 0 && std::ranges::any_of(cuts.removed_bits, [](auto byte) { return byte != 0; }))
     refuse(place + "version", "0 of a cut organ", "more than that");
   return cuts;
@@ -137,6 +148,12 @@ std::uint64_t next_version(const Json& document) {
   return highest + 1;
 }
 
+// Who has no tensors of a part moves all of the organ.
+std::vector<std::uint8_t> kept_of(const organ::Organ& organ) {
+  const bool has_part = organ.split && organ.split->compliance;
+  return has_part ? organ.split->precomputed() : std::vector<std::uint8_t>{};
+}
+
 }  // namespace
 
 JournalScene journal_scene(const std::string& scene_hash, const std::vector<ServedOrgan>& organs) {
@@ -144,7 +161,10 @@ JournalScene journal_scene(const std::string& scene_hash, const std::vector<Serv
   for (const ServedOrgan& served : organs) {
     const organ::Organ& organ = served.source->organ;
     const bool can_be_cut = served.model->sizes().removed_bytes > 0;
-    scene.organs.push_back({organ.name, organ.hash, can_be_cut ? organ.mesh.tetrahedra.size() : 0});
+    scene.organs.push_back({.name = organ.name,
+                            .hash = organ.hash,
+                            .tetrahedra = can_be_cut ? organ.mesh.tetrahedra.size() : 0,
+                            .kept = kept_of(organ)});
   }
   return scene;
 }

@@ -16,8 +16,9 @@ namespace omentum::deform {
 /// What a journal belongs to; another scene's says nothing of this one's organs.
 struct JournalScene {
   struct Organ {
-    std::string name, hash;      // of its file
-    std::size_t tetrahedra = 0;  // that can be removed; 0: it cannot be cut
+    std::string name, hash;            // of its file
+    std::size_t tetrahedra = 0;        // whose bits a journal has; 0: it cannot be cut
+    std::vector<std::uint8_t> kept{};  // [T] other than 0: precomputed, nothing takes it away; empty: none is
   };
   std::string hash;  // SceneInfo.hash
   std::vector<Organ> organs;

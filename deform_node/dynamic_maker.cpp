@@ -149,16 +149,19 @@ std::unique_ptr<OrganModel> make_hybrid(const node::OrganSource& source, const s
   const organ::OrganSplit& split = *organ.split;
   const std::vector<double> weights =
       components_of(physics::body_forces(organ.mesh, organ.material, spec.dynamics->gravity_m_s2));
-  DynamicParts parts = parts_of(
-      source, spec, StressLaw::kLinear, [&](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
+  const bool turns = spec.dynamics->law == "corotational";
+  const StressLaw stress = turns ? StressLaw::kTurned : StressLaw::kLinear;
+  DynamicParts parts =
+      parts_of(source, spec, stress, [&](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
         auto step = std::make_unique<physics::HybridStep>(
             physics::HybridBody{split.parts, split.surface, *split.compliance, organ.material, split.fixed,
-                                body.inertia, weights},
+                                body.inertia, weights,
+                                turns ? physics::DynamicLaw::kCorotational : physics::DynamicLaw::kLinear},
             dynamics.step_s.value_or(kImplicitStep_s), BodyStepper::kPatchNodes);
         return Stepping{make_large_stepper(organ.mesh.positions.size(), std::move(step))};
       });
   set_precomputed(split, parts);
-  parts.gauge = [&organ, weights] { return std::make_unique<HybridGauge>(organ, weights); };
+  parts.gauge = [&organ, weights, stress] { return std::make_unique<HybridGauge>(organ, weights, stress); };
   return std::make_unique<DynamicModel>(std::move(parts));
 }
 

@@ -17,7 +17,7 @@ std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, c
 std::unique_ptr<OrganModel> make_quasi_static_cut(const node::OrganSource& source,
                                                   const scene::OrganSpec& spec);
 std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, const scene::OrganSpec& spec);
-/// The first of them in the dynamic part of a hybrid organ, whose other part is precomputed (Cotin 1998,
+/// One of the first two in the dynamic part of a hybrid organ, whose other part is precomputed (Cotin 1998,
 /// section 6): one body to hands, cuts and pictures. Precondition: `source` was loaded with the part's
 /// tensors.
 std::unique_ptr<OrganModel> make_hybrid(const node::OrganSource& source, const scene::OrganSpec& spec);

@@ -109,12 +109,14 @@ void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
 }
 
 void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
+  status_.cuts.tools = 0;
   if (!strokes.empty()) swept_.follow(state_.u);
   for (const CutStroke& stroke : strokes) {
     const std::span<const TetId> met = those_that_can_go(swept_.find({stroke.from, stroke.to}));
     burning_.meet(met, editor_);
-    if (!met.empty())
-      status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
+    if (met.empty()) continue;
+    status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
+    status_.cuts.tools |= 1U << stroke.tool % 32;
   }
   const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
   for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
@@ -207,6 +209,15 @@ void DynamicModel::list_removed() noexcept {
     if (editor_.is_removed(TetId(t))) gone_.push_back(TetId(t));
 }
 
+// Whatever somebody says is gone. Rare: at worst O(T) for each.
+void DynamicModel::put_back_precomputed() noexcept {
+  if (std::ranges::all_of(gone_, [&](TetId t) { return can_go(t); })) return;
+  std::erase_if(gone_, [&](TetId t) { return !can_go(t); });
+  editor_.restore();
+  editor_.remove(gone_);
+  list_removed();
+}
+
 void DynamicModel::reset() noexcept {
   list_removed();
   if (!gone_.empty()) ++version_;
@@ -230,8 +241,11 @@ void DynamicModel::take_up(std::span<const std::uint8_t> removed_bits,
   reset();
   editor_.set_removed(removed_bits);
   list_removed();
+  put_back_precomputed();
   if (!gone_.empty()) forgo_gone();
-  std::copy_n(burnt_bits.begin(), std::min(burnt_bits.size(), burnt_.size()), burnt_.begin());
+  const std::span<const std::uint8_t> removed = editor_.removed_bits();
+  for (std::size_t i = 0; i < std::min(burnt_bits.size(), burnt_.size()); ++i)
+    burnt_[i] = burnt_bits[i] & removed[i];
   version_ = version;
   show();
 }

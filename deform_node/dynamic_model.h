@@ -57,6 +57,7 @@ class DynamicModel final : public OrganModel {
 
  private:
   void cut(std::span<const CutStroke> strokes, double dt_s) noexcept;
+  void put_back_precomputed() noexcept;
   bool can_go(geometry::TetId t) const noexcept { return precomputed_.empty() || precomputed_[t] == 0; }
   std::span<const geometry::TetId> those_that_can_go(std::span<const geometry::TetId> met) noexcept;
   void check(double dt_s) noexcept;

@@ -4,10 +4,10 @@
 
 namespace omentum::deform {
 
-HybridGauge::HybridGauge(const organ::Organ& organ, std::span<const double> weights)
+HybridGauge::HybridGauge(const organ::Organ& organ, std::span<const double> weights, physics::StressLaw law)
     : inner_(organ.split->parts.precomputed, organ.split->surface, organ.split->fixed, organ.material,
              weights),
-      nodal_(organ.mesh, organ.material, physics::StressLaw::kLinear),
+      nodal_(organ.mesh, organ.material, law),
       u_(3 * organ.mesh.positions.size()) {}
 
 void HybridGauge::measure(const StrainedShape& shape, std::span<float> strain,

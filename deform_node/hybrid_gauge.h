@@ -11,8 +11,9 @@ namespace omentum::deform {
 /// Measured as a body is, once the nodes inside the precomputed part are where its surface takes them.
 class HybridGauge final : public StrainGauge {
  public:
-  /// `organ`, which has a split, outlives this; `weights`: [3N], N, that always act.
-  HybridGauge(const organ::Organ& organ, std::span<const double> weights);
+  /// `organ`, which has a split, outlives this; `weights`: [3N], N, that always act; `law`: the dynamic
+  /// part's. The precomputed part turns too little to tell one from the other.
+  HybridGauge(const organ::Organ& organ, std::span<const double> weights, physics::StressLaw law);
 
   bool knows_stress() const noexcept override { return nodal_.knows_stress(); }
   void measure(const StrainedShape& shape, std::span<float> strain,

@@ -11,7 +11,7 @@ namespace {
 constexpr double kParallel = 1e-3;  // sine of an angle below which a direction across is rounding
 
 // Of `guide`, what is across t, unit; zero where hardly anything is.
-Vec3 across(const Vec3& guide, const Vec3& t) {
+Vec3 unit_across(const Vec3& guide, const Vec3& t) {
   const Vec3 left = guide - guide.dot(t) * t;
   const double length = left.norm();
   return length > kParallel * guide.norm() ? Vec3(left / length) : Vec3::Zero();
@@ -24,9 +24,9 @@ Vec3 direction(const Vec3& slope, const Vec3& otherwise) {
 
 // eq. 12, and what stands in for it
 void turn_into(const Vec3& k_before, const Vec3& b_before, TubeFrame& frame) {
-  frame.k = across(k_before, frame.t);
+  frame.k = unit_across(k_before, frame.t);
   if (frame.k.isZero(0)) {
-    frame.b = across(b_before, frame.t);
+    frame.b = unit_across(b_before, frame.t);
     if (frame.b.isZero(0)) frame.b = frame.t.unitOrthogonal();
     frame.k = frame.b.cross(frame.t);
   }

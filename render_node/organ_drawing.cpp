@@ -78,6 +78,13 @@ void SurfaceDrawing::show_cut() {
 
 }  // namespace
 
+std::vector<const MeshData*> meshes_of(const OrganDrawing& drawing) {
+  std::vector<const MeshData*> meshes{&drawing.mesh()};
+  if (drawing.bared()) meshes.push_back(drawing.bared());
+  for (const OrganPart& part : drawing.parts()) meshes.push_back(part.mesh);
+  return meshes;
+}
+
 std::unique_ptr<OrganDrawing> make_drawing(const OrganShape& shape) {
   switch (shape.kind) {
     case scene::OrganKind::kTetrahedralMesh:

@@ -97,6 +97,9 @@ class OrganDrawing {
   virtual const PressedSurface* surface() const { return nullptr; }
 };
 
+/// All that is drawn of an organ now.
+std::vector<const MeshData*> meshes_of(const OrganDrawing& drawing);
+
 /// The drawing for an organ of that kind.
 std::unique_ptr<OrganDrawing> make_drawing(const OrganShape& shape);
 

@@ -1,6 +1,8 @@
 // What can be drawn, and the seam behind which it is drawn. render_node/gl/ draws with OpenGL; tests record.
 #pragma once
 
+#include "render_node/key_presses.h"
+#include "render_node/pointer.h"
 #include "render_node/tube_item.h"
 
 #include <Eigen/Core>
@@ -63,6 +65,7 @@ struct Material {
   Vec3f colour{0.5f, 0.5f, 0.5f};
   float metalness = 0;
   float roughness = 0.5f;
+  Vec3f glow = Vec3f::Zero();  // light that a kSolid gives off by itself
 };
 
 struct DrawItem {
@@ -91,19 +94,29 @@ struct View {
   Vec3f eye = Vec3f::Zero();
 };
 
-/// The key light throws shadows inside the box of `clip_from_W`; the fill light sits at the eye.
+/// The key light throws shadows inside of `clip_from_W`, a box, or a scope's cone; the fill light sits at the
+/// eye.
 struct Lighting {
   Vec3f towards_key = Vec3f::UnitZ();  // unit, in W
   Mat4f clip_from_W = Mat4f::Identity();
   float radius_m = 0.1f;  // of what is lit: lengths in shading are shares of it
+  // A scope's light (scope_view.h) is not far away but here, in W, m, and as bright as the key light at that
+  // distance, m; 0: the light is far away.
+  Vec3f lamp = Vec3f::Zero();
+  float lamp_reach_m = 0;
 };
 
-/// How much is spent on a frame (frame_rate_control.h). A panel is always drawn finely.
+/// How much is spent on a frame (picture_quality.h, frame_rate_control.h). A panel is always drawn finely.
 enum class Quality : std::uint8_t {
   kFine,    // smooth edges, soft shadows: pictures, and wherever a graphics card draws
   kPlain,   // one sample per pixel
   kCoarse,  // and fewer pixels, stretched
+  kFlat,    // without shadows
+  kDraft,   // light at the vertices, all pixels
+  kSketch,  // a quarter of them
+  kFaint,   // a ninth
 };
+inline constexpr std::size_t kQualityCount = 7;
 
 /// One picture of the scene.
 struct Frame {
@@ -113,6 +126,7 @@ struct Frame {
   std::vector<DrawItem> items;
   std::vector<TubeItem> tubes;
   bool through_endoscope = false;  // round field of view
+  bool wires = false;              // the edges of the organs' triangles, over them
   float middle = 0.5f;             // of the view, share of the width: a panel may cover the left
   bool with_panel = true;          // the one that was laid out since begin_frame()
 };
@@ -128,8 +142,9 @@ struct Input {
   float orbit_x = 0, orbit_y = 0;  // pixels dragged with the left button
   float pan_x = 0, pan_y = 0;      // pixels dragged with the right or middle button
   float zoom = 0;                  // wheel steps, positive towards the target
-  bool switch_map = false;         // the key S went down
+  KeyPresses keys{};               // that went down
   bool close = false;
+  Pointer pointer;  // the same, for whom it moves an instrument (pointer_rays.h)
 };
 
 /// Draws frames into a window or an off-screen target. One thread, the one that made it.
@@ -160,6 +175,10 @@ class Renderer {
 
   virtual Size size() const = 0;
   virtual bool has_window() const = 0;
+  /// Of the panel in this frame, 1 where its text is kPanelFontPixels high (panel_style.h).
+  virtual float ui_scale() const { return 1; }
+  /// The rasterizer, where it is a program and not a graphics card; else empty.
+  virtual std::string software() const { return {}; }
 };
 
 }  // namespace omentum::render

@@ -1,6 +1,7 @@
 // The scene as something to draw: organs, instruments, arrows and markers, from state to a Frame.
 #pragma once
 
+#include "render_node/camera_score.h"
 #include "render_node/close_up.h"
 #include "render_node/exposure_raster.h"
 #include "render_node/instrument_shape.h"
@@ -8,6 +9,7 @@
 #include "render_node/scene_tubes.h"
 #include "render_node/tissue_map.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -19,6 +21,7 @@ struct ToolNow {
   Vec3 p_WT = Vec3::Zero();
   Eigen::Quaterniond q_WT = Eigen::Quaterniond::Identity();
   double grip_rad = 0;
+  bool cuts = false;  // its button for that is pressed
   Vec3 force_n = Vec3::Zero();
   std::size_t contact_organ = 0;
   std::vector<std::uint32_t> contact_nodes;  // places in the mesh file, from 0
@@ -33,6 +36,7 @@ struct ViewChoices {
   TissueMap map = TissueMap::kOff;  // as which organs are drawn whose values are known
   bool folds = false;               // tubes coloured by how they are folded (Raghupathi 2004, fig. 10)
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
+  bool wires = false;    // the triangles of what is drawn
 };
 
 /// Arrows: this long per newton, up to a longest one; weaker forces than the least have none.
@@ -81,6 +85,10 @@ class SceneView {
   std::optional<double> exposed_share(std::size_t organ, std::span<const ToolNow> tools,
                                       ExposureRaster& raster) const;
 
+  /// How the scope is held towards `target`, whatever the person at the window looks at; none while no scope
+  /// is seen.
+  std::optional<CameraMoment> scope_moment(const Vec3& target, std::span<const ToolNow> tools) const;
+
   /// Where the orbit camera starts.
   Camera first_camera() const;
   const Ball& ball() const { return ball_; }
@@ -90,7 +98,12 @@ class SceneView {
   double length_m(std::size_t organ) const { return organs_[organ].drawing->length_m(); }
   /// Null for an organ that tools do not dent.
   const PressedSurface* surface(std::size_t organ) const { return organs_[organ].drawing->surface(); }
+  /// What is drawn of an organ where it is not cut, as many vertices as ever.
+  const MeshData& mesh(std::size_t organ) const { return organs_[organ].drawing->mesh(); }
   std::size_t organ_count() const { return organs_.size(); }
+  bool has_tube() const {
+    return std::ranges::any_of(organs_, [](const DrawnOrgan& o) { return o.drawing->length_m() > 0; });
+  }
 
  private:
   struct DrawnOrgan {
@@ -113,6 +126,7 @@ class SceneView {
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;
   Frame frame_from(const Camera& camera, const ViewChoices& choices, std::span<const ToolNow> tools,
                    double panel_share) const;
+  bool hidden_from_scope(const Vec3& eye, const Vec3& target, std::span<const ToolNow> tools) const;
   void add_organ(const DrawnOrgan& organ, const ViewChoices& choices, Frame& frame) const;
   void add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
@@ -127,8 +141,5 @@ class SceneView {
   MeshData drape_;  // the ground's
   MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{};
 };
-
-/// The scope among the scene's tools (one named "endoscope"), or none.
-std::optional<std::size_t> scope_of(const scene::Scene& scene);
 
 }  // namespace omentum::render

@@ -23,9 +23,16 @@ void read_integrator(TomlSection& s, const std::string& model, std::string& inte
   s.read_word("integrator", integrator, kOptional, words);
 }
 
+// Of the part that has masses: a precomputed one is linear.
+void read_law(TomlSection& s, std::string& law) {
+  law = "linear";
+  s.read_word("law", law, kOptional, {"linear", "corotational"});
+}
+
 // What has masses swings and tears.
 void read_motion(TomlSection& s, const std::string& model, DynamicsSpec& dynamics) {
   read_integrator(s, model, dynamics.integrator);
+  if (model == "hybrid") read_law(s, dynamics.law);
   s.read("step_s", dynamics.step_s, kStep_s);
   s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
   s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);

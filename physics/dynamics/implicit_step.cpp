@@ -99,6 +99,12 @@ void ImplicitStep::compliance(std::span<const geometry::NodeId> nodes, std::span
   for (std::size_t i = 0; i < 9 * nodes.size() * nodes.size(); ++i) block[i] *= scale;
 }
 
+void ImplicitStep::project_at_rest(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                                   std::span<float> block) noexcept {
+  factor_.project_inverse(nodes, rows, block);
+  for (float& c : block) c *= static_cast<float>(step_s_ * step_s_);
+}
+
 void ImplicitStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {
   factor_.solve(forces, yield);
   for (double& y : yield) y *= step_s_ * step_s_;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "physics/dynamics/force_law.h"
+#include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/kept_factor.h"
-#include "physics/dynamics/large_step.h"
 
 namespace omentum::physics {
 
@@ -23,7 +23,7 @@ struct ImplicitOptions {
 /// impulse, so that momentum is kept and rest is exact, at the cost of a product instead of a second solve.
 ///
 /// All memory is taken at construction; one thread at a time.
-class ImplicitStep final : public LargeStep {
+class ImplicitStep final : public JoinableStep {
  public:
   /// Throws as KeptFactor does. `mesh` outlives it.
   ImplicitStep(const geometry::TetraMesh& mesh, const MaterialMap& material, const Inertia& inertia,
@@ -49,6 +49,12 @@ class ImplicitStep final : public LargeStep {
   /// The same with the forces of another law.
   void foresee(const BodyState& state, ForceLaw& law, std::span<const double> external,
                std::span<double> u) noexcept;
+
+  void project_at_rest(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                       std::span<float> block) noexcept override;
+  /// The linear law does not turn.
+  void turn(std::span<const geometry::NodeId> /*nodes*/, std::span<float> /*block*/) const noexcept override {
+  }
 
   KeptFactor& factor() { return factor_; }
 

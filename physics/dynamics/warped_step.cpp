@@ -35,10 +35,12 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
     : mesh_(mesh),
       inertia_(inertia),
       law_(std::move(law)),
+      added_(options.added),
       options_(options),
       factor_(mesh, material, inertia.fixed, inertia.mass, weights_of(inertia, options.step_s),
-              options.most_compliance_nodes),
+              options.most_compliance_nodes, options.added),
       left_(mesh.tetrahedra.size(), 1),
+      stands_(inertia.fixed.begin(), inertia.fixed.end()),
       rotation_(inertia.mass.size(), Eigen::Matrix3d::Identity()),
       linear_at_(state_at_rest(inertia.mass.size())),
       ahead_(3 * inertia.mass.size()),
@@ -50,7 +52,10 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
       turned_(ahead_.size()),
       solved_(ahead_.size()),
       lacking_(ahead_.size()),
-      residual_(ahead_.size()) {}
+      residual_(ahead_.size()) {
+  options_.added = {};
+  for (const geometry::NodeId n : added_.nodes()) stands_[n] = 1;
+}
 
 bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
   linearize(state);
@@ -90,14 +95,17 @@ void WarpedStep::linearize(const BodyState& state) noexcept {
 
 void WarpedStep::find_forces(std::span<const double> v) noexcept {
   law_.forces(ahead_, forces_);
+  added_.add_product(-1, ahead_, forces_);
   law_.product(v, product_);
+  added_.add_product(1, v, product_);
   for (std::size_t c = 0; c < forces_.size(); ++c) {
     forces_[c] -= inertia_.mass_damping_per_s * inertia_.mass[c / 3] * v[c] +
                   inertia_.stiffness_damping_s * product_[c];
   }
 }
 
-// Nodes that are held in part are not turned: a held component has to stay one.
+// Nodes that are held in part are not turned: a held component has to stay one. Nor are those that are tied,
+// by what does not turn.
 void WarpedStep::mean_rotations() noexcept {
   std::ranges::fill(rotation_, Eigen::Matrix3d::Zero());
   for (std::size_t t = 0; t < left_.size(); ++t) {
@@ -107,8 +115,8 @@ void WarpedStep::mean_rotations() noexcept {
   }
   for (std::size_t n = 0; n < rotation_.size(); ++n) {
     const double size = rotation_[n].norm();
-    const bool turns = inertia_.fixed[n] == 0 && size > 0;
-    rotation_[n] = turns ? rotation_near(std::sqrt(3.0) / size * rotation_[n]) : Eigen::Matrix3d::Identity();
+    rotation_[n] = turns(n) && size > 0 ? rotation_near(std::sqrt(3.0) / size * rotation_[n])
+                                        : Eigen::Matrix3d::Identity();
   }
 }
 
@@ -122,6 +130,7 @@ void WarpedStep::add_impulse(std::span<const double> external, std::span<double>
 
 void WarpedStep::multiply(std::span<const double> x, std::span<double> y) noexcept {
   law_.product(x, y);
+  added_.add_product(1, x, y);
   const SystemWeights& weights = factor_.weights();
   for (std::size_t c = 0; c < y.size(); ++c) {
     const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
@@ -199,17 +208,28 @@ void WarpedStep::yield_to(std::span<const double> forces, std::span<double> yiel
 
 void WarpedStep::compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
   factor_.inverse_block(nodes, block);
+  const auto scale = static_cast<float>(options_.step_s * options_.step_s);
+  for (std::size_t i = 0; i < 9 * nodes.size() * nodes.size(); ++i) block[i] *= scale;
+  turn(nodes, block);
+}
+
+void WarpedStep::project_at_rest(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                                 std::span<float> block) noexcept {
+  factor_.project_inverse(nodes, rows, block);
+  for (float& c : block) c *= static_cast<float>(options_.step_s * options_.step_s);
+}
+
+void WarpedStep::turn(std::span<const geometry::NodeId> nodes, std::span<float> block) const noexcept {
   const auto size = static_cast<Eigen::Index>(3 * nodes.size());
   using Block = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::Map<Block> C(block.data(), size, size);
-  const auto scale = static_cast<float>(options_.step_s * options_.step_s);
-  for (Eigen::Index i = 0; i < size; i += 3) {
-    const Eigen::Matrix3f Q_i = scale * rotation_[nodes[static_cast<std::size_t>(i / 3)]].cast<float>();
-    for (Eigen::Index j = 0; j < size; j += 3) {
-      const Eigen::Matrix3f Q_j = rotation_[nodes[static_cast<std::size_t>(j / 3)]].cast<float>();
-      const Eigen::Matrix3f at_rest = C.block<3, 3>(i, j);
-      C.block<3, 3>(i, j) = Q_i * at_rest * Q_j.transpose();
-    }
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (!nodes[k].valid() || !turns(static_cast<std::size_t>(nodes[k]))) continue;
+    const Eigen::Matrix3f Q = rotation_[nodes[k]].cast<float>();
+    const auto at = static_cast<Eigen::Index>(3 * k);
+    for (Eigen::Index j = 0; j < size; j += 3) C.block<3, 3>(at, j) = (Q * C.block<3, 3>(at, j)).eval();
+    for (Eigen::Index i = 0; i < size; i += 3)
+      C.block<3, 3>(i, at) = (C.block<3, 3>(i, at) * Q.transpose()).eval();
   }
 }
 

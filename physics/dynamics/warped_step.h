@@ -1,9 +1,10 @@
 // Backward Euler for co-rotational tissue: large rotations at large steps, without a factorization.
 #pragma once
 
+#include "physics/dynamics/added_forces.h"
 #include "physics/dynamics/corotational.h"
+#include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/kept_factor.h"
-#include "physics/dynamics/large_step.h"
 
 namespace omentum::physics {
 
@@ -12,6 +13,7 @@ struct WarpedOptions {
   double tolerance = 1e-3;         // what the equation of a step may lack, over its right-hand side
   int most_iterations = 40;        // of one step; what is lacking then goes to the next one
   int most_compliance_nodes = 24;  // of one call of compliance()
+  AddedStiffness added{};          // a part of K beside the mesh's, linear: it does not turn
 };
 
 /// M (v' - v) = dt (f_ext + f(u') - D v'), u' = u + dt v', D = a M + b K, linearized where the body goes by
@@ -23,10 +25,11 @@ struct WarpedOptions {
 /// Q A_0^-1 Q^T, Q_n the mean rotation of the tetrahedra around node n. For a body that only turned this is
 /// the inverse itself; where it bends, the better the slower rotations change from node to node. Each solve
 /// begins from the answer to the last equation of its kind, as far as it is one to this. What a step's
-/// equation lacks in the end is given to the next one as an impulse, so that momentum is kept.
+/// equation lacks in the end is given to the next one as an impulse, so that momentum is kept. What is added
+/// to K is linear, and as exact as in ImplicitStep; its nodes are not turned.
 ///
 /// All memory is taken at construction; one thread at a time.
-class WarpedStep final : public LargeStep {
+class WarpedStep final : public JoinableStep {
  public:
   /// Throws as KeptFactor does. `mesh` outlives it; `law` is of the same mesh and material, and has lost
   /// nothing yet.
@@ -35,7 +38,9 @@ class WarpedStep final : public LargeStep {
 
   double step_s() const override { return options_.step_s; }
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
-  double elastic_energy(std::span<const double> u) noexcept override { return law_.energy(u); }
+  double elastic_energy(std::span<const double> u) noexcept override {
+    return law_.energy(u) + added_.energy(u);
+  }
 
   /// From the law and from the factor.
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
@@ -43,6 +48,9 @@ class WarpedStep final : public LargeStep {
 
   /// Those of the body at rest, turned at each node as of the last step.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
+  void project_at_rest(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
+                       std::span<float> block) noexcept override;
+  void turn(std::span<const geometry::NodeId> nodes, std::span<float> block) const noexcept override;
   void yield_to(std::span<const double> forces, std::span<double> yield) noexcept override;
   void foresee(const BodyState& state, std::span<const double> external,
                std::span<double> u) noexcept override;
@@ -54,6 +62,7 @@ class WarpedStep final : public LargeStep {
  private:
   void linearize(const BodyState& state) noexcept;
   void mean_rotations() noexcept;
+  bool turns(std::size_t n) const noexcept { return stands_[n] == 0; }
   void find_forces(std::span<const double> v) noexcept;
   void add_impulse(std::span<const double> external, std::span<double> lacking) noexcept;
   void multiply(std::span<const double> x, std::span<double> y) noexcept;
@@ -65,9 +74,11 @@ class WarpedStep final : public LargeStep {
   const geometry::TetraMesh& mesh_;
   Inertia inertia_;
   Corotational law_;
+  AddedForces added_;
   WarpedOptions options_;
   KeptFactor factor_;
   std::vector<std::uint8_t> left_;         // [T] 1: there, 0: removed
+  std::vector<std::uint8_t> stands_;       // [N] 1: held or tied, so that it is never turned
   std::vector<Eigen::Matrix3d> rotation_;  // [N] Q
   BodyState linear_at_;                    // where the law, the rotations and the forces are of ...
   bool is_linear_ = false;                 // ... if they are

@@ -1,6 +1,8 @@
 #include "physics/hybrid/hybrid_step.h"
 
 #include "physics/direct_solve.h"
+#include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/warped_step.h"
 
 #include <algorithm>
 
@@ -57,6 +59,19 @@ Inertia inertia_of(const HybridBody& body) {
   return own;
 }
 
+std::unique_ptr<JoinableStep> dynamic_step_of(const HybridBody& body, const AddedStiffness& added,
+                                              double step_s, int most_compliance_nodes) {
+  const geometry::TetraMesh& mesh = body.split.dynamic.mesh;
+  if (body.law == DynamicLaw::kLinear) {
+    return std::make_unique<ImplicitStep>(
+        mesh, body.material, inertia_of(body),
+        ImplicitOptions{.step_s = step_s, .most_compliance_nodes = most_compliance_nodes, .added = added});
+  }
+  return std::make_unique<WarpedStep>(
+      mesh, body.material, inertia_of(body), Corotational(mesh, body.material),
+      WarpedOptions{.step_s = step_s, .most_compliance_nodes = most_compliance_nodes, .added = added});
+}
+
 }  // namespace
 
 HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes)
@@ -67,13 +82,11 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
       surface_of_(own_node_.size()),
       viscosity_s_(body.inertia.stiffness_damping_s),
       part_(body.compliance, connection_on_surface(body), sag_of(body)),
-      dynamic_(body.split.dynamic.mesh, body.material, inertia_of(body),
-               {.step_s = step_s,
-                .most_compliance_nodes = most_compliance_nodes,
-                .added = {connection_, part_.stiffness()}}),
+      dynamic_(dynamic_step_of(body, {connection_, part_.stiffness()}, step_s, most_compliance_nodes)),
       own_(state_at_rest(node_.size())),
       own_external_(own_.u.size()),
       own_yield_(own_.u.size()),
+      own_ahead_(own_.u.size()),
       f_c_(3 * connection_.size()),
       w_c_(f_c_.size()),
       w_(3 * static_cast<std::size_t>(part_.mobile_count())),
@@ -89,6 +102,7 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
   loads_.reserve(surface_node_.size());
   const auto most = static_cast<std::size_t>(most_compliance_nodes);
   touched_.reserve(most);
+  turned_.reserve(most);
   support_.reserve(connection_.size() + most);
   passed_on_.resize(static_cast<Eigen::Index>(f_c_.size()), 3 * most_compliance_nodes);
   held_.resize(3 * most_compliance_nodes, 3 * most_compliance_nodes);
@@ -141,7 +155,7 @@ bool HybridStep::step(BodyState& state, std::span<const double> external) noexce
   gather(state.u, own_.u);
   gather(state.v, own_.v);
   condense(external, Sag::kWith);
-  if (!dynamic_.step(own_, own_external_)) return false;
+  if (!dynamic_->step(own_, own_external_)) return false;
   scatter(own_.u, state.u);
   scatter(own_.v, state.v);
   lead(own_.u, own_.v);
@@ -162,12 +176,12 @@ void HybridStep::foresee(const BodyState& state, std::span<const double> externa
   gather(state.u, own_.u);
   gather(state.v, own_.v);
   condense(external, Sag::kWith);
-  dynamic_.foresee(own_, own_external_, own_yield_);
-  for (std::size_t c = 0; c < own_yield_.size(); ++c) own_.v[c] = (own_yield_[c] - own_.u[c]) / step_s();
-  lead(own_yield_, own_.v);
+  dynamic_->foresee(own_, own_external_, own_ahead_);
+  for (std::size_t c = 0; c < own_ahead_.size(); ++c) own_.v[c] = (own_ahead_[c] - own_.u[c]) / step_s();
+  lead(own_ahead_, own_.v);
   part_.follow(w_c_, loads(), Sag::kWith, f_c_, w_);
   std::ranges::copy(state.u, u.begin());
-  scatter(own_yield_, u);
+  scatter(own_ahead_, u);
   const double share = step_s() / (step_s() + viscosity_s_);
   for (std::size_t s = 0; s < surface_node_.size(); ++s) {
     if (!surface_of_[surface_node_[s]].valid()) continue;
@@ -180,7 +194,8 @@ void HybridStep::foresee(const BodyState& state, std::span<const double> externa
 
 void HybridStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {
   condense(forces, Sag::kWithout);
-  dynamic_.yield_to(own_external_, own_yield_);
+  gather(yield, own_yield_);
+  dynamic_->yield_to(own_external_, own_yield_);
   const double share = step_s() / (step_s() + viscosity_s_);
   for (std::size_t k = 0; k < connection_.size(); ++k)
     for (std::size_t i = 0; i < 3; ++i) w_c_[3 * k + i] = own_yield_[at(connection_[k]) + i] / share;
@@ -195,13 +210,13 @@ void HybridStep::yield_to(std::span<const double> forces, std::span<double> yiel
 
 double HybridStep::elastic_energy(std::span<const double> u) noexcept {
   gather(u, own_.u);
-  return dynamic_.elastic_energy(own_.u);
+  return dynamic_->elastic_energy(own_.u);
 }
 
 double HybridStep::work(std::span<const double> external, std::span<const double> v) noexcept {
   condense(external, Sag::kWith);
   gather(v, own_.v);
-  return dynamic_.work(own_external_, own_.v);
+  return dynamic_->work(own_external_, own_.v);
 }
 
 bool HybridStep::remove(std::span<const TetId> tetrahedra) noexcept {
@@ -209,12 +224,12 @@ bool HybridStep::remove(std::span<const TetId> tetrahedra) noexcept {
   removed_.clear();
   for (const TetId t : tetrahedra)
     if (own_tetrahedron_[t].valid()) removed_.push_back(own_tetrahedron_[t]);
-  return dynamic_.remove(removed_);
+  return dynamic_->remove(removed_);
 }
 
 void HybridStep::restore() noexcept {
   known_.forget();
-  dynamic_.restore();
+  dynamic_->restore();
 }
 
 // Each touched node's displacement by those of dynamic nodes, and these nodes: connection nodes first.
@@ -257,15 +272,19 @@ void HybridStep::add_yield_held(std::span<const NodeId> nodes, std::span<float> 
   }
 }
 
+// What is known is of the rest shape. A column of the precomputed part's goes by connection nodes alone,
+// which do not turn; each other node's turns with it.
 void HybridStep::compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept {
-  if (known_.find(nodes, block)) return;
-  find_rows(nodes);
-  const std::size_t width = 3 * nodes.size();
-  dynamic_.factor().project_inverse(support_, std::span(rows_).first(3 * support_.size() * width), block);
-  const auto scale = static_cast<float>(step_s() * step_s());
-  for (std::size_t i = 0; i < width * width; ++i) block[i] *= scale;
-  add_yield_held(nodes, block);
-  known_.keep(nodes, block);
+  if (!known_.find(nodes, block)) {
+    find_rows(nodes);
+    const std::size_t width = 3 * nodes.size();
+    dynamic_->project_at_rest(support_, std::span(rows_).first(3 * support_.size() * width), block);
+    add_yield_held(nodes, block);
+    known_.keep(nodes, block);
+  }
+  turned_.clear();
+  for (const NodeId n : nodes) turned_.push_back(own_node_[n]);
+  dynamic_->turn(turned_, block);
 }
 
 }  // namespace omentum::physics

@@ -2,12 +2,20 @@
 #pragma once
 
 #include "geometry/surface.h"
-#include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/known_blocks.h"
 #include "physics/hybrid/mesh_split.h"
 #include "physics/hybrid/precomputed_part.h"
 
+#include <memory>
+
 namespace omentum::physics {
+
+/// How the dynamic part's forces come about; the precomputed part is linear whatever they are.
+enum class DynamicLaw {
+  kLinear,        // ImplicitStep: small turns
+  kCorotational,  // WarpedStep: what is pulled, turned and lifted away
+};
 
 /// What a hybrid step is of; all of it outlives the step, but for `inertia` and `weights`.
 struct HybridBody {
@@ -18,13 +26,15 @@ struct HybridBody {
   const FixedComponents& fixed;  // [n] of the precomputed part
   Inertia inertia;               // of the whole, [N]; what the precomputed part's own nodes weigh is not read
   std::vector<double> weights;   // [3N], N, that always act on the precomputed part's own nodes
+  DynamicLaw law = DynamicLaw::kLinear;
 };
 
 /// The tissue of the precomputed part is that of the dynamic one without its mass: K (u + b v) = f at all of
 /// its nodes but the connection nodes, whose masses are whole. Condensed onto these it is a stiffness S of
 /// the dynamic part's equation and a force f_c (precomputed_part.h), both of the same step: a force that is
 /// one step old would make it unstable. So the whole is one implicit step of all tissue, and stable for any
-/// dt.
+/// dt. With the co-rotational law the dynamic part may turn as far as it likes, the precomputed one not: S
+/// takes a turn of the border for a strain, and holds against it.
 ///
 /// Vectors are [3N] of the whole mesh. Nodes inside the precomputed part have no tensors: theirs stay as they
 /// are, and forces on them beside `weights` do nothing. Only tetrahedra of the dynamic part are removed,
@@ -34,7 +44,7 @@ class HybridStep final : public LargeStep {
   /// Throws as KeptFactor, StiffnessFactor and PrecomputedPart do.
   HybridStep(HybridBody body, double step_s, int most_compliance_nodes);
 
-  double step_s() const override { return dynamic_.step_s(); }
+  double step_s() const override { return dynamic_->step_s(); }
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
   /// Of the dynamic part, and of the precomputed one as far as its connection nodes deform it: no more than
   /// what work() has done.
@@ -73,10 +83,11 @@ class HybridStep final : public LargeStep {
   std::vector<double> weights_;                   // [3N]
   double viscosity_s_;                            // b
   PrecomputedPart part_;
-  ImplicitStep dynamic_;
+  std::unique_ptr<JoinableStep> dynamic_;
   BodyState own_;                     // of the dynamic part
   std::vector<double> own_external_;  // [3d], N
   std::vector<double> own_yield_;     // [3d], m
+  std::vector<double> own_ahead_;     // [3d], m, where a step would end
   std::vector<double> f_c_, w_c_;     // [3c]
   std::vector<double> w_;             // [3 mobile], m
   std::vector<SurfaceId> loaded_;     // capacity mobile
@@ -87,6 +98,7 @@ class HybridStep final : public LargeStep {
   std::vector<geometry::NodeId> support_;  // connection, then other dynamic nodes
   Eigen::MatrixXd passed_on_, held_;       // [3c x 3q], [3q x 3q]
   std::vector<float> rows_;                // [3 support][3p]
+  std::vector<geometry::NodeId> turned_;   // [p] of the dynamic part; invalid: none of it
   KnownBlocks known_;
 };
 

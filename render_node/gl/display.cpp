@@ -18,18 +18,18 @@ void leave_cores_to_others() {
 }  // namespace
 
 std::unique_ptr<Renderer> open_display(bool headless, Size size, const std::string& title,
-                                       const std::filesystem::path& out) {
+                                       const std::filesystem::path& out, float ui_scale) {
   leave_cores_to_others();
   const bool chosen = size != Size{};
   if (!headless) {
     try {
-      return open_window(chosen ? size : kWindowSize, title);
+      return open_window(chosen ? size : kWindowSize, title, ui_scale);
     } catch (const DisplayError& error) {
       std::printf("no display (%s): writing pictures to %s instead\n", error.what(), out.c_str());
       std::fflush(stdout);
     }
   }
-  return open_offscreen(chosen ? size : kOffscreenSize);
+  return open_offscreen(chosen ? size : kOffscreenSize, ui_scale);
 }
 
 }  // namespace omentum::render::gl

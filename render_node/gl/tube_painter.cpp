@@ -2,6 +2,8 @@
 
 #include "shader_sources.h"  // generated from gl/shaders/
 
+#include <algorithm>
+
 namespace omentum::render::gl {
 namespace {
 
@@ -11,14 +13,14 @@ std::string skinning(std::string_view vertex) {
 
 }  // namespace
 
-TubePainter::Programs::Programs(const std::string& prefix)
-    : gut("tube", skinning(shaders::tube_vert), prefix + "#define GUT\n", shaders::tissue_frag),
-      map("map of a tube", skinning(shaders::tube_vert), prefix, shaders::map_frag) {}
+TubePainter::Wall::Wall(Shading shading)
+    : gut(surface_program(shading, "tube", skinning(shaders::tube_vert), "#define GUT\n",
+                          shaders::tissue_frag, "TISSUE")),
+      map(surface_program(shading, "map of a tube", skinning(shaders::tube_vert), "", shaders::map_frag,
+                          "MAP")) {}
 
-TubePainter::TubePainter(const std::string& fine, const std::string& plain)
-    : fine_(fine),
-      plain_(plain),
-      shadow_("shadow of a tube", skinning(shaders::tube_shadow_vert), "", shaders::shadow_frag) {}
+TubePainter::TubePainter()
+    : shadow_("shadow of a tube", skinning(shaders::tube_shadow_vert), "", shaders::shadow_frag) {}
 
 TubeId TubePainter::add() {
   tubes_.emplace_back();
@@ -40,14 +42,15 @@ void TubePainter::cast_shadows(const Frame& frame) {
 }
 
 void TubePainter::draw(const Frame& frame, Look look, const std::function<void(const Program&)>& set_scene) {
-  const Programs& programs = frame.quality == Quality::kFine ? fine_ : plain_;
-  const Program& program = look == Look::kMap ? programs.map : programs.gut;
-  bool is_ready = false;
+  if (std::ranges::none_of(frame.tubes, [&](const TubeItem& item) { return item.look == look; })) return;
+  const Shading shading = means_of(frame.quality).shading;
+  auto& wall = walls_[static_cast<std::size_t>(shading)];
+  if (!wall) wall.emplace(shading);
+  const Program& program = look == Look::kMap ? wall->map : wall->gut;
+  program.use();
+  set_scene(program);
   for (const TubeItem& item : frame.tubes) {
     if (item.look != look) continue;
-    if (!is_ready) program.use();
-    if (!is_ready) set_scene(program);
-    is_ready = true;
     program.set("radius", item.radius_m);
     program.set("by_turn", item.by_turn ? 1.0f : 0.0f);
     program.set("turn_full", static_cast<float>(2 * item.resolution.eps));

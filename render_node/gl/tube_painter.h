@@ -1,7 +1,7 @@
 // Draws a frame's tubes.
 #pragma once
 
-#include "render_node/gl/program.h"
+#include "render_node/gl/programs.h"
 #include "render_node/gl/tube_buffer.h"
 #include "render_node/tube_resolution.h"
 
@@ -14,8 +14,7 @@ namespace omentum::render::gl {
 /// those of meshes is set by whoever owns this.
 class TubePainter {
  public:
-  /// What goes before the fragment shaders of fine frames, and of others.
-  TubePainter(const std::string& fine, const std::string& plain);
+  TubePainter();
 
   TubeId add();
   void update(TubeId tube, std::span<const SkinFrame> frames);
@@ -25,13 +24,13 @@ class TubePainter {
   void draw(const Frame& frame, Look look, const std::function<void(const Program&)>& set_scene);
 
  private:
-  struct Programs {
-    explicit Programs(const std::string& prefix);
+  struct Wall {
+    explicit Wall(Shading shading);
     Program gut, map;
   };
   void draw(const TubeItem& item);
 
-  Programs fine_, plain_;
+  std::array<std::optional<Wall>, kShadingCount> walls_;  // made when first needed
   Program shadow_;
   std::array<std::optional<CylinderBuffer>, kMostTubeN + 1> cylinders_;  // by n
   std::vector<TubeBuffer> tubes_;

@@ -3,12 +3,11 @@
 
 #include "deform_node/model_table.h"
 #include "deform_node/strain_gauge.h"
-#include "organ/build_organ.h"
-#include "organ/dynamic_spec.h"
+#include "geometry/mesh_editor.h"
+#include "tests/deform_node/hybrid_organ.h"
 #include "tests/deform_node/rates.h"
 #include "tests/support/heap_count.h"
 #include "tests/support/meshes.h"
-#include "tests/support/process.h"
 
 #include <gmock/gmock.h>
 
@@ -22,24 +21,6 @@ constexpr double kBorder_m = 0.06;
 
 class HybridModelTest : public testing::Test {
  protected:
-  HybridModelTest() {
-    geometry::TetraMesh mesh = test::make_box_mesh(8, 2, 2, Vec3(kBeamLength_m, 0.03, 0.03));
-    physics::FixedComponents fixed;
-    for (const Vec3& x : mesh.positions) fixed.push_back(x.x() < 1e-9 ? physics::kPinned : 0);
-    std::vector<std::uint8_t> dynamic = organ::parse_dynamic(std::vector<std::string>{"plane:x>0.06"}, mesh);
-    const organ::Organ built =
-        organ::make_organ("beam", std::move(mesh), physics::Material{20000, 0.4, 1000}, std::move(fixed),
-                          organ::Storage::kFloat, std::move(dynamic));
-    organ::build_organ(built, folder_ / "beam.h5", {});
-    source_.organ = organ::load_organ(folder_ / "beam.h5", organ::Load::kWithPart);
-    source_.rest = geometry::surface_positions(source_.organ.mesh, source_.organ.surface);
-    spec_.dynamics.emplace();
-    spec_.dynamics->gravity_m_s2 = Vec3(0, 0, -9.81);
-    spec_.dynamics->mass_damping_per_s = 10;
-    spec_.dynamics->cut_delay_s = 0;
-    spec_.dynamics->cut_rate_per_s = 1e6;
-  }
-
   std::unique_ptr<OrganModel> make(const std::string& model) const {
     return find_model(model_table(), model).make(source_, spec_);
   }
@@ -72,9 +53,10 @@ class HybridModelTest : public testing::Test {
     return count;
   }
 
-  test::ScratchFolder folder_;
-  node::OrganSource source_;
-  scene::OrganSpec spec_;
+  geometry::TetraMesh mesh_ = test::make_box_mesh(8, 2, 2, Vec3(kBeamLength_m, 0.03, 0.03));
+  test::HybridOrgan organ_{mesh_, test::held_at_low_x(mesh_, 1e-9), "plane:x>0.06"};
+  node::OrganSource& source_ = organ_.source;
+  scene::OrganSpec& spec_ = organ_.spec;
 };
 
 TEST_F(HybridModelTest, ItHangsAndIsPressedAsAWholeDynamicOrganIs) {
@@ -147,6 +129,41 @@ TEST_F(HybridModelTest, WhatIsCutOffFallsAndTheRestRisesToWhereThePrecomputedPar
   model->reset();
   pass(*model, 0.1);
   EXPECT_EQ(model->status().removed_tetrahedra, 0u);
+}
+
+// Without weight nothing moves, so that what an edge meets is known from the shape at rest.
+TEST_F(HybridModelTest, AllThatIsGoneMetTheEdgeOrWasRepairAndAnotherLineTakesOthers) {
+  spec_.dynamics->gravity_m_s2.setZero();
+  constexpr int kStrokes = 20;
+  std::array<std::vector<std::uint8_t>, 2> gone;
+  for (const std::size_t line : {0, 1}) {
+    const auto model = make("hybrid");
+    const Vec3 begin(0.075 + 0.005 * static_cast<double>(line), -0.005, 0), way(0.02, 0.04, 0),
+        up(0, 0, 0.05);
+    const Vec3 across = way.cross(up);
+    for (int i = 0; i < kStrokes; ++i) {
+      const Vec3 a = begin + way * i / kStrokes, b = begin + way * (i + 1) / kStrokes;
+      const CutStroke stroke{.tool = 0, .cut = 1, .from = {a + up, a - up}, .to = {b + up, b - up}};
+      model->step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+    }
+    geometry::MeshEditor editor(source_.organ.mesh);
+    editor.set_removed(model->view().removed_bits);
+    EXPECT_EQ(editor.piece_count(), 2) << "the tip is cut off";
+    std::uint32_t beside = 0;
+    for (std::size_t t = 0; t < source_.organ.mesh.tetrahedra.size(); ++t) {
+      if (!editor.is_removed(geometry::TetId(t))) continue;
+      double low = 1, high = -1;
+      for (const NodeId n : source_.organ.mesh.tetrahedra[geometry::TetId(t)]) {
+        const double side = (source_.organ.mesh.positions[n] - begin).dot(across);
+        low = std::min(low, side), high = std::max(high, side);
+      }
+      beside += low > 0 || high < 0;
+    }
+    EXPECT_EQ(beside, model->status().repaired_tetrahedra);
+    EXPECT_GT(model->status().removed_tetrahedra, 20u + beside);
+    gone[line].assign(model->view().removed_bits.begin(), model->view().removed_bits.end());
+  }
+  EXPECT_NE(gone[0], gone[1]) << "5 mm aside";
 }
 
 // Across the border and on both sides of it, until little is left.

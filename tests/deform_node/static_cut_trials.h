@@ -22,11 +22,7 @@ struct HeldOrgan {
   DynamicParts parts() const;
 };
 
-/// One sequence of `ticks`: strokes through random places, a hand that presses by the local models that it is
-/// told, presses elsewhere or lets go, resets, and other processes that take the cuts up. Checks after every
-/// tick that states and patches are finite, that no force is beyond twice what the hand said, that the rest
-/// is manifold and held, and that nobody's energy is beyond the work that was done. The first thing that is
-/// wrong, with its tick; empty: nothing.
+/// A sequence of cut_trials.h, and what is left is held.
 std::string try_static_cuts(const HeldOrgan& organ, std::uint32_t seed, int ticks);
 
 }  // namespace omentum::deform

@@ -20,7 +20,7 @@ constexpr int kBlock = 4;  // pixels: what an eye takes together at arm's length
 
 // Of 255, of blocks: below the first two pictures look the same, side by side; where one of them has straight
 // pieces between its frames that is seen, and is above the second.
-constexpr double kSameToTheEye = 1.5, kSeen = 2.5;
+constexpr double kSameToTheEye = 0.7, kSeen = 1.2;
 constexpr double kSameToRounding = 0.2;  // another order of sums moves an edge by a grain
 
 /// The mean difference of blocks of pixels, of 255.

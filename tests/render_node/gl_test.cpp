@@ -1,6 +1,7 @@
 // Properties of the pixels that OpenGL draws, off-screen.
 #include "render_node/gl/gl_context.h"
 #include "render_node/gl/gl_renderer.h"
+#include "render_node/gl/window_keys.h"
 #include "render_node/panel.h"
 #include "render_node/scene_view.h"
 
@@ -221,6 +222,36 @@ TEST_F(Drawing, QualitiesShowTheSame) {
     for (std::size_t i = 0; i < fine.rgba.size(); ++i) sum += std::abs(fine.rgba[i] - other.rgba[i]);
     EXPECT_LT(sum / static_cast<double>(fine.rgba.size()), 5) << "mean difference of eight-bit values";
   }
+}
+
+TEST_F(Drawing, LinesOfTheTrianglesLieOnTheOrganAndLeaveItSeen) {
+  const Picture plain = draw();
+  choices_.wires = true;
+  const Picture lined = draw();
+  const auto lighter = [&](int x, int y) {
+    return (pixel(lined, x, y) - pixel(plain, x, y)).minCoeff() > 20;
+  };
+  const Area tissue = area_where(plain, [&](int x, int y) { return is_tissue(pixel(plain, x, y)); });
+  const Area lines =
+      area_where(plain, [&](int x, int y) { return is_tissue(pixel(plain, x, y)) && lighter(x, y); });
+  EXPECT_GT(lines.count, tissue.count / 20);
+  EXPECT_LT(lines.count, tissue.count * 9 / 10);
+  const Area outside = area_where(plain, [&](int x, int y) {
+    const bool far = (Eigen::Vector2d(x, y) - at(Vec3::Zero())).norm() > 110;
+    return far && difference(plain, lined, x, y) > 2;
+  });
+  EXPECT_EQ(outside.count, 0);
+}
+
+TEST(WindowKeys, AreTheLettersOfThePersonsLayout) {
+  constexpr int kA = 65, kM = 77, kF1 = 290, kControl = 2;  // GLFW's
+  EXPECT_EQ(gl::letter_of(kA, 0, "q"), 'q') << "a French keyboard";
+  EXPECT_EQ(gl::letter_of(kM, 0, ","), 0) << "and its comma";
+  EXPECT_EQ(gl::letter_of(kA, 0, "\xd1\x84"), 'A') << "a Russian one";
+  EXPECT_EQ(gl::letter_of(kA, 0, nullptr), 'A');
+  EXPECT_EQ(gl::letter_of(kF1, 0, nullptr), 'H');
+  EXPECT_EQ(gl::letter_of(kA, kControl, "a"), 0);
+  EXPECT_EQ(gl::letter_of(32, 0, nullptr), 0);
 }
 
 TEST_F(Drawing, EndoscopeIsRound) {

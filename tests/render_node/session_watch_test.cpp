@@ -75,6 +75,30 @@ TEST_F(SessionWatchTest, OfSeveralOrgansThePanelSaysWhichOneItMeans) {
   EXPECT_EQ(panel.organs[1].name, "right");
 }
 
+TEST_F(SessionWatchTest, APeakBetweenTwoFramesCountsAndOneBeyondTheScenesLimitDoesNot) {
+  listen(kSecond);
+  msg::ToolForce force{};
+  const auto feel = [&](double force_n) {
+    ++force.seq;
+    force.force = {0, 0, force_n};
+    bus_.post(force);
+  };
+  const double limit_n = scene_.haptics.max_force_n;
+  for (const double force_n : {0.1 * limit_n, 0.9 * limit_n, 100 * limit_n, kNan, 0.2 * limit_n})
+    feel(force_n);
+  listen(kSecond + 1);
+  PanelView panel;
+  watch_.describe(view_, kSecond + 1, panel);
+  EXPECT_FLOAT_EQ(panel.tools[0].force_n, static_cast<float>(0.2 * limit_n));
+  EXPECT_FLOAT_EQ(panel.tools[0].most_n, static_cast<float>(0.9 * limit_n));
+}
+
+TEST_F(SessionWatchTest, ThePanelKnowsHowLargeAnOrganIs) {
+  PanelView panel;
+  watch_.describe(view_, kSecond, panel);
+  EXPECT_EQ(panel.organs[0].nodes, ball_.rest.size());
+}
+
 TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
   msg::ToolPose pose{};
   pose.seq = 1;

@@ -64,9 +64,11 @@ TEST(Solids, GroundIsDarkUnderTheOrganAndOpenFarAway) {
 }
 
 TEST(Instruments, AreClosedAndTurnedOutwards) {
-  for (const char* shape : {"probe", "grasper"}) {
+  for (const char* shape : {"probe", "grasper", "hook", "endoscope"}) {
     scene::ToolSpec tool;
     tool.shape = shape;
+    if (tool.shape == "hook") tool.edge = {Vec3(0.003, 0, 0.01), Vec3(0.003, 0, -0.01)};
+    if (tool.shape == "endoscope") tool.scope.emplace();
     for (const auto& part : instrument_parts(tool, Vec3f::Ones())) {
       EXPECT_GT(volume(part.mesh), 0) << shape;
       expect_normals_outward(part.mesh);

@@ -135,6 +135,18 @@ TEST(DynamicsKeys, AHybridOrganSaysWhichPartMovesAndStepsImplicitly) {
   EXPECT_THAT(message_of(with(hybrid + part + "integrator = \"rk4\"")), HasSubstr("one of \"implicit\""));
 }
 
+TEST(DynamicsKeys, AHybridOrganSaysByWhichLawItsDynamicPartMoves) {
+  const std::string hybrid = "model = \"hybrid\"\ndynamic = \"plane:x>0.02\"\n",
+                    turned = "law = \"corotational\"";
+  EXPECT_EQ(load_scene(with(hybrid)).organs[0].dynamics->law, "linear");
+  const Scene scene = load_scene(with(hybrid + turned));
+  EXPECT_EQ(scene.organs[0].dynamics->law, "corotational");
+  EXPECT_THAT(scene_values(scene), Contains("organs[0].law = corotational"));
+  EXPECT_THAT(message_of(with(hybrid + "law = \"springs\"")),
+              HasSubstr("one of \"linear\", \"corotational\""));
+  EXPECT_THAT(message_of(with("model = \"tensor-mass\"\n" + turned)), HasSubstr("law"));
+}
+
 TEST(DynamicsKeys, MachinesCompareThem) {
   const auto values = scene_values(load_scene(with("model = \"tensor-mass\"\ncut_delay_s = 0.25")));
   EXPECT_THAT(values, Contains("organs[0].cut_delay_s = 0.25"));

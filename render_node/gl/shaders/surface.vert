@@ -1,4 +1,4 @@
-// Every mesh of the scene.
+// Every mesh of the scene. PER_VERTEX is defined where light is computed here (vertex_light.glsl).
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest_position;
@@ -25,4 +25,7 @@ void main() {
   charring = charring_in;
   share = share_in;
   gl_Position = clip_from_W * p;
+#ifdef PER_VERTEX
+  light_vertex(p_W, n_W, rest, openness, charring, share);
+#endif
 }

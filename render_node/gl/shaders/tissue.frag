@@ -119,6 +119,7 @@ vec3 wrapped(float n_dot_l) {
 }
 
 void main() {
+  aim_key(p_W);
   vec4 mottle = texture(pattern, rest / mottle_period);
   vec4 fine = texture(pattern, rest / grain_period);
   vec3 v = normalize(eye - p_W);
@@ -187,7 +188,7 @@ void main() {
   // ambient: cool from above, warm from the neighbouring tissue below; what a hollow keeps is redder
   float above = n_soft.z * 0.5 + 0.5;
   vec3 open = pow(vec3(openness), hollow_power);
-  light += mix(ambient_below, ambient_above, above) * open;
+  light += mix(ambient_below, ambient_above, above) * open * mix(vec3(1.0), ambient_in_body, scope);
   vec3 body = albedo * light * mix(vec3(1.0), open, hollow_share);
 
   // the film of water: sharp glints of both lights and a mirror of the room, strongest at grazing angles

@@ -41,4 +41,7 @@ void main() {
   charring = 0.0;
   share = by_turn > 0.0 ? bend_share_turn_1.w / turn_full : mix(bend_share_turn_1.z, bend_share_turn_2.z, way);
   gl_Position = clip_from_W * vec4(p_W, 1.0);
+#ifdef PER_VERTEX
+  light_vertex(p_W, n_W, rest, openness, charring, share);
+#endif
 }

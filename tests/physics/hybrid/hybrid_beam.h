@@ -13,7 +13,7 @@ inline constexpr physics::Material kBeamTissue{5000, 0.4, 1050};
 
 struct HybridBeam {
   geometry::TetraMesh mesh = make_box_mesh(8, 2, 2, {0.12, 0.03, 0.03});
-  physics::MaterialMap material{kBeamTissue};
+  physics::MaterialMap material;
   std::vector<std::uint8_t> dynamic;  // where x > 6 cm
   physics::MeshSplit split;
   physics::Inertia inertia;
@@ -22,11 +22,15 @@ struct HybridBeam {
   physics::SurfaceCompliance compliance{0, nullptr, nullptr, nullptr};
   Values weights;
 
-  explicit HybridBeam(const geometry::Vec3& gravity = {0, 0, -9.81}) {
+  /// `stiffer`: what Young's modulus of the precomputed part is in that of the dynamic one.
+  explicit HybridBeam(const geometry::Vec3& gravity = {0, 0, -9.81}, double stiffer = 1)
+      : material(kBeamTissue,
+                 {{1, {stiffer * kBeamTissue.young_pa, kBeamTissue.poisson, kBeamTissue.density_kg_m3}}}) {
     for (const auto& t : mesh.tetrahedra) {
       double x = 0;
       for (const geometry::NodeId n : t) x += mesh.positions[n].x() / 4;
       dynamic.push_back(x > 0.06 ? 1 : 0);
+      mesh.regions.push_back(x > 0.06 ? 0 : 1);
     }
     split = physics::split_mesh(mesh, dynamic);
     inertia.mass = physics::lumped_masses(mesh, material);

@@ -1,5 +1,6 @@
 #include "physics/hybrid/hybrid_step.h"
 
+#include "physics/dynamics/implicit_step.h"
 #include "tests/physics/hybrid/hybrid_beam.h"
 #include "tests/support/heap_count.h"
 
