@@ -9,7 +9,7 @@
 //   settle/LOAD/FROM   until the frame rate's control keeps the rate, in simulated time: loads per piece of
 //                      a tube, vertex or pixel (load_models.h), from the coarsest or finest level
 // --pictures DIR: draws one moment at each quality into DIR instead (Raghupathi 2004, fig. 12).
-// LP_NUM_THREADS: threads of Mesa's software rasterizer (1, as render_node has it, where it is not set).
+// LP_NUM_THREADS: threads of Mesa's software rasterizer (0, as render_node has it, where it is not set).
 #include "benchmarks/json_reporter.h"
 #include "render_node/gl/gl_context.h"
 #include "render_node/gl/gl_renderer.h"
@@ -157,7 +157,7 @@ std::optional<std::filesystem::path> pictures_asked(int argc, char** argv) {
 int main(int argc, char** argv) {
   omentum::bench::Results results(argc, argv);
   benchmark::Initialize(&argc, argv);
-  setenv("LP_NUM_THREADS", "1", 0);
+  setenv("LP_NUM_THREADS", "0", 0);
   try {
     Stage stage;
     if (const auto folder = pictures_asked(argc, argv)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace omentum::device {
 namespace {
@@ -85,9 +86,7 @@ void PointerAim::follow(const msg::PointerRay& ray, double seconds) noexcept {
 }
 
 Vec3 PointerAim::take_tilt() noexcept {
-  const Vec3 tilt = tilt_;
-  tilt_.setZero();
-  return tilt;
+  return std::exchange(tilt_, Vec3::Zero());
 }
 
 bool PointerAim::goes_on(std::int64_t now_ns) const noexcept {

@@ -14,7 +14,7 @@ enum class Shading : std::uint8_t {
 };
 inline constexpr std::size_t kShadingCount = 4;
 
-/// docs/rendering.md has what they cost.
+/// What they cost: docs/rendering.md.
 struct QualityMeans {
   const char* word;  // in the report and on the panel
   int samples;       // per pixel, for smooth edges; 0: the pixel's middle

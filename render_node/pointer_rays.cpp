@@ -1,6 +1,7 @@
 #include "render_node/pointer_rays.h"
 
 #include "node_common/vectors.h"
+#include "render_node/scope_view.h"
 
 #include <Eigen/LU>
 

@@ -22,7 +22,7 @@ constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and
                                                   // follow them, within seconds
 constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
-constexpr double kDuty = 0.5;
+constexpr double kDuty = 0.6;
 constexpr double kSettled_s =
     3;  // the frame rate's control has found its level, and the other nodes are there
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
@@ -120,9 +120,14 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
 
 void RenderLoop::run() {
   while (!closed_ && pace_.wait() != runtime::Pace::Cause::kStopped) {
-    const double time_s = seconds_since_begin(pace_.now_ns());
+    const std::int64_t now_ns = pace_.now_ns();
+    const double time_s = seconds_since_begin(now_ns);
     if (options_.seconds > 0 && time_s >= options_.seconds) break;
-    if (control_.due(time_s)) frame(false);
+    if (control_.due(time_s)) {
+      frame(false);
+    } else {
+      pointer_->look(renderer_, seen_, watch_.tools(), now_ns);
+    }
   }
   if (writer_) frame(true);
   if (writer_) picture_failure_ = writer_->finish();

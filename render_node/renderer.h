@@ -169,6 +169,9 @@ class Renderer {
   virtual void update_tube(TubeId tube, std::span<const SkinFrame> frames) = 0;
 
   virtual Input begin_frame() = 0;
+  /// Between two frames: what the person did since it was asked last, here or by begin_frame(). The camera's
+  /// part of the Input waits for the next frame, but not that of the pointer.
+  virtual Pointer look_at_pointer() { return {}; }
   virtual void draw(const Frame& frame) = 0;  // the scene, then the panel over it
   virtual Picture read_back() = 0;
   virtual void end_frame() = 0;

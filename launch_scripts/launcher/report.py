@@ -20,6 +20,7 @@ FIELDS = {
     "deform_node": {"loop": NO_LOOP, "states": 0, "stress_states": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
                     "cuts": {"way_cm": 0.0, "lost_cm3": 0.0, "lost_cm3_per_cm": 0.0}, "real_time_factor": 0.0, "faults": []},
     "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "removed_tetrahedra": 0, "closed": False, "videos": [],
+                    "picture": {"level": "", "asked_fps": 0.0, "reached_fps": 0.0, "changes": 0, "share": {}},
                     "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }

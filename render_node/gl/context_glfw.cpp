@@ -84,22 +84,29 @@ class GlfwContext final : public GlContext {
       if (mouse.other && mouse_.other) input.pan_x = dx, input.pan_y = dy;
       input.zoom = scrolled_;
     }
-    input.pointer = pointer_reader_.read(window_, scrolled_, io.WantCaptureMouse);
-    const bool key = glfwGetKey(window_, GLFW_KEY_S) == GLFW_PRESS;
-    input.switch_map = key && !map_key_;
-    map_key_ = key;
+    input.pointer = read_pointer();
     input.keys = std::exchange(typed_, KeyPresses{});
     mouse_ = mouse;
-    scrolled_ = 0;
+    scrolled_ = seen_scrolled_ = 0;
     return input;
   }
   void end_frame() override { glfwSwapBuffers(window_); }
+  Pointer look_at_pointer() override {
+    glfwPollEvents();
+    return read_pointer();
+  }
 
  private:
   struct Mouse {
     double x = 0, y = 0;
     bool left = false, other = false;
   };
+  Pointer read_pointer() {
+    const Pointer pointer =
+        pointer_reader_.read(window_, scrolled_ - seen_scrolled_, ImGui::GetIO().WantCaptureMouse);
+    seen_scrolled_ = scrolled_;
+    return pointer;
+  }
   Mouse read_mouse() const {
     Mouse mouse;
     glfwGetCursorPos(window_, &mouse.x, &mouse.y);
@@ -112,8 +119,8 @@ class GlfwContext final : public GlContext {
   GLFWwindow* window_ = nullptr;
   Mouse mouse_;
   PointerReader pointer_reader_;
-  float scrolled_ = 0;
-  KeyPresses typed_;  // since the last frame
+  float scrolled_ = 0, seen_scrolled_ = 0;  // since the last frame, and of that by who looked at the pointer
+  KeyPresses typed_;                        // since the last frame
 };
 
 }  // namespace

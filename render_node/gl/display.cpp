@@ -9,10 +9,11 @@
 namespace omentum::render::gl {
 namespace {
 
-// Mesa's software OpenGL would take every core for each frame. One thread beside ours leaves the others to
-// the 1 kHz loops; whoever set the variable knows better. Drivers of graphics cards ignore it.
+// Mesa's software OpenGL would take every core for each frame. Without threads of its own it draws in ours,
+// at our priority and within our share of the time (docs/rendering.md); whoever set the variable knows
+// better. Drivers of graphics cards ignore it.
 void leave_cores_to_others() {
-  setenv("LP_NUM_THREADS", "1", 0);
+  setenv("LP_NUM_THREADS", "0", 0);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ class GlContext {
   virtual void start_panel() = 0;  // Dear ImGui's platform part; its context exists
   virtual void stop_panel() = 0;
   virtual Input begin_frame() = 0;
+  virtual Pointer look_at_pointer() { return {}; }
   virtual void end_frame() = 0;
 };
 

@@ -79,6 +79,7 @@ class GlRenderer final : public Renderer {
   void update_tube(TubeId tube, std::span<const SkinFrame> frames) override { tubes_.update(tube, frames); }
 
   Input begin_frame() override { return panel_->begin_frame(); }
+  Pointer look_at_pointer() override { return context_->look_at_pointer(); }
 
   void draw(const Frame& frame) override {
     fit_targets();
@@ -245,9 +246,9 @@ class GlRenderer final : public Renderer {
       glBindFramebuffer(GL_DRAW_FRAMEBUFFER, output());
       glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     }
+    if (scene.size() != fitted_) stretch_.draw(scene, output(), fitted_);
     glBindFramebuffer(GL_FRAMEBUFFER, output());
     glViewport(0, 0, width, height);
-    if (scene.size() != fitted_) stretch_.draw(scene);
   }
 
   const Programs& programs(const Frame& frame) {
@@ -262,7 +263,7 @@ class GlRenderer final : public Renderer {
   Program shadow_program_{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
   std::array<std::optional<Programs>, kShadingCount> programs_;  // made when first needed
   TubePainter tubes_;
-  Stretch stretch_;
+  Stretch stretch_{!software().empty()};
   NoiseTexture pattern_;
   Wires wires_;
   ShadowMap shadow_;

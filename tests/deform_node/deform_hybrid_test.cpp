@@ -138,7 +138,7 @@ TEST_F(HybridModelTest, AllThatIsGoneMetTheEdgeOrWasRepairAndAnotherLineTakesOth
   std::array<std::vector<std::uint8_t>, 2> gone;
   for (const std::size_t line : {0, 1}) {
     const auto model = make("hybrid");
-    const Vec3 begin(0.075 + 0.005 * static_cast<double>(line), -0.005, 0), way(0.02, 0.04, 0),
+    const Vec3 begin(0.0752 + 0.005 * static_cast<double>(line), -0.005, 0), way(0.02, 0.04, 0),
         up(0, 0, 0.05);
     const Vec3 across = way.cross(up);
     for (int i = 0; i < kStrokes; ++i) {
@@ -151,16 +151,18 @@ TEST_F(HybridModelTest, AllThatIsGoneMetTheEdgeOrWasRepairAndAnotherLineTakesOth
     EXPECT_EQ(editor.piece_count(), 2) << "the tip is cut off";
     std::uint32_t beside = 0;
     for (std::size_t t = 0; t < source_.organ.mesh.tetrahedra.size(); ++t) {
-      if (!editor.is_removed(geometry::TetId(t))) continue;
       double low = 1, high = -1;
       for (const NodeId n : source_.organ.mesh.tetrahedra[geometry::TetId(t)]) {
         const double side = (source_.organ.mesh.positions[n] - begin).dot(across);
         low = std::min(low, side), high = std::max(high, side);
       }
-      beside += low > 0 || high < 0;
+      const bool met = low <= 0 && high >= 0, is_gone = editor.is_removed(geometry::TetId(t));
+      EXPECT_TRUE(is_gone || !met) << t << ": the wire went through it";
+      beside += is_gone && !met;
     }
-    EXPECT_EQ(beside, model->status().repaired_tetrahedra);
-    EXPECT_GT(model->status().removed_tetrahedra, 20u + beside);
+    // what hung may be what the wire would have met later
+    EXPECT_LE(beside, model->status().repaired_tetrahedra);
+    EXPECT_GT(model->status().removed_tetrahedra, 20u + model->status().repaired_tetrahedra);
     gone[line].assign(model->view().removed_bits.begin(), model->view().removed_bits.end());
   }
   EXPECT_NE(gone[0], gone[1]) << "5 mm aside";

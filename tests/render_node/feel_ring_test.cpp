@@ -73,7 +73,8 @@ TEST_F(FeelRingTest, TheBarIsLinear) {
   const auto items = felt(2.5);
   ASSERT_EQ(items.size(), 3U);
   EXPECT_NEAR(length(items[2]), 0.25f * length(items[1]), kFeelFloat);
-  EXPECT_GT(items[2].W_from_mesh.topLeftCorner<3, 3>().determinant(), 0) << "its outside is seen";
+  const Eigen::Matrix3f axes = items[2].W_from_mesh.topLeftCorner<3, 3>();
+  EXPECT_GT(axes.determinant(), 0) << "its outside is seen";
 }
 
 TEST_F(FeelRingTest, ATipThatIsNotThereHasNone) {

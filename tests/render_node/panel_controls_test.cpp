@@ -91,6 +91,7 @@ class Panels : public testing::TestWithParam<Screen> {
     view.hand_to_force_us = view.hand_to_picture_us = 12345;
     view.exposed_organ = "colon";
     view.exposed_share = 0.4;
+    view.picture = "quarter pixels, 24 of 30 Hz";
     for (const char* name : {"haptic", "deform", "render", "device", "launcher"})
       view.nodes.push_back({.name = name});
     for (int t = 0; t < 4; ++t) {

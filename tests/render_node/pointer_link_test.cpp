@@ -27,7 +27,9 @@ class PointerLinkTest : public testing::Test {
     };
     renderer_.on_panel = [] { ImGui::Render(); };
     options_.node.scene = block_.scene();
-    options_.fps = 2 * kLinkPace_hz;  // each tick of the pace is a frame
+  }
+  void start(double fps) {
+    options_.fps = fps;
     node_ = std::make_unique<omentum::test::StagedLoop<RenderLoop>>(kLinkPace_hz, options_, bus_.opener(),
                                                                     renderer_);
   }
@@ -45,11 +47,36 @@ class PointerLinkTest : public testing::Test {
   Input input_;
 };
 
+TEST_F(PointerLinkTest, BetweenFramesThePointerIsStillSeen) {
+  const auto peer = bus_.opener()();
+  test::PressingTool tool(*peer, block_.organ());
+  std::vector<msg::PointerRay> rays;
+  const auto reader = peer->reader<msg::PointerRay>([&](const msg::PointerRay& ray) { rays.push_back(ray); });
+  int looks = 0;
+  renderer_.on_look = [&] {
+    ++looks;
+    return Pointer{.inside = true, .x = 0.7f, .y = 0.5f, .dx = 2, .wheel = 1, .camera_key = looks > 40};
+  };
+  start(kLinkPace_hz / 10);  // nine ticks in ten draw nothing
+  tool.speak();
+  node_->tick(30);
+  EXPECT_GT(looks, 15);
+  ASSERT_GT(rays.size(), 20U);
+  EXPECT_EQ(rays.back().wheel, looks);
+  // what the camera missed comes with its next frame
+  node_->tick(40);
+  const Vec3f eye = renderer_.frames.back().view.eye;
+  input_.pointer = {.inside = true, .buttons = msg::POINTER_LEFT, .camera_key = true};
+  node_->tick(20);
+  EXPECT_GT((renderer_.frames.back().view.eye - eye).norm(), 1e-4f);
+}
+
 TEST_F(PointerLinkTest, RaysGoOutWhileADeviceListensAndShowWhatItFeels) {
   const auto peer = bus_.opener()();
   test::PressingTool tool(*peer, block_.organ());
   input_.pointer = {.inside = true, .x = 0.7f, .y = 0.5f};
   input_.orbit_x = 20;
+  start(2 * kLinkPace_hz);  // each tick of the pace is a frame
   tool.speak();
   node_->tick(2);
   const std::size_t before = signals();

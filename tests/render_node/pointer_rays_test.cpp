@@ -100,14 +100,14 @@ TEST(PointerRays, ThePanelAndTheCameraTakeThePointerFromTheTool) {
 
 TEST(PointerRays, TheCameraIsTurnedByTheMiddleButtonOrItsKeyAlone) {
   const PointerRays rays = rays_of({"probe"});
-  Input input{.orbit_x = 7, .zoom = 1, .switch_map = true};
+  Input input{.orbit_x = 7, .zoom = 1, .keys = KeyPresses('S')};
   input.pointer = pointing();
   input.pointer.dx = 7;
   input.pointer.wheel = 1;
   input.pointer.buttons = msg::POINTER_LEFT;
   EXPECT_EQ(rays.for_camera(input).orbit_x, 0);
   EXPECT_EQ(rays.for_camera(input).zoom, 0);
-  EXPECT_TRUE(rays.for_camera(input).switch_map);
+  EXPECT_TRUE(rays.for_camera(input).keys.has('S'));
   input.pointer.camera_key = true;
   EXPECT_EQ(rays.for_camera(input).orbit_x, 7);
   EXPECT_EQ(rays.for_camera(input).zoom, 1);

@@ -44,6 +44,7 @@ class RecordingRenderer final : public Renderer {
     ++updates;
   }
   Input begin_frame() override { return on_begin_frame ? on_begin_frame() : Input{}; }
+  Pointer look_at_pointer() override { return on_look ? on_look() : Pointer{}; }
   void draw(const Frame& frame) override {
     frames.push_back(frame);
     if (frame.with_panel && on_panel) on_panel();
@@ -70,6 +71,7 @@ class RecordingRenderer final : public Renderer {
   // a scripted person at a window
   bool windowed = false;
   std::function<Input()> on_begin_frame;
+  std::function<Pointer()> on_look;
   std::function<void()> on_panel;
 
  private:

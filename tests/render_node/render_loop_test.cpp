@@ -386,6 +386,18 @@ TEST_F(RenderLoopTest, WithoutAScoreNothingIsSaidOfExposure) {
   EXPECT_FALSE(close().contains("exposed_share"));
 }
 
+TEST_F(RenderLoopTest, ReportsHowFinelyAndHowOftenItDrew) {
+  start();
+  frames(500);
+  const auto picture = close()["picture"];
+  EXPECT_EQ(picture["level"], words(PictureLevel{kFinestStep})) << "frames cost nothing here";
+  EXPECT_NEAR(picture["reached_fps"], kPace_hz, 5);
+  double all = 0;
+  for (const auto& [quality, share] : picture["share"].items()) all += share.get<double>();
+  EXPECT_NEAR(all, 1, 1e-9);
+  EXPECT_GT(picture["share"]["fine"], 0.5);
+}
+
 TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {
   start();
   frames(1000);

@@ -1,12 +1,11 @@
 // What is cut stays cut, whoever dies.
-#include "tests/system/session_on_trial.h"
+#include "tests/system/hurried_scene.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <fstream>
 
 namespace omentum::test {
 namespace {
@@ -20,32 +19,13 @@ struct CutTrial {
   friend void PrintTo(const CutTrial& trial, std::ostream* out) { *out << trial.name; }
 };
 
-/// A scene's text with the hands' waypoints that much faster.
-std::string hurried(const std::string& text, double times) {
-  const std::string key = "seconds = ";
-  std::string faster;
-  std::size_t from = 0;
-  for (std::size_t at; (at = text.find(key, from)) != std::string::npos;) {
-    const std::size_t number = at + key.size();
-    std::size_t digits = 0;
-    const double seconds = std::stod(text.substr(number), &digits);
-    faster += text.substr(from, number - from) + std::to_string(seconds / times);
-    from = number + digits;
-  }
-  return faster + text.substr(from);
-}
-
 /// Each made once.
 const std::string& prepared(const CutTrial& trial) {
   static std::map<std::string, std::unique_ptr<ScratchFolder>> folders;
   static std::map<std::string, std::string> scenes;
   if (!scenes.contains(trial.scene)) {
     const auto& folder = folders[trial.scene] = std::make_unique<ScratchFolder>();
-    const std::string scene =
-        prepare_scene(OMENTUM_SOURCE_DIR "/scenes/" + trial.scene + ".toml", {}, folder->path());
-    const std::string text = hurried(read_text(scene), trial.hurry);
-    std::ofstream(scene) << text;
-    scenes[trial.scene] = scene;
+    scenes[trial.scene] = prepare_hurried(trial.scene, trial.hurry, folder->path());
   }
   return scenes[trial.scene];
 }
