@@ -201,6 +201,8 @@ void RenderLoop::take_close_up(const Dent& deepest) {
 
 void RenderLoop::draw(const std::string& picture) {
   const double covered = options_.no_panel ? 0 : panel_share(renderer_.size(), renderer_.ui_scale());
+  const PictureLevel level = control_.level();
+  view_.set_tube_resolution(picture.empty() ? TubeResolution{level.eps(), level.n()} : kPictureTube);
   Frame frame = view_.frame(choices_, watch_.tools(), covered);
   seen_ = frame.view;
   const PointerRays& mouse = pointer_->rays();

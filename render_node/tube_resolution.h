@@ -8,8 +8,9 @@
 
 namespace omentum::render {
 
-/// Of n: two sections of a piece, straight between its frames; and sixteen, more of which nobody sees.
-inline constexpr int kLeastTubeN = 0, kMostTubeN = 3;
+/// Of n: two sections of a piece, straight between its frames; and 64, as far as eq. 15 is let
+/// (picture_level.h); from 16 on nobody sees more.
+inline constexpr int kLeastTubeN = 0, kMostTubeN = 5;
 /// Of eps: a turn of 90 degrees, and one of 9.
 inline constexpr double kCoarsestTubeEps = 0.5, kFinestTubeEps = 0.006;
 
@@ -22,6 +23,9 @@ inline constexpr std::array<TubeResolution, 7> kTubeLadder{{{kCoarsestTubeEps, 0
                                                             {0.03, 2},
                                                             {kFinestTubeEps, 2},
                                                             {kFinestTubeEps, 3}}};
+
+/// Of pictures for the disk: the finest that is seen to differ from the next coarser one.
+inline constexpr TubeResolution kPictureTube = kTubeLadder.back();
 
 /// Within the bounds.
 constexpr TubeResolution clamped(const TubeResolution& wanted) {
