@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
           "--map", [&](const std::string& text) { return render::parse_map(text, options.map); },
           "colour organs by strain or stress (key S switches)")
       .type_name("WHICH");
+  line.flag("--folds", options.folds, "colour intestines by how sharply they are folded");
   line.flag("--no-panel", options.no_panel, "draw the scene only");
   render::add_window_options(line, options);
 

@@ -10,6 +10,8 @@
 
 namespace omentum::render {
 
+class TubeFrames;
+
 /// One organ at rest: what its source says of it.
 struct OrganShape {
   scene::OrganKind kind = scene::OrganKind::kTetrahedralMesh;
@@ -78,6 +80,9 @@ class OrganDrawing {
   virtual bool live(std::span<const NodeForce> /*forces*/, double /*dt_s*/) { return false; }
   /// As many vertices and triangles as ever.
   virtual const MeshData& mesh() const = 0;
+  /// What is drawn instead of mesh(), where the organ is a tube, whose mesh() is only what other programs of
+  /// the processor look at; null for any other organ.
+  virtual TubeFrames* tube() { return nullptr; }
   /// Which triangles of mesh() the last cut() changed.
   virtual std::span<const TriangleRun> changed() const { return {}; }
   /// What cuts laid bare, of any size; null before the first one.

@@ -106,6 +106,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   scored_from_s_ = loaded.scene.score.from_s;
   if (loaded.scene.score.camera) exercise_.emplace(loaded.scene, view_);
   choices_.orbit = view_.first_camera();
+  choices_.folds = options.folds;
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
   if (!options.node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(options.node.log);
@@ -200,6 +201,8 @@ void RenderLoop::take_close_up(const Dent& deepest) {
 
 void RenderLoop::draw(const std::string& picture) {
   const double covered = options_.no_panel ? 0 : panel_share(renderer_.size(), renderer_.ui_scale());
+  const PictureLevel level = control_.level();
+  view_.set_tube_resolution(picture.empty() ? TubeResolution{level.eps(), level.n()} : kPictureTube);
   Frame frame = view_.frame(choices_, watch_.tools(), covered);
   seen_ = frame.view;
   const PointerRays& mouse = pointer_->rays();

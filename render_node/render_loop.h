@@ -36,6 +36,7 @@ struct RenderOptions {
   double record_fps = 25;           // pictures of a second of video
   float ui_scale = 0;               // of the panel; 0: as monitor and picture ask for
   TissueMap map = TissueMap::kOff;  // at the start
+  bool folds = false;               // ViewChoices::folds
 };
 
 /// A pace's, of the asked rate: a frame that came too late for its tick waits for an eighth of a period, not

@@ -3,6 +3,7 @@
 
 #include "render_node/key_presses.h"
 #include "render_node/pointer.h"
+#include "render_node/tube_item.h"
 
 #include <Eigen/Core>
 
@@ -79,6 +80,18 @@ struct DrawItem {
   Material material{};
 };
 
+/// A tube, skinned on its frames by whoever draws it (tube_cylinder.h). `by_turn`: a map (Look::kMap) of how
+/// much it is folded instead of its shares: from the middle of the scale on, pieces that `resolution.eps`
+/// cuts.
+struct TubeItem {
+  TubeId tube{};
+  Look look = Look::kGut;  // or kMap
+  TubeResolution resolution;
+  float radius_m = 0;
+  Material material{};
+  bool by_turn = false;
+};
+
 /// Where from: world to eye, eye to clip (OpenGL's: z from -1 to 1), and the eye's place in W, m.
 struct View {
   Mat4f eye_from_W = Mat4f::Identity();
@@ -116,6 +129,7 @@ struct Frame {
   View view;
   Lighting lighting;
   std::vector<DrawItem> items;
+  std::vector<TubeItem> tubes;
   bool through_endoscope = false;  // round field of view
   bool wires = false;              // the edges of the organs' triangles, over them
   float middle = 0.5f;             // of the view, share of the width: a panel may cover the left
@@ -153,6 +167,11 @@ class Renderer {
   virtual void update_triangles(MeshId mesh, std::size_t first, std::span<const MeshTriangle> triangles) = 0;
   /// Becomes another one, of any size.
   virtual void replace_mesh(MeshId mesh, const MeshData& with) = 0;
+
+  /// Without frames, until it has some.
+  virtual TubeId add_tube() = 0;
+  /// Of any number, which may change.
+  virtual void update_tube(TubeId tube, std::span<const SkinFrame> frames) = 0;
 
   virtual Input begin_frame() = 0;
   /// Between two frames: what the person did since it was asked last, here or by begin_frame(). The camera's

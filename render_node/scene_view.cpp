@@ -71,12 +71,13 @@ SceneView::SceneView(const scene::Scene& scene, const std::vector<OrganShape>& o
 
 SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs,
                      Renderer& renderer)
-    : renderer_(renderer), scene_(scene) {
+    : renderer_(renderer), scene_(scene), tubes_(renderer) {
   for (std::unique_ptr<OrganDrawing>& drawing : organs) {
-    const MeshId mesh = renderer.add_mesh(drawing->mesh());
-    std::vector<MeshId> parts;
-    for (const OrganPart& part : drawing->parts()) parts.push_back(renderer.add_mesh(*part.mesh));
-    organs_.push_back({std::move(drawing), mesh, {}, std::move(parts)});
+    DrawnOrgan& organ = organs_.emplace_back(DrawnOrgan{std::move(drawing)});
+    TubeFrames* const tube = organ.drawing->tube();
+    if (tube) organ.tube = tubes_.add(*tube);
+    if (!tube) organ.mesh = renderer.add_mesh(organ.drawing->mesh());
+    for (const OrganPart& part : organ.drawing->parts()) organ.parts.push_back(renderer.add_mesh(*part.mesh));
   }
   const Outline all = outline();
   ball_ = ball_around(all.points);
@@ -121,7 +122,8 @@ void SceneView::deform(std::size_t organ, std::span<const float> values) {
 
 void SceneView::send_vertices(DrawnOrgan& organ) {
   organ.stale = false;
-  renderer_.update_vertices(organ.mesh, organ.drawing->mesh().vertices);
+  if (organ.tube) tubes_.send(*organ.tube);
+  if (!organ.tube) renderer_.update_vertices(organ.mesh, organ.drawing->mesh().vertices);
   const std::vector<OrganPart> parts = organ.drawing->parts();
   for (std::size_t p = 0; p < parts.size(); ++p)
     renderer_.update_vertices(organ.parts[p], parts[p].mesh->vertices);
@@ -220,7 +222,7 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.wires = choices.wires;
   order_translucent(frame.view.eye);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
-  for (const DrawnOrgan& organ : organs_) add_organ(organ, choices.map != TissueMap::kOff, frame.items);
+  for (const DrawnOrgan& organ : organs_) add_organ(organ, choices, frame);
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;
     // who looks through a scope does not see it
@@ -231,14 +233,15 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   return frame;
 }
 
-void SceneView::add_organ(const DrawnOrgan& organ, bool map, std::vector<DrawItem>& items) {
+void SceneView::add_organ(const DrawnOrgan& organ, const ViewChoices& choices, Frame& frame) const {
   const OrganDrawing& drawing = *organ.drawing;
-  const bool is_map = map && organ.mapped;
+  const bool is_map = choices.map != TissueMap::kOff && organ.mapped;
   const auto add = [&](MeshId mesh, Look look, const Material& material) {
-    items.push_back({mesh, is_map ? Look::kMap : look, Mat4f::Identity(), material});
+    frame.items.push_back({mesh, is_map ? Look::kMap : look, Mat4f::Identity(), material});
   };
+  if (organ.tube) frame.tubes.push_back(tubes_.item(*organ.tube, is_map, choices.folds, drawing.material()));
   const bool is_cut = organ.bared && drawing.removed_count() > 0;
-  add(organ.mesh, is_cut ? Look::kCut : drawing.look(), drawing.material());
+  if (!organ.tube) add(organ.mesh, is_cut ? Look::kCut : drawing.look(), drawing.material());
   if (is_cut) add(*organ.bared, Look::kBared, drawing.bared_material());
   if (is_cut && organ.blood && !is_map) add(*organ.blood, Look::kBlood, blood_material());
   const std::vector<OrganPart> parts = drawing.parts();

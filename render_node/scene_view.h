@@ -7,6 +7,7 @@
 #include "render_node/exposure_raster.h"
 #include "render_node/instrument_shape.h"
 #include "render_node/organ_drawing.h"
+#include "render_node/scene_tubes.h"
 #include "render_node/smoke.h"
 #include "render_node/tissue_map.h"
 
@@ -36,6 +37,7 @@ struct ViewChoices {
   bool endoscope = false;
   bool arrows = true;
   TissueMap map = TissueMap::kOff;  // as which organs are drawn whose values are known
+  bool folds = false;               // tubes coloured by how they are folded (Raghupathi 2004, fig. 10)
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
   bool wires = false;    // the triangles of what is drawn
 };
@@ -69,6 +71,12 @@ class SceneView {
   void forget_map();
   /// Whether an organ's shares are known.
   bool mapped(std::size_t organ) const { return organs_[organ].mapped; }
+
+  /// How finely tubes are drawn from now on, within tube_resolution.h's bounds.
+  void set_tube_resolution(const TubeResolution& resolution) { tubes_.set_resolution(resolution); }
+  const TubeResolution& tube_resolution() const { return tubes_.resolution(); }
+  /// Of all tubes, as the next frame draws them.
+  TubeCost tube_cost() const { return tubes_.cost(); }
 
   /// The ground's shade follows organs that wander: for now and then, it takes milliseconds.
   void shade_ground();
@@ -110,12 +118,13 @@ class SceneView {
  private:
   struct DrawnOrgan {
     std::unique_ptr<OrganDrawing> drawing;
-    MeshId mesh{};
-    std::optional<MeshId> bared{};  // made when it is first cut
-    std::vector<MeshId> parts;      // as the drawing has them
-    std::optional<MeshId> blood{};  // made when it first bleeds
-    bool stale = false;             // what is on the screen lacks a change
-    bool mapped = false;            // its vertices have their shares of the map
+    MeshId mesh{};                      // of no meaning for a tube
+    std::optional<std::size_t> tube{};  // of tubes_
+    std::optional<MeshId> bared{};      // made when it is first cut
+    std::vector<MeshId> parts{};        // as the drawing has them
+    std::optional<MeshId> blood{};      // made when it first bleeds
+    bool stale = false;                 // what is on the screen lacks a change
+    bool mapped = false;                // its vertices have their shares of the map
   };
   struct DrawnPart {
     InstrumentPart part;
@@ -131,7 +140,7 @@ class SceneView {
   Frame frame_from(const Camera& camera, const ViewChoices& choices, std::span<const ToolNow> tools,
                    double panel_share) const;
   bool hidden_from_scope(const Vec3& eye, const Vec3& target, std::span<const ToolNow> tools) const;
-  static void add_organ(const DrawnOrgan& organ, bool map, std::vector<DrawItem>& items);
+  void add_organ(const DrawnOrgan& organ, const ViewChoices& choices, Frame& frame) const;
   void add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_arrow(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
   void add_markers(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const;
@@ -139,6 +148,7 @@ class SceneView {
   Renderer& renderer_;
   scene::Scene scene_;
   std::vector<DrawnOrgan> organs_;
+  SceneTubes tubes_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
   MeshData drape_;  // the ground's

@@ -1,4 +1,5 @@
-// The drawn wall of a gut: a tube swept along its axis.
+// The wall of a gut: a tube swept along its axis, for what the processor itself looks at. Pictures skin it
+// (tube_frames.h).
 #pragma once
 
 #include "geometry/tube_axis.h"

@@ -8,6 +8,7 @@
 #include "render_node/gl/programs.h"
 #include "render_node/gl/render_target.h"
 #include "render_node/gl/stretch.h"
+#include "render_node/gl/tube_painter.h"
 #include "render_node/gl/wires.h"
 #include "render_node/picture_quality.h"
 #include "render_node/tissue_map.h"
@@ -52,6 +53,9 @@ class GlRenderer final : public Renderer {
   void replace_mesh(MeshId mesh, const MeshData& with) override {
     meshes_[static_cast<std::size_t>(mesh)].replace(with);
   }
+
+  TubeId add_tube() override { return tubes_.add(); }
+  void update_tube(TubeId tube, std::span<const SkinFrame> frames) override { tubes_.update(tube, frames); }
 
   Input begin_frame() override { return panel_->begin_frame(); }
   Pointer look_at_pointer() override { return context_->look_at_pointer(); }
@@ -130,6 +134,7 @@ class GlRenderer final : public Renderer {
       shadow_program_.set("W_from_mesh", item.W_from_mesh);
       mesh(item.mesh).draw();
     }
+    tubes_.cast_shadows(frame);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_DEPTH_CLAMP);
   }
@@ -175,12 +180,16 @@ class GlRenderer final : public Renderer {
 
   void draw_items(const Frame& frame, Look look) {
     const Program& program = programs(frame).of(look);
-    program.use();
-    set_scene(program, frame);
-    program.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
-    if (look == Look::kMap) set_colours(program);
+    const auto set_all = [&](const Program& p) {
+      set_scene(p, frame);
+      p.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
+      if (look == Look::kMap) set_colours(p);
+    };
     const bool over = look == Look::kSignal;
     glDepthRange(over ? 0 : kSignalDepth, over ? kSignalDepth : 1);
+    tubes_.draw(frame, look, set_all);
+    program.use();
+    set_all(program);
     for (const DrawItem& item : frame.items) {
       if (item.look != look) continue;
       program.set("W_from_mesh", item.W_from_mesh);
@@ -242,6 +251,7 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<GlContext> context_;
   Program shadow_program_{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
   std::array<std::optional<Programs>, kShadingCount> programs_;  // made when first needed
+  TubePainter tubes_;
   Stretch stretch_{!software().empty()};
   NoiseTexture pattern_;
   Wires wires_;

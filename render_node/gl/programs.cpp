@@ -13,17 +13,20 @@ std::string prefix_of(Shading shading) {
   return define + std::string(shaders::common_glsl);
 }
 
-// A surface: `defines` say to its shader what it is, `is` to the light at a vertex.
 Program surface(Shading shading, const char* name, const std::string& defines, std::string_view fragment,
                 const std::string& is) {
-  if (shading != Shading::kPerVertex)
-    return {name, shaders::surface_vert, prefix_of(shading) + defines, fragment};
-  return {name, shaders::surface_vert, "", shaders::vertex_lit_frag,
-          "#define PER_VERTEX\n#define " + is + "\n" + defines + std::string(shaders::common_glsl) +
-              std::string(shaders::vertex_light_glsl)};
+  return surface_program(shading, name, shaders::surface_vert, defines, fragment, is);
 }
 
 }  // namespace
+
+Program surface_program(Shading shading, const char* name, std::string_view vertex,
+                        const std::string& defines, std::string_view fragment, const std::string& is) {
+  if (shading != Shading::kPerVertex) return {name, vertex, prefix_of(shading) + defines, fragment};
+  return {name, vertex, "", shaders::vertex_lit_frag,
+          "#define PER_VERTEX\n#define " + is + "\n" + defines + std::string(shaders::common_glsl) +
+              std::string(shaders::vertex_light_glsl)};
+}
 
 Programs::Programs(Shading shading)
     : backdrop_("backdrop", shaders::screen_vert, prefix_of(shading), shaders::backdrop_frag),

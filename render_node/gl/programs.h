@@ -6,6 +6,11 @@
 
 namespace omentum::render::gl {
 
+/// Of a surface that vertex shader `vertex` places. `defines`: what it is, to `fragment`; `is`: to the light
+/// at a vertex (shaders/vertex_light.glsl). Throws as Program does.
+Program surface_program(Shading shading, const char* name, std::string_view vertex,
+                        const std::string& defines, std::string_view fragment, const std::string& is);
+
 /// Owns them. Throws as Program does.
 class Programs {
  public:
