@@ -171,7 +171,7 @@ TEST(PalingOrgan, PalesAroundThePressedNodeAndIsSentWithoutAState) {
   EXPECT_EQ(renderer.updates, 1);
 }
 
-TEST(PalingOrgan, AGutPalesUnderThePressAlone) {
+TEST(PalingOrgan, AMesenteryPalesUnderThePressAlone) {
   const geometry::GutShape gut = test::gut_shape();
   const auto drawing = make_tube_drawing(gut, tissue_material("gut"));
   const geometry::GutSkin skin(gut);
@@ -183,10 +183,7 @@ TEST(PalingOrgan, AGutPalesUnderThePressAlone) {
         geometry::weighted(skin.node(geometry::NodeId(std::size_t{node})), gut.positions) - places[node];
     return NodeForce{node, inward.normalized().cast<float>()};
   };
-  EXPECT_TRUE(drawing->live(std::vector{pressed(on_tube)}, 0.5));
-  const Whitened tube(drawing->mesh());
-  EXPECT_GT(tube.sum, 1);
-  EXPECT_LT((tube.middle - places[on_tube].cast<float>()).norm(), 0.004f);
+  drawing->live(std::vector{pressed(on_tube)}, 0.5);
   EXPECT_EQ(Whitened(*drawing->parts().front().mesh).sum, 0);
   drawing->live(std::vector{pressed(on_sheet)}, 0.5);
   EXPECT_GT(Whitened(*drawing->parts().front().mesh).sum, 0.5f);
