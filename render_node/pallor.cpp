@@ -14,6 +14,10 @@ float pallor_after(float pallor, float target, double dt_s) {
   return target + static_cast<float>(left) * (pallor - target);
 }
 
+Pallor::Pallor(const MeshData& mesh)
+    : pressure_(mesh),
+      pale_(std::ranges::any_of(mesh.vertices, [](const Vertex& vertex) { return vertex.pallor > 0; })) {}
+
 bool Pallor::advance(std::span<const Press> presses, double dt_s, std::span<Vertex> vertices) {
   const auto presses_it = [](const Press& press) { return press.force_n > 0; };
   if (std::ranges::any_of(presses, presses_it)) {

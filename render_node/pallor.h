@@ -25,7 +25,7 @@ float pallor_after(float pallor, float target, double dt_s);
 class Pallor {
  public:
   /// To be made anew when triangles change.
-  explicit Pallor(const MeshData& mesh) : pressure_(mesh) {}
+  explicit Pallor(const MeshData& mesh);
 
   /// `vertices`: the mesh's, as they lie now. Whether any of them changed; costs nothing where no tissue is
   /// pressed or pale.
@@ -35,7 +35,7 @@ class Pallor {
   static constexpr float kSeen = 0.002f;  // less than half a step of 255 in a picture
 
   ContactPressure pressure_;
-  bool pale_ = true;  // there may be some: vertices outlive this
+  bool pale_;  // some of it is: vertices outlive this
 };
 
 }  // namespace omentum::render

@@ -1,6 +1,7 @@
 #include "render_node/tube_frames.h"
 
 #include "geometry/precondition.h"
+#include "render_node/between_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,14 +32,6 @@ std::size_t stride_of(std::span<const geometry::Vec3> rest, double radius_m) {
 // Of so many masses, the last one always.
 std::size_t point_count(std::size_t masses, std::size_t stride) {
   return (masses - 2) / stride + 2;
-}
-
-// A value of the control points at u.
-template <class Real>
-float between(std::span<const Real> of_points, double u) {
-  const auto before = std::min(static_cast<std::size_t>(u), of_points.size() - 2);
-  return static_cast<float>(
-      std::lerp(of_points[before], of_points[before + 1], u - static_cast<double>(before)));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ using test::scene_with;
 using test::tool_at;
 
 constexpr double kRadius = 0.05;
-constexpr Size kSize{320, 240};
+constexpr Size kGlPicture{320, 240};
 const Vec3 kFront = kRadius * Vec3(0, -0.8, 0.6);
 
 using Rgb = Eigen::Array3i;
@@ -62,7 +62,7 @@ class Drawing : public testing::Test {
  protected:
   void SetUp() override {
     try {
-      renderer_ = gl::open_offscreen(kSize, 1);
+      renderer_ = gl::open_offscreen(kGlPicture, 1);
     } catch (const gl::DisplayError& error) {
       GTEST_SKIP() << error.what();
     }
@@ -88,10 +88,10 @@ class Drawing : public testing::Test {
 
   // Where a point of W lies in the picture.
   Eigen::Vector2d at(const Vec3& p) const {
-    const View view = view_of(choices_.orbit, view_->ball(), kSize.aspect(), 0);
+    const View view = view_of(choices_.orbit, view_->ball(), kGlPicture.aspect(), 0);
     const Eigen::Vector4f clip = view.clip_from_eye * (view.eye_from_W * p.cast<float>().homogeneous());
-    return {kSize.width * (0.5 + 0.5 * clip.x() / clip.w()),
-            kSize.height * (0.5 - 0.5 * clip.y() / clip.w())};
+    return {kGlPicture.width * (0.5 + 0.5 * clip.x() / clip.w()),
+            kGlPicture.height * (0.5 - 0.5 * clip.y() / clip.w())};
   }
 
   OrganShape shape_ = ball_organ(kRadius, 4);
@@ -104,9 +104,9 @@ class Drawing : public testing::Test {
 TEST_F(Drawing, LiverIsInTheMiddleAndTheCornersAreDark) {
   const Picture picture = draw();
   const Area tissue = area_where(picture, [&](int x, int y) { return is_tissue(pixel(picture, x, y)); });
-  EXPECT_GT(tissue.count, kSize.width * kSize.height / 20);
+  EXPECT_GT(tissue.count, kGlPicture.width * kGlPicture.height / 20);
   EXPECT_LT((tissue.middle - at(Vec3::Zero())).norm(), 15);
-  for (const auto& [x, y] : {std::pair{1, 1}, {kSize.width - 2, 1}})
+  for (const auto& [x, y] : {std::pair{1, 1}, {kGlPicture.width - 2, 1}})
     EXPECT_LT(pixel(picture, x, y).maxCoeff(), 60);
 }
 
@@ -136,8 +136,9 @@ TEST_F(Drawing, DentIsSeenAroundTheToolInItsCloseUp) {
   const Area changed = area_where(
       rest_picture, [&](int x, int y) { return difference(pressed_picture, rest_picture, x, y) > kSeen; });
   // at least the dent itself: 18 mm across, seen 23 degrees above its rim, in a picture of 78 mm by 59 mm
-  EXPECT_GT(changed.count, 0.02 * kSize.width * kSize.height);
-  EXPECT_LT((changed.middle - 0.5 * Eigen::Vector2d(kSize.width, kSize.height)).norm(), 0.25 * kSize.width);
+  EXPECT_GT(changed.count, 0.02 * kGlPicture.width * kGlPicture.height);
+  EXPECT_LT((changed.middle - 0.5 * Eigen::Vector2d(kGlPicture.width, kGlPicture.height)).norm(),
+            0.25 * kGlPicture.width);
 }
 
 TEST_F(Drawing, NoPixelIsBroken) {
@@ -257,9 +258,9 @@ TEST(WindowKeys, AreTheLettersOfThePersonsLayout) {
 TEST_F(Drawing, EndoscopeIsRound) {
   choices_.endoscope = true;
   const Picture picture = draw();
-  const int y = kSize.height / 2;
+  const int y = kGlPicture.height / 2;
   EXPECT_EQ(pixel(picture, 2, y).maxCoeff(), 0) << "black outside";
-  EXPECT_GT(pixel(picture, kSize.width / 2, y).maxCoeff(), 20);
+  EXPECT_GT(pixel(picture, kGlPicture.width / 2, y).maxCoeff(), 20);
 }
 
 TEST_F(Drawing, PanelIsDrawnOverThePicture) {
@@ -279,7 +280,7 @@ TEST_F(Drawing, PanelIsDrawnOverThePicture) {
     return x < 200 && y < 40 && pixel(with, x, y).minCoeff() > 150;  // text
   });
   EXPECT_GT(bright.count, 20);
-  EXPECT_EQ(difference(with, without, kSize.width - 5, kSize.height - 5), 0);
+  EXPECT_EQ(difference(with, without, kGlPicture.width - 5, kGlPicture.height - 5), 0);
 }
 
 TEST_F(Drawing, WindowAndOffscreenAgree) {
@@ -288,11 +289,11 @@ TEST_F(Drawing, WindowAndOffscreenAgree) {
   const Picture offscreen = draw(*renderer_, tools);
   renderer_.reset();  // one panel at a time
   try {
-    renderer_ = gl::open_window(kSize, "test", 1);
+    renderer_ = gl::open_window(kGlPicture, "test", 1);
   } catch (const gl::DisplayError& error) {
     GTEST_SKIP() << error.what();
   }
-  if (renderer_->size() != kSize) GTEST_SKIP() << "the window has another size than asked for";
+  if (renderer_->size() != kGlPicture) GTEST_SKIP() << "the window has another size than asked for";
   arrange(*renderer_);
   const Picture window = draw(*renderer_, tools);
   int different = 0;
