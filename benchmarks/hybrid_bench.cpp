@@ -12,6 +12,7 @@
 #include "organ/build_organ.h"
 #include "organ_tools/fast_blas.h"
 #include "physics/blas_threads.h"
+#include "physics/dynamics/implicit_step.h"
 #include "physics/dynamics/imposed_press.h"
 #include "physics/hybrid/hybrid_step.h"
 

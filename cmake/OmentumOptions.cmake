@@ -53,11 +53,14 @@ omentum_precompiled(omentum_precompiled_common ${OMENTUM_COMMON_HEADERS})
 target_link_libraries(omentum_precompiled_common PRIVATE Eigen3::Eigen)
 set(OMENTUM_PRECOMPILED omentum_precompiled_common)  # for the folder's libraries and programs
 
-# omentum_unity(TARGET): under the address sanitizer, where compiling is most of the time, TARGET's sources are compiled
-# eight at a time: headers are read and templates instantiated once for them. Their unnamed namespaces must not name
-# two things alike. What is defined once for a whole program, or compiled in its own way, stays alone.
+# Whoever builds everything once saves a third of it; who works on a source waits for the seven beside it.
+option(OMENTUM_UNITY "compile sources eight at a time" "$ENV{OMENTUM_UNITY}")
+
+# omentum_unity(TARGET): with OMENTUM_UNITY TARGET's sources are compiled eight at a time: headers are read and templates
+# instantiated once for them. Their unnamed namespaces must not name two things alike. What is defined once for a whole
+# program, or compiled in its own way, stays alone.
 function(omentum_unity target)
-  if(OMENTUM_SANITIZE STREQUAL "address")
+  if(OMENTUM_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     set_source_files_properties(
       ${PROJECT_SOURCE_DIR}/transport/fast/asan_options.cpp ${PROJECT_SOURCE_DIR}/tests/support/heap_count.cpp PROPERTIES
@@ -75,6 +78,7 @@ function(omentum_library name)
   target_compile_features(omentum_${name} PUBLIC cxx_std_20)
   target_compile_options(omentum_${name} PRIVATE ${OMENTUM_WARNINGS})
   target_precompile_headers(omentum_${name} REUSE_FROM ${OMENTUM_PRECOMPILED})
+  omentum_unity(omentum_${name})
 endfunction()
 
 # omentum_native(sources...): files that hold nothing but numeric kernels on raw pointers. Only

@@ -1,5 +1,6 @@
 #include "deform_node/cut_score.h"
 
+#include "geometry/across.h"
 #include "geometry/segment_points.h"
 
 #include <nlohmann/json.hpp>
@@ -59,10 +60,6 @@ void require_near(const scene::Scene& scene, const geometry::TetraMesh& mesh) {
   }
 }
 
-Vec3 across(const Vec3& v, const Vec3& normal) {
-  return v - v.dot(normal) * normal;
-}
-
 bool is_gone(const OrganView& organ, std::size_t t) {
   return t / 8 < organ.removed_bits.size() && (organ.removed_bits[t / 8] >> t % 8 & 1) != 0;
 }
@@ -89,10 +86,10 @@ bool CutScore::lies_outside(geometry::TetId t, double width_m) const noexcept {
   for (std::size_t i = 1; i < stations_.size(); ++i) {
     const Vec3& origin = stations_[i - 1].rest;
     const Vec3& normal = stations_[i].normal;
-    const Vec3 end = across(stations_[i].rest - origin, normal);
+    const Vec3 end = geometry::across(stations_[i].rest - origin, normal);
     for (const auto& [a, b] : kEdges) {
-      const Vec3 from = across(mesh_.positions[corners[a]] - origin, normal),
-                 to = across(mesh_.positions[corners[b]] - origin, normal);
+      const Vec3 from = geometry::across(mesh_.positions[corners[a]] - origin, normal),
+                 to = geometry::across(mesh_.positions[corners[b]] - origin, normal);
       const auto pair = geometry::closest_points_of_segments(Vec3::Zero(), end, from, to);
       if (pair.squared_distance <= width_m * width_m) return false;
     }
@@ -108,18 +105,16 @@ double CutScore::aside_m(const Vec3& a, const Vec3& b) const noexcept {
   return std::sqrt(squared);
 }
 
-void CutScore::follow(std::span<const CutStroke> strokes, const OrganView& organ, double way_m,
+void CutScore::follow(std::span<const CutStroke> strokes, const OrganView& organ, std::uint32_t tools,
                       double now_s) noexcept {
-  const bool met = way_m > known_way_m_;
-  known_way_m_ = way_m;
-  if (!met) return;
+  if (tools == 0) return;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     now_[i] = stations_[i].rest;
     if (!organ.body_u.empty()) now_[i] += Eigen::Map<const Vec3>(organ.body_u.data() + 3 * stations_[i].node);
   }
   for (const CutStroke& stroke : strokes) {
     const double step_m = (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
-    if (step_m == 0) continue;
+    if (step_m == 0 || (tools >> stroke.tool % 32 & 1) == 0) continue;
     const double from_line_m = aside_m(stroke.to[0], stroke.to[1]);
     way_m_ += step_m;
     weighted_m2_ += step_m * from_line_m;

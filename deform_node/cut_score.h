@@ -31,9 +31,9 @@ class CutScore {
   /// `mesh` outlives this, and `surface` is its own. The line has two points or more.
   CutScore(const scene::ScoreSpec& score, const geometry::TetraMesh& mesh, const geometry::Surface& surface);
 
-  /// After each step: what edges swept in it, the organ after it, the model's CutAccount::way_m, and the time
-  /// since the start, s. Strokes count where they met the organ.
-  void follow(std::span<const CutStroke> strokes, const OrganView& organ, double way_m,
+  /// After each step: what edges swept in it, the organ after it, the model's CutAccount::tools, and the time
+  /// since the start, s. Strokes of tools that met the organ count.
+  void follow(std::span<const CutStroke> strokes, const OrganView& organ, std::uint32_t tools,
               double now_s) noexcept;
   /// The organ is whole again, and nobody has cut yet.
   void reset() noexcept;
@@ -54,7 +54,7 @@ class CutScore {
   std::vector<Station> stations_;
   std::vector<Vec3> now_;      // [stations]
   std::vector<bool> outside_;  // [T]
-  double known_way_m_ = 0, way_m_ = 0, weighted_m2_ = 0, largest_m_ = 0;
+  double way_m_ = 0, weighted_m2_ = 0, largest_m_ = 0;
   double first_s_ = -1, last_s_ = -1;
 };
 

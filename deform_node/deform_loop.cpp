@@ -36,6 +36,7 @@ nlohmann::json to_json(const CutAccount& cuts) {
 nlohmann::json to_json(const CollisionAccount& collisions) {
   return {{"contacts", collisions.contacts},
           {"held_back", collisions.held_back},
+          {"left_out", collisions.left_out},
           {"deepest_overlap_m", collisions.deepest_m}};
 }
 
@@ -180,7 +181,7 @@ void DeformLoop::live_on() noexcept {
 void DeformLoop::score() noexcept {
   if (!score_.score) return;
   const OrganModel& model = *organs_.organs()[score_.organ].model;
-  score_.score->follow(book_.cuts(score_.organ), model.view(), model.status().cuts.way_m,
+  score_.score->follow(book_.cuts(score_.organ), model.view(), model.status().cuts.tools,
                        1e-9 * static_cast<double>(loop_.now_ns() - start_ns_));
 }
 

@@ -109,12 +109,14 @@ void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
 }
 
 void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
+  status_.cuts.tools = 0;
   if (!strokes.empty()) swept_.follow(state_.u);
   for (const CutStroke& stroke : strokes) {
     const std::span<const TetId> met = those_that_can_go(swept_.find({stroke.from, stroke.to}));
     burning_.meet(met, editor_);
-    if (!met.empty())
-      status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
+    if (met.empty()) continue;
+    status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
+    status_.cuts.tools |= 1U << stroke.tool % 32;
   }
   const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
   for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);

@@ -82,10 +82,14 @@ void GutMeeting::respond(std::span<const OrganContact> contacts, const physics::
 void GutMeeting::act(double seconds) noexcept {
   met_body_ = std::exchange(meets_body_, false);
   is_unpushed_ = false;
-  if (!std::exchange(meets_, false)) return;
+  lend(seconds);
+  if (std::exchange(meets_, false)) std::ranges::fill(impulses_, Vec3::Zero());
+}
+
+void GutMeeting::lend(double seconds) noexcept {
+  if (!meets_) return;
   acts_ = true;
-  for (std::size_t m = 0; m < forces_.size(); ++m)
-    forces_[m] = std::exchange(impulses_[m], Vec3::Zero()) / seconds;
+  for (std::size_t m = 0; m < forces_.size(); ++m) forces_[m] = impulses_[m] / seconds;
 }
 
 std::span<const Vec3> GutMeeting::forces() const noexcept {

@@ -37,6 +37,8 @@ class GutMeeting {
   }
   /// Before steps that take so long: the pushes become forces, until put_down().
   void act(double seconds) noexcept;
+  /// The same for a look ahead, from which they are still pushes.
+  void lend(double seconds) noexcept;
   void put_down() noexcept;
   /// [masses], N; empty: nobody pushes.
   std::span<const Vec3> forces() const noexcept;

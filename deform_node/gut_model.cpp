@@ -91,6 +91,7 @@ ModelSizes GutModel::sizes() const {
 
 void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
   const double step_s = system_->settings().step_s;
+  status_.fault = {};
   ahead_s_ += dt_s;
   const auto steps = static_cast<int>(ahead_s_ / step_s + kStepRounding);
   ahead_s_ -= steps * step_s;
@@ -108,22 +109,28 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
 
 void GutModel::advance() noexcept {
   const double step_s = system_->settings().step_s;
-  const std::int64_t held_back = system_->report().collisions.bound_acted;
+  const physics::GutCollisionReport before = system_->report().collisions;
   if (ahead_ && !presses_.any_grasps()) press_ahead();
   system_->step(loads());
   if (!ahead_) impose();
   ++status_.steps;
   status_.simulated_s += step_s;
   status_.diverged = system_->report().diverged;
-  note_collisions(held_back);
+  note_collisions(before);
 }
 
-void GutModel::note_collisions(std::int64_t held_back_before) noexcept {
+void GutModel::note_collisions(const physics::GutCollisionReport& before) noexcept {
   const physics::GutCollisionReport& now = system_->report().collisions;
   CollisionAccount& account = *status_.collisions;
   account.contacts += static_cast<std::uint64_t>(now.contacts);
-  account.held_back +=
-      static_cast<std::uint64_t>(std::max<std::int64_t>(now.bound_acted - held_back_before, 0));
+  // a step that starts a report anew counts from nothing
+  const auto grown = [](std::int64_t then, std::int64_t by_now) {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(by_now - then, 0));
+  };
+  account.held_back += grown(before.bound_acted, now.bound_acted);
+  const std::uint64_t left_out = grown(before.left_out, now.left_out);
+  account.left_out += left_out;
+  if (left_out > 0) status_.fault = "more contacts than there is room for: some are left out";
   account.deepest_m = std::max(account.deepest_m, now.deepest_m);
 }
 
@@ -217,11 +224,15 @@ void GutModel::look() const noexcept {
   presses_.dent(look_->dented);
 }
 
+// A single late tick does not say when the next one comes.
+double GutModel::coming_tick_s() const noexcept {
+  const double tick_s = std::min(last_ticks_s_[0], last_ticks_s_[1]);
+  return tick_s > 0 ? tick_s : system_->settings().step_s;
+}
+
 void GutModel::foresee() const noexcept {
   if (std::exchange(look_->is_foreseen, true)) return;
-  // a single late tick does not say when the next one comes
-  const double tick_s = std::min(last_ticks_s_[0], last_ticks_s_[1]);
-  const double way_s = run_ahead(std::max(tick_s, felt_->settings().step_s));
+  const double way_s = run_ahead(std::max(coming_tick_s(), felt_->settings().step_s));
   const physics::GutSystem& gut = ahead_ ? *ahead_ : *felt_;
   for (std::size_t m = 0; m < look_->ahead.size(); ++m)
     look_->ahead[m] = (gut.state().x[m] - system_->state().x[m]) / way_s;
@@ -231,7 +242,10 @@ void GutModel::foresee() const noexcept {
 // under the same press, not how fast it is.
 void GutModel::look_ahead() const noexcept {
   if (std::exchange(look_->is_next_seen, true)) return;
+  // what guts alone push is not in what was foreseen
+  if (!meeting_->foresees()) meeting_->lend(coming_tick_s());
   foresee();
+  meeting_->put_down();
   const double step_s = felt_->settings().step_s;
   std::ranges::transform(system_->state().x, look_->ahead, look_->wanted.begin(),
                          [step_s](const Vec3& x, const Vec3& v) -> Vec3 { return x + step_s * v; });
@@ -247,6 +261,7 @@ void GutModel::respond(std::span<const OrganContact> contacts) noexcept {
   if (meeting_->foresees() || GutMeeting::is_with_body(contacts)) foresee();
   meeting_->respond(contacts, system_->state(), presses_.forces(), look_->ahead);
   look_->is_next_seen = false;
+  if (!meeting_->foresees()) look_->is_foreseen = false;
 }
 
 bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {

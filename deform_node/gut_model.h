@@ -44,7 +44,7 @@ class GutModel final : public OrganModel {
 
  private:
   void advance() noexcept;
-  void note_collisions(std::int64_t held_back_before) noexcept;
+  void note_collisions(const physics::GutCollisionReport& before) noexcept;
   std::span<const double> strengths_on(const physics::GutSystem& gut) noexcept;
   void impose() noexcept;
   void press_ahead() noexcept;
@@ -54,6 +54,7 @@ class GutModel final : public OrganModel {
   std::span<const Vec3> forces() const noexcept;
   void show() noexcept;
   void look() const noexcept;
+  double coming_tick_s() const noexcept;
   void foresee() const noexcept;
   void look_ahead() const noexcept;
   void find_compliance(std::span<const NodeId> nodes, std::span<float> upper) const noexcept;

@@ -1,5 +1,7 @@
 #include "deform_node/organ_collision.h"
 
+#include "geometry/across.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,11 +31,6 @@ double share_of(const CollisionSphere& own, const CollisionSphere& other) noexce
   if (std::isinf(other.mass_kg)) return 1;
   const double both_kg = own.mass_kg + other.mass_kg;
   return both_kg > 0 ? other.mass_kg / both_kg : 0.5;
-}
-
-// What of a vector lies in the plane of a normal.
-Vec3 across(const Vec3& vector, const Vec3& normal) noexcept {
-  return vector - vector.dot(normal) * normal;
 }
 
 }  // namespace
@@ -79,6 +76,7 @@ bool OrganCollision::run() noexcept {
 }
 
 void OrganCollision::reset(std::size_t organ) noexcept {
+  bodies_[organ].steps = kNever;
   for (Couple& couple : couples_)
     if (couple.one == &bodies_[organ] || couple.other == &bodies_[organ]) {
       couple.learnt = {};
@@ -93,6 +91,8 @@ void OrganCollision::gather() noexcept {
     body.contacts.clear();
     body.box.setEmpty();
     body.yields = false;
+    const std::uint64_t steps = body.model->status().steps;
+    body.moved = std::exchange(body.steps, steps) != steps;
     for (const CollisionSphere& sphere : body.spheres) {
       body.box.extend(box_of(sphere));
       body.yields |= std::isfinite(sphere.mass_kg);
@@ -104,13 +104,14 @@ void OrganCollision::gather() noexcept {
 bool OrganCollision::collide(Couple& couple) noexcept {
   Body &one = *couple.one, &other = *couple.other;
   const std::size_t pairs = pairs_.size(), of_one = one.contacts.size(), of_other = other.contacts.size();
-  const bool may_meet = (one.yields || other.yields) && one.box.intersects(other.box);
+  couple.waits = couple.pushes && !one.moved && !other.moved;
+  const bool may_meet = !couple.waits && (one.yields || other.yields) && one.box.intersects(other.box);
   const bool complete = !may_meet || find_pairs(one, other);
   couple.pairs = std::span(pairs_).subspan(pairs);
   couple.of_one = std::span(one.contacts).subspan(of_one);
   couple.of_other = std::span(other.contacts).subspan(of_other);
   couple.answers = !couple.pairs.empty();
-  if (couple.pairs.empty()) couple.learnt = {};
+  if (couple.pairs.empty() && !couple.waits) couple.learnt = {};
   return complete;
 }
 
@@ -173,7 +174,7 @@ void OrganCollision::go_on(Couple& couple) noexcept {
     const Push* const push = couple.pushes->find(pair.one, pair.other);
     if (push == nullptr || !(pair.weight_kg > 0)) continue;
     pair.push_m_s = push->along / pair.weight_kg;
-    pair.rub_m_s = across(push->across, couple.of_one[i].normal) / pair.weight_kg;
+    pair.rub_m_s = geometry::across(push->across, couple.of_one[i].normal) / pair.weight_kg;
     any = true;
   }
   if (any) respond(couple, 1, true);
@@ -192,7 +193,7 @@ void OrganCollision::remember(Couple& couple) noexcept {
 void OrganCollision::rub(Couple& couple, std::size_t i) noexcept {
   Pair& pair = couple.pairs[i];
   const OrganContact& of_one = couple.of_one[i];
-  const Vec3 sliding = across(
+  const Vec3 sliding = geometry::across(
       couple.one->velocity(of_one.sphere) - couple.other->velocity(couple.of_other[i].sphere), of_one.normal);
   const Vec3 wish = pair.rubbed - couple.learnt.scale * sliding;
   const double length = wish.norm(), most = kFriction * pair.pushed;
@@ -210,7 +211,7 @@ void OrganCollision::part() noexcept {
       if (couple.answers) goes_on |= part(couple, round == 0);
   }
   for (Couple& couple : couples_)
-    if (couple.pushes) remember(couple);
+    if (couple.pushes && !couple.waits) remember(couple);
 }
 
 // False where too little is lacking. Tissue pushes, never pulls.

@@ -18,7 +18,8 @@ namespace omentum::deform {
 /// their boxes are tried one by one; two that do not yield are left alone. The models respond in a few
 /// rounds, two organs after two, each to what is lacking after the last one: how much a push moves is the
 /// models' secret, and is learnt of each two from what it did. Where both models want it, a tick begins with
-/// the pushes of the one before, of pairs that still meet. One thread's, which shares the models' work with
+/// the pushes of the one before, of pairs that still meet; two of which neither has stepped since have theirs
+/// already. One thread's, which shares the models' work with
 /// its crew; allocates in the constructor only.
 class OrganCollision {
  public:
@@ -33,11 +34,15 @@ class OrganCollision {
   void reset(std::size_t organ) noexcept;
 
  private:
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
   struct Body {
     OrganModel* model = nullptr;
     std::span<const CollisionSphere> spheres;
     Eigen::AlignedBox3d box;
     bool yields = false;                 // some part of it
+    std::uint64_t steps = kNever;        // that its model had taken in the newest tick
+    bool moved = false;                  // it has stepped since the tick before, or was put elsewhere
     std::vector<OrganContact> contacts;  // of this tick; never beyond its capacity
     std::vector<double> asked;           // [spheres] of each, the sum of its contacts' shares
 
@@ -77,6 +82,7 @@ class OrganCollision {
     std::span<Pair> pairs;
     std::span<OrganContact> of_one, of_other;
     bool answers = false;  // in this tick
+    bool waits = false;    // its pushes still wait for a step of either
     Learnt learnt;
     std::optional<Pushes> pushes{};  // where both begin with those of the tick before
   };

@@ -101,6 +101,7 @@ CutAccount OrganGroup::cuts() const {
   for (const ServedOrgan& served : organs_) {
     const CutAccount own = served.model->status().cuts;
     all.way_m += own.way_m;
+    all.tools |= own.tools;
     all.lost_m3 += own.lost_m3;
   }
   return all;
@@ -114,6 +115,7 @@ std::optional<CollisionAccount> OrganGroup::collisions() const {
     if (!all) all.emplace();
     all->contacts += own->contacts;
     all->held_back += own->held_back;
+    all->left_out += own->left_out;
     all->deepest_m = std::max(all->deepest_m, own->deepest_m);
   }
   return all;

@@ -65,14 +65,16 @@ struct OrganView {
 
 /// What cutting edges did to an organ.
 struct CutAccount {
-  double way_m = 0;    // of their middles, through the organ as it was before any cut
-  double lost_m3 = 0;  // tissue that went for it: burnt, and what then hung on a node or an edge
+  double way_m = 0;         // of their middles, through the organ as it was before any cut
+  std::uint32_t tools = 0;  // bit t: in the newest step the edge of tool t met the organ
+  double lost_m3 = 0;       // tissue that went for it: burnt, and what then hung on a node or an edge
 };
 
 /// How an organ that meets itself and walls fared.
 struct CollisionAccount {
   std::uint64_t contacts = 0;   // that pushed, each step's counted
   std::uint64_t held_back = 0;  // times a mass was kept from going so far that something could have crossed
+  std::uint64_t left_out = 0;   // contacts that found no room: nothing held them apart but the above
   double deepest_m = 0;         // the largest overlap that a step left
 };
 

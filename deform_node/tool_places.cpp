@@ -13,7 +13,7 @@ constexpr auto kToolGone_ns = static_cast<std::int64_t>(1e9 * kToolGone_s);
 ToolPlaces::ToolPlaces(transport::Bus& bus, const scene::Scene& scene, std::function<std::int64_t()> clock)
     : poses_(bus, {}, std::move(clock)) {
   for (const scene::ToolSpec& tool : scene.tools)
-    if (tool.id < msg::MAX_TOOLS) tools_.push_back(tool.id);
+    if (tool.id < msg::MAX_TOOLS && !tool.scope) tools_.push_back(tool.id);
 }
 
 std::span<const ToolPlace> ToolPlaces::find(std::int64_t now_ns) noexcept {

@@ -56,6 +56,9 @@ void DeviceBridge::connect(const transport::OpenBus& open_bus) {
       [this](const msg::SessionCommand& command) { orders_.hear(command, loop_.now_ns()); });
   if (options_.scene)
     scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& other) { hear(other); });
+  if (options_.rays)
+    ray_reader_ = bus_->reader<msg::PointerRay>(
+        [this](const msg::PointerRay& ray) { options_.rays->take(ray, loop_.now_ns()); });
   for (const auto& channel : channels_) info_writer_->write(channel->info());
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device_bridge/answer_book.h"
+#include "device_bridge/ray_inbox.h"
 #include "device_bridge/tool_channel.h"
 #include "device_bridge/trace.h"
 #include "node_common/loaded_scene.h"
@@ -32,6 +33,7 @@ struct BridgeOptions {
   std::optional<node::LoadedScene> scene;  // where the hands' tools stand; none: any session will do
   double seconds = 0;                      // 0: until stopped
   std::filesystem::path record;            // the poses as a trace; empty: none
+  RayInbox* rays = nullptr;  // takes what a window says of its pointer (MouseHand); outlives the bridge
 };
 
 /// Publishes DeviceInfo once, ToolPose every tick and NodeStatus twice a second; receives ToolForce, the
@@ -87,6 +89,7 @@ class DeviceBridge {
   std::unique_ptr<transport::Reader<msg::NodeStatus>> status_reader_;
   std::unique_ptr<transport::Reader<msg::SessionCommand>> command_reader_;
   std::unique_ptr<transport::Reader<msg::SceneInfo>> scene_reader_;
+  std::unique_ptr<transport::Reader<msg::PointerRay>> ray_reader_;
   std::unique_ptr<runtime::SideWork> status_;
 };
 

@@ -17,6 +17,7 @@ struct ScriptPoint {
   double slide_m = 0, slide_rate_m_s = 0;
   Motion on_way{};      // of a hand with waypoints instead of both
   double grip_rad = 0;  // how far the jaws are open
+  double roll_rad = 0;  // about the shaft, from where the hand holds it by itself
 };
 
 /// Duration of one round, s; then it begins again.

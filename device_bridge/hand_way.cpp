@@ -29,6 +29,7 @@ ScriptPoint way_at(const scene::HandSpec& hand, double t_s) noexcept {
   point.on_way.position = begin.to + share * way;
   point.on_way.velocity = minimum_jerk_rate(point.phase_share) / end.seconds * way;
   point.grip_rad = begin.grip_rad + share * (end.grip_rad - begin.grip_rad);
+  point.roll_rad = begin.roll_rad + share * (end.roll_rad - begin.roll_rad);
   return point;
 }
 

@@ -1,6 +1,7 @@
-// A simulated hand, or a recorded one, on the wire: the example to copy for a real device (docs/devices.md).
-// Replace make_devices() by your own implementation of device_bridge/device.h.
+// A simulated hand, a recorded one or a person's mouse on the wire: the example to copy for a real device
+// (docs/devices.md). Replace make_devices() by your own implementation of device_bridge/device.h.
 #include "device_bridge/device_bridge.h"
+#include "device_bridge/mouse_hand.h"
 #include "device_bridge/trace_player.h"
 #include "device_bridge/virtual_hand.h"
 #include "node_common/node_identity.h"
@@ -19,6 +20,7 @@ using Devices = std::vector<std::unique_ptr<device::Device>>;
 struct Options {
   device::BridgeOptions bridge;
   std::filesystem::path trace;
+  bool mouse = false;
 };
 
 const scene::ToolSpec& tool_of(const scene::Scene& scene, std::uint32_t id, const std::string& who) {
@@ -31,8 +33,11 @@ const scene::ToolSpec& tool_of(const scene::Scene& scene, std::uint32_t id, cons
   return *tool;
 }
 
-Devices make_devices(const Options& options, const scene::Scene& scene) {
+Devices make_devices(const Options& options, const scene::Scene& scene, const device::RayInbox& rays) {
   Devices devices;
+  if (options.mouse && !options.trace.empty()) {
+    throw std::runtime_error("--mouse: found --trace beside it, expected one of them");
+  }
   if (!options.trace.empty()) {
     for (auto& [id, trace] : device::read_trace(options.trace)) {
       tool_of(scene, id, options.trace.string());
@@ -42,7 +47,12 @@ Devices make_devices(const Options& options, const scene::Scene& scene) {
   }
   for (const scene::HandSpec& hand : scene.hands) {
     const scene::ToolSpec& tool = tool_of(scene, hand.tool, scene.file.string());
-    devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, options.bridge.rate_hz));
+    const double rate_hz = options.bridge.rate_hz;
+    if (options.mouse) {  // the first one waits for it
+      devices.push_back(std::make_unique<device::MouseHand>(hand, tool, rate_hz, rays, devices.empty()));
+    } else {
+      devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, rate_hz));
+    }
   }
   if (devices.empty()) {
     throw std::runtime_error(scene.file.string() +
@@ -57,7 +67,9 @@ void run(Options& options) {
   runtime::RateLoop loop(options.bridge.rate_hz);
   runtime::StopSignal stop_signal([&loop] { loop.stop(); });
   const auto open_bus = [&] { return node::open_bus(options.bridge.node, "virtual_device"); };
-  device::DeviceBridge bridge(options.bridge, make_devices(options, scene), open_bus, loop);
+  device::RayInbox rays;
+  if (options.mouse) options.bridge.rays = &rays;
+  device::DeviceBridge bridge(options.bridge, make_devices(options, scene, rays), open_bus, loop);
   bridge.run();
   if (!options.bridge.node.report.empty()) runtime::write_report(bridge.report(), options.bridge.node.report);
   bridge.require_written();
@@ -68,11 +80,14 @@ void run(Options& options) {
 int main(int argc, char** argv) {
   runtime::CommandLine line(
       "virtual_device",
-      "A simulated hand that presses an organ of the scene and feels its force, or a recorded hand");
+      "A simulated hand that presses an organ of the scene and feels its force, a recorded hand, or a "
+      "person's mouse in the window");
   Options options;
   runtime::add_node_options(line, options.bridge.node);
   line.option("--trace", options.trace, "play this recorded hand instead of the scene's script")
       .type_name("FILE");
+  line.flag("--mouse", options.mouse,
+            "the first hand, and any that key Tab picks, follows the pointer in render_node's window");
   line.option("--record", options.bridge.record, "record the poses as a trace").type_name("FILE");
   line.option("--rate-hz", options.bridge.rate_hz, "poses per second")
       .between(device::kSlowestRate_hz, 10000.0)

@@ -1,5 +1,7 @@
 #include "device_bridge/virtual_hand.h"
 
+#include "geometry/trocar.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -92,9 +94,11 @@ void VirtualHand::restart() noexcept {
 
 Quat VirtualHand::orientation() const noexcept {
   const Vec3 normal(hand_.press_normal.data());
-  if (!tool_.trocar) return shaft_orientation(normal);
-  const Vec3 shaft = *tool_.trocar - tip_.position;
-  return shaft_orientation(shaft.squaredNorm() > 0 ? shaft : normal);
+  const Vec3 to_pivot = tool_.trocar ? Vec3(*tool_.trocar - tip_.position) : Vec3::Zero();
+  const Vec3 shaft = to_pivot.squaredNorm() > 0 ? to_pivot : normal;
+  // who holds a scope holds it level, whoever holds another tool does not care
+  const Quat held = tool_.scope ? geometry::level_orientation(shaft) : shaft_orientation(shaft);
+  return script_.roll_rad == 0 ? held : Quat(held * Eigen::AngleAxisd(script_.roll_rad, Vec3::UnitZ()));
 }
 
 void VirtualHand::record() noexcept {

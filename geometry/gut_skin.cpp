@@ -1,5 +1,6 @@
 #include "geometry/gut_skin.h"
 
+#include "geometry/across.h"
 #include "geometry/tube_axis.h"
 
 #include <algorithm>
@@ -42,10 +43,6 @@ GutSkin::Node on_spline(const GutLayout& layout, std::int32_t segment, const Eig
   GutSkin::Node node;
   for (std::int32_t c = 0; c < 4; ++c) add(layout, segment - 1 + c, weights[c], node);
   return node;
-}
-
-Vec3 across(const Vec3& v, const Vec3& tangent) {
-  return v - v.dot(tangent) * tangent;
 }
 
 }  // namespace

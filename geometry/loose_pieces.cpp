@@ -1,19 +1,11 @@
 #include "geometry/loose_pieces.h"
 
+#include "geometry/at_id.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace omentum::geometry {
-namespace {
-
-constexpr std::int32_t kNone = -1;
-
-template <class T, class Id>
-T& at(std::vector<T>& values, Id i) {
-  return values[static_cast<std::size_t>(i)];
-}
-
-}  // namespace
 
 LoosePieces::LoosePieces(const RemainingTetrahedra& left, std::vector<double> volume)
     : left_(left),

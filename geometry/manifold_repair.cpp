@@ -1,17 +1,12 @@
 #include "geometry/manifold_repair.h"
 
+#include "geometry/at_id.h"
+
 #include <algorithm>
 #include <limits>
 
 namespace omentum::geometry {
 namespace {
-
-constexpr std::int32_t kNone = -1;
-
-template <class T, class Id>
-T& at(std::vector<T>& values, Id i) {
-  return values[static_cast<std::size_t>(i)];
-}
 
 // Calls visit(neighbour) for those left behind the faces that hold the node n and, where it is valid,
 // edge_end.

@@ -9,7 +9,7 @@ namespace {
 
 // Squared sine of the angle below which two segments are parallel: beyond, rounding alone decides where they
 // would meet.
-constexpr double kParallel = 1e-28;
+constexpr double kParallelSquared = 1e-28;
 
 // Square of the share of their size within which two points of segment and triangle are one: what is left of
 // double precision when they cross at a ten-millionth of a right angle.
@@ -26,7 +26,7 @@ double nearest_parameter(const Vec3& p, const Vec3& along, const Vec3& to) noexc
 double line_parameter(const Vec3& between, const Vec3& d1, const Vec3& d2) noexcept {
   const Vec3 normal = d1.cross(d2);
   const double squared = normal.squaredNorm();
-  if (squared <= kParallel * d1.squaredNorm() * d2.squaredNorm()) return 0;
+  if (squared <= kParallelSquared * d1.squaredNorm() * d2.squaredNorm()) return 0;
   return std::clamp(between.cross(d2).dot(normal) / squared, 0.0, 1.0);
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kParallel = 1e-3;  // sine of an angle below which a direction across is rounding
 
 // Of `guide`, what is across t, unit; zero where hardly anything is.
-Vec3 across(const Vec3& guide, const Vec3& t) {
+Vec3 unit_across(const Vec3& guide, const Vec3& t) {
   const Vec3 left = guide - guide.dot(t) * t;
   const double length = left.norm();
   return length > kParallel * guide.norm() ? Vec3(left / length) : Vec3::Zero();
@@ -24,9 +24,9 @@ Vec3 direction(const Vec3& slope, const Vec3& otherwise) {
 
 // eq. 12, and what stands in for it
 void turn_into(const Vec3& k_before, const Vec3& b_before, TubeFrame& frame) {
-  frame.k = across(k_before, frame.t);
+  frame.k = unit_across(k_before, frame.t);
   if (frame.k.isZero(0)) {
-    frame.b = across(b_before, frame.t);
+    frame.b = unit_across(b_before, frame.t);
     if (frame.b.isZero(0)) frame.b = frame.t.unitOrthogonal();
     frame.k = frame.b.cross(frame.t);
   }
@@ -69,6 +69,19 @@ AxisPoint TubeAxis::at(double u) const {
   return point;
 }
 
+AxisCubic TubeAxis::cubic(std::size_t segment) const {
+  const Vec3 &before = points_[segment], &from = points_[segment + 1], &to = points_[segment + 2],
+             &after = points_[segment + 3];
+  return {from, 0.5 * (to - before), 0.5 * (2 * before - 5 * from + 4 * to - after),
+          0.5 * (after - before + 3 * (from - to))};
+}
+
+double TubeAxis::turn_at(std::size_t mass) const {
+  const Vec3 in = points_[mass + 1] - points_[mass], out = points_[mass + 2] - points_[mass + 1];
+  const double squares = in.squaredNorm() * out.squaredNorm();
+  return squares > 0 ? std::clamp((1 - in.dot(out) / std::sqrt(squares)) / 2, 0.0, 1.0) : 0;
+}
+
 AxisSampling::AxisSampling(std::size_t mass_count, double bend_m)
     : bend_m_(bend_m), sum_(kPieces * (mass_count - 1) + 1, 0.0) {}
 
@@ -97,18 +110,23 @@ void AxisSampling::place(const TubeAxis& axis, std::span<double> u) {
   u.back() = axis.end();
 }
 
+TubeFrame frame_after(const TubeFrame& before, const AxisPoint& point) {
+  TubeFrame frame;
+  frame.origin = point.place;
+  frame.t = direction(point.slope, before.t);
+  turn_into(before.k, before.b, frame);
+  return frame;
+}
+
 void carry_frames(const TubeAxis& axis, std::span<const double> u, const Vec3& first_k,
-                  std::span<TubeFrame> frames) {
+                  std::span<TubeFrame> frames, std::span<double> speeds) {
   require(u.size() == frames.size(), "a frame for each parameter");
-  Vec3 t = Vec3::UnitX(), k = first_k, b = Vec3::Zero();
+  require(speeds.empty() || speeds.size() == u.size(), "a speed for each parameter");
+  TubeFrame before{Vec3::Zero(), Vec3::UnitX(), first_k, Vec3::Zero()};
   for (std::size_t j = 0; j < u.size(); ++j) {
     const AxisPoint point = axis.at(u[j]);
-    t = direction(point.slope, t);
-    frames[j].origin = point.place;
-    frames[j].t = t;
-    turn_into(k, b, frames[j]);
-    k = frames[j].k;
-    b = frames[j].b;
+    before = frames[j] = frame_after(before, point);
+    if (!speeds.empty()) speeds[j] = point.slope.norm();
   }
 }
 

@@ -24,6 +24,11 @@ struct AxisPoint {
   Vec3 place, slope;
 };
 
+/// Of a segment: place(t) = a + b t + c t^2 + d t^3.
+struct AxisCubic {
+  Vec3 a, b, c, d;
+};
+
 /// A uniform cardinal spline through masses: mass i at u = i, ghosts before the first and after the last one.
 /// Any thread; set() is alone.
 class TubeAxis {
@@ -37,6 +42,12 @@ class TubeAxis {
   double end() const { return static_cast<double>(points_.size() - 3); }
   /// 0 <= u <= end().
   AxisPoint at(double u) const;
+  /// From mass `segment` to the next one.
+  AxisCubic cubic(std::size_t segment) const;
+  /// How sharply the axis turns at a mass: (1 - cos)/2 of the angle between the chords there, ghosts'
+  /// included; 0 straight on, 1 straight back (Raghupathi 2004, eq. 10, whose sign contradicts its text; here
+  /// as the text has it). 0 where a chord has no length.
+  double turn_at(std::size_t mass) const;
 
  private:
   std::vector<Vec3> points_;  // ghost, masses, ghost
@@ -67,12 +78,17 @@ struct TubeFrame {
   Vec3 origin, t, k, b;
 };
 
+/// The frame at `point` that is turned about the axis as little as can be against `before` (Raghupathi 2004,
+/// eq. 12; see carry_frames()).
+TubeFrame frame_after(const TubeFrame& before, const AxisPoint& point);
+
 /// Frames at ascending parameters that turn about the axis as little as can be (Raghupathi 2004, eq. 12):
 ///   b_j = t_j x k_{j-1},   k_j = b_j x t_j
 /// where that is undefined, because the axis turned into k, b goes on instead. `first_k`: of the same tube's
 /// last state, so that nothing swims from state to state; zero for none: any direction across. `frames` and
-/// `u` are of one size. A place without slope has the direction before it. No heap.
+/// `u` are of one size. A place without slope has the direction before it. `speeds`: the axis' slopes there,
+/// m; as many, or none where nobody asks. No heap.
 void carry_frames(const TubeAxis& axis, std::span<const double> u, const Vec3& first_k,
-                  std::span<TubeFrame> frames);
+                  std::span<TubeFrame> frames, std::span<double> speeds = {});
 
 }  // namespace omentum::geometry

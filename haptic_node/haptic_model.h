@@ -16,7 +16,7 @@ namespace omentum::haptic {
 
 /// An instrument as collision sees it.
 struct ToolModel {
-  std::vector<Vec3> points;                   // [P] p_TP, m; of jaws: closed
+  std::vector<Vec3> points;                   // [P] p_TP, m; of jaws: closed; of an endoscope none
   bool grasps = false;                        // has jaws (jaws.h)
   double grip_force_n = scene::kGripForce_n;  // what pulls harder slips out of them
   std::optional<Vec3> trocar;                 // pivot in W, m

@@ -26,7 +26,8 @@ std::vector<ToolModel> make_tools(const scene::Scene& scene) {
       refuse(scene,
              "tool id " + std::to_string(spec.id) + ", expected 0 to " + std::to_string(msg::MAX_TOOLS - 1));
     }
-    if (spec.points.empty()) refuse(scene, "tool " + std::to_string(spec.id) + " has no points");
+    if (spec.points.empty() && !spec.scope)
+      refuse(scene, "tool " + std::to_string(spec.id) + " has no points");
     ToolModel tool;
     tool.points = spec.points;
     tool.grasps = spec.shape == "grasper";

@@ -184,7 +184,7 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
 void evaluate_neighbourhood(HapticState& state, Bodies& bodies) noexcept {
   for (std::size_t i = 0; i < state.tools.size(); ++i) {
     const ToolState& tool = state.tools[i];
-    if (!tool.engaged) continue;
+    if (!tool.engaged || tool.now.empty()) continue;  // an endoscope has nothing to touch with
     Region region = path_of(tool);
     look_for_other_tools(region, static_cast<std::int32_t>(i), state, bodies);
     region.low.array() -= tool.others_m;

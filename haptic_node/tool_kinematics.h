@@ -17,11 +17,7 @@ struct ToolFrame {
   Eigen::Quaterniond q_WT = Eigen::Quaterniond::Identity();  // unit
 };
 
-/// A measured pose with the five degrees of freedom that a trocar leaves (Cotin 1999, section 6): the tip
-/// stays, the shaft passes the pivot, roll about the shaft is the measured one. Three of them (pivot's two
-/// angles and insertion) are the tip's position, the fourth is roll, the fifth the grip. A tip that was
-/// pulled out beyond the pivot keeps its shaft on the line through it. Within kMinInsertion of the pivot the
-/// line has no direction: the measured one holds there.
+/// A measured pose with the five degrees of freedom that a trocar leaves (geometry/trocar.h).
 ToolFrame through_trocar(const ToolFrame& measured, const Vec3& pivot) noexcept;
 
 /// p_WP = p_WT + R_WT p_TP.

@@ -28,6 +28,8 @@ build_preset() {
 configure_and_build() {
   local preset=$1 log status=0
   local targets=("${@:2}")
+  # a folder that is built from nothing is built whole; to work in, there is the preset dev
+  [[ -e build/$preset/CMakeCache.txt ]] || export OMENTUM_UNITY=ON
   log=$(mktemp)
   if ! with_progress "build: configuring $preset" "$log" cmake --preset "$preset"; then
     tail -n 30 "$log" >&2

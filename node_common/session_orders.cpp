@@ -12,6 +12,11 @@ std::uint64_t after(std::uint64_t order) {
   return order == std::numeric_limits<std::uint64_t>::max() ? order : order + 1;
 }
 
+RecordOrder record_order(const std::string& argument) {
+  if (argument == kRecordOn) return RecordOrder::kOn;
+  return argument == kRecordOff ? RecordOrder::kOff : RecordOrder::kToggle;
+}
+
 }  // namespace
 
 void SessionOrders::hear(const msg::SessionCommand& command, std::int64_t now_ns) noexcept {
@@ -31,9 +36,18 @@ void SessionOrders::hear(const msg::SessionCommand& command, std::int64_t now_ns
     case msg::COMMAND_CLEAR_FAULT:
       clear_fault_.store(true, std::memory_order_release);
       break;
+    case msg::COMMAND_RECORD:
+      record_.store(static_cast<std::uint8_t>(record_order(command.argument)), std::memory_order_release);
+      break;
     default:
       break;
   }
+}
+
+std::optional<RecordOrder> SessionOrders::take_record() noexcept {
+  const std::uint8_t newest = record_.exchange(kNoRecord, std::memory_order_acquire);
+  if (newest == kNoRecord) return std::nullopt;
+  return static_cast<RecordOrder>(newest);
 }
 
 void SessionOrders::order(Flow flow, const Heard& command) noexcept {

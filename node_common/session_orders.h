@@ -1,12 +1,18 @@
-// What the people of a session want of a node: pause, go on, reset, clear the fault.
+// What the people of a session want of a node: pause, go on, reset, clear the fault, record.
 #pragma once
 
 #include "transport/messages.h"
 
 #include <array>
 #include <atomic>
+#include <optional>
 
 namespace omentum::node {
+
+/// What COMMAND_RECORD asks for: its argument is "on", "off", or anything else for whichever it is not.
+enum class RecordOrder : std::uint8_t { kOn, kOff, kToggle };
+inline constexpr const char* kRecordOn = "on";
+inline constexpr const char* kRecordOff = "off";
 
 /// A pause is a state of the session: a node that joins adopts it from the others. A reset is an event.
 ///
@@ -48,6 +54,8 @@ class SessionOrders {
   /// Whether somebody asked since the last call.
   bool take_reset() noexcept { return reset_.exchange(false, std::memory_order_acquire); }
   bool take_clear_fault() noexcept { return clear_fault_.exchange(false, std::memory_order_acquire); }
+  /// The newest since the last call.
+  std::optional<RecordOrder> take_record() noexcept;
 
  private:
   enum class Flow : std::uint8_t { kRunning, kPauseAdopted, kOrderedToRun, kOrderedToPause };
@@ -72,6 +80,8 @@ class SessionOrders {
   std::atomic<std::uint64_t> newest_order_{0};
   std::atomic<Flow> flow_{Flow::kRunning};
   std::atomic<bool> reset_{false}, clear_fault_{false};
+  static constexpr std::uint8_t kNoRecord = 255;
+  std::atomic<std::uint8_t> record_{kNoRecord};  // a RecordOrder
 };
 
 }  // namespace omentum::node

@@ -30,6 +30,8 @@ class BaredSkin {
 
   const std::vector<geometry::Triangle>& triangles() const { return triangles_; }
   const MeshData& mesh() const { return mesh_; }
+  /// For fields that are not this class's.
+  std::span<Vertex> vertices() { return mesh_.vertices; }
 
  private:
   void find_rim();

@@ -97,11 +97,6 @@ Camera panned(const Camera& camera, double right, double up) {
   return moved;
 }
 
-Camera scope_camera(const Vec3& p_WT, const Eigen::Quaterniond& q_WT, double field_of_view_deg) {
-  constexpr double kLookAhead_m = 0.1;  // any distance along the axis gives the same picture
-  return {p_WT, p_WT - kLookAhead_m * (q_WT * Vec3::UnitZ()), q_WT * Vec3::UnitY(), field_of_view_deg};
-}
-
 View view_of(const Camera& camera, const Ball& ball, float aspect, double shift) {
   const double near = kNearest * camera.distance();
   const double far = (camera.eye - ball.centre).norm() + kFarRadii * ball.radius;

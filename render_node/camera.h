@@ -1,4 +1,4 @@
-// Where the scene is looked at from: an orbiting camera or an endoscope.
+// Where the scene is looked at from: an orbiting camera, or one that scope_view.h makes.
 #pragma once
 
 #include "geometry/types.h"
@@ -40,9 +40,6 @@ Camera orbited(const Camera& camera, double yaw_rad, double pitch_rad);
 Camera zoomed(const Camera& camera, double steps, double min_m, double max_m);
 /// Moves eye and target so that the target's point follows the mouse; fractions of the picture's height.
 Camera panned(const Camera& camera, double right, double up);
-
-/// A scope held as a tool: at the tip, looking on along the shaft (-z of T), upright along y of T.
-Camera scope_camera(const Vec3& p_WT, const Eigen::Quaterniond& q_WT, double field_of_view_deg);
 
 /// `shift` moves the picture's middle to the right by that fraction of its width (room for a panel).
 View view_of(const Camera& camera, const Ball& ball, float aspect, double shift);

@@ -52,7 +52,9 @@ Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const 
       poses_(
           bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, clock_.now_ns()); },
           [this] { return clock_.now_ns(); }),
-      forces_(bus, {}, [this] { return clock_.now_ns(); }),
+      forces_(
+          bus, [this](const msg::ToolForce& force) { force_peaks_.take(force); },
+          [this] { return clock_.now_ns(); }),
       orders_(clock_.now_ns()) {
   for (const LoadedOrgan& organ : organs) organs_.push_back(std::make_unique<OrganBox>(organ));
   contact_reader_ = bus.reader<msg::Contact>([this](const msg::Contact& contact) { take_contact(contact); });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "node_common/session_orders.h"
+#include "render_node/force_peaks.h"
 #include "render_node/pose_arrivals.h"
 #include "render_node/stress_pairing.h"
 #include "runtime/clock.h"
@@ -77,6 +78,7 @@ class Inbox {
   void read_stress(bool on);
   const std::vector<HeardStatus>& statuses();
   node::SessionOrders& orders() { return orders_; }
+  ForcePeaks& force_peaks() { return force_peaks_; }
   const msg::SceneInfo* fetch_scene_info();
   std::uint64_t incomplete_states() const { return incomplete_states_.load(std::memory_order_relaxed); }
   /// Dropped for their topology, of all organs.
@@ -107,6 +109,7 @@ class Inbox {
   const runtime::Clock& clock_;
   runtime::FaultList& faults_;
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
+  ForcePeaks force_peaks_;
   transport::LatestByTool<msg::ToolPose> poses_;
   transport::LatestByTool<msg::ToolForce> forces_;
   std::vector<std::unique_ptr<OrganBox>> organs_;

@@ -1,6 +1,9 @@
 #include "render_node/instrument_shape.h"
 
-#include "render_node/solids.h"
+#include "render_node/hook_shape.h"
+#include "render_node/jaw_shape.h"
+#include "render_node/scope_shape.h"
+#include "render_node/shape_pieces.h"
 
 #include <array>
 #include <cmath>
@@ -9,107 +12,44 @@
 namespace omentum::render {
 namespace {
 
-constexpr int kSegments = 32;
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr auto kHinge = static_cast<float>(scene::kJawLength_m);
+constexpr float kBandLength = 0.005f;      // m
+constexpr float kMarkSpacing = 0.01f;      // m: the probe is a ruler too
+constexpr float kMarkWidth = 0.0007f;      // m
+const Vec3f kWireGlow(6.0f, 1.5f, 0.22f);  // of tungsten at about 2,000 K, far above what the lamps give
+const Vec3f kFibreGlow(9.0f, 8.8f, 8.4f);
 
-const Material kSteel{{0.78f, 0.77f, 0.75f}, 1.0f, 0.24f};
-const Material kDarkSteel{{0.40f, 0.40f, 0.41f}, 1.0f, 0.38f};
-const Material kInsulation{{0.020f, 0.021f, 0.024f}, 0.0f, 0.30f};
-
-constexpr auto kJawLength = static_cast<float>(scene::kJawLength_m);
-constexpr int kTeeth = 11;
-constexpr float kToothDepth = 0.00028f;  // m
-constexpr float kJawGap = 0.00012f;      // m, between closed jaws, so that the line between them is seen
-constexpr float kBandLength = 0.005f;    // m
-constexpr float kMarkSpacing = 0.01f;    // m: the probe is a ruler too
-constexpr float kMarkWidth = 0.0007f;    // m
-
-Material painted(const Vec3f& colour) {
-  return {colour, 0.0f, 0.4f};
+// Collar, band of the tool's colour, and insulated shaft, from `from` on.
+void add_shaft(float radius, float from, float length, const Vec3f& band,
+               std::vector<InstrumentPart>& parts) {
+  constexpr float kCollar = 0.004f;
+  const float band_from = from + kCollar, shaft_from = band_from + kBandLength;
+  parts.push_back({sleeve(1.02f * radius, from, band_from), kSteel});
+  parts.push_back({sleeve(1.08f * radius, band_from, shaft_from), painted(band)});
+  if (length > shaft_from) parts.push_back({sleeve(radius, shaft_from, length), kInsulation});
 }
 
-// A cylinder about z with slightly broken edges.
-MeshData sleeve(float radius, float from, float to) {
-  const float edge = std::min(0.12f * radius, 0.25f * (to - from));
-  const std::array<ProfilePoint, 6> profile{{{0, from},
-                                             {radius - edge, from},
-                                             {radius, from + edge},
-                                             {radius, to - edge},
-                                             {radius - edge, to},
-                                             {0, to}}};
-  return turned(profile, kSegments);
-}
-
-void append(const MeshData& mesh, MeshData& to) {
-  const auto first = static_cast<std::uint32_t>(to.vertices.size());
-  to.vertices.insert(to.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-  for (const auto& [a, b, c] : mesh.triangles) to.triangles.push_back({first + a, first + b, first + c});
-}
-
-MeshData round_tip(float radius, float to) {
-  constexpr int kRings = 12;
-  std::vector<ProfilePoint> profile;
-  for (int k = 0; k <= kRings; ++k) {
-    const float angle = 0.5f * kPi * static_cast<float>(k) / kRings;
-    profile.push_back({k == 0 ? 0.0f : radius * std::sin(angle), radius * (1 - std::cos(angle))});
-  }
-  profile.push_back({radius, to});
-  profile.push_back({0, to});
-  return turned(profile, kSegments);
-}
-
-// One jaw on the +x side: half-round outside, toothed flat inside, thinner and narrower towards the tip.
-MeshData jaw(float shaft_radius, float side) {
-  constexpr int kArc = 10;
-  constexpr int kStations = 2 * kTeeth + 1;
-  std::vector<Vec3f> points;
-  for (int k = 0; k < kStations; ++k) {
-    const float along = static_cast<float>(k) / (kStations - 1);  // 0 at the tip, 1 at the hinge
-    const float rounding = std::sqrt(1 - std::pow(1 - std::min(1.0f, along / 0.16f), 2.0f));
-    const float width = shaft_radius * (0.55f + 0.37f * along) * (0.25f + 0.75f * rounding);
-    const float height = shaft_radius * (0.42f + 0.5f * along) * (0.2f + 0.8f * rounding);
-    const float inside = kJawGap + (k % 2 == 0 ? kToothDepth : 0.0f) * (along < 0.8f ? 1.0f : 0.0f);
-    for (int a = 0; a <= kArc; ++a) {
-      const float angle = kPi * static_cast<float>(a) / kArc;
-      const float x = inside + std::sin(angle) * std::max(height - inside, 0.0f);
-      points.emplace_back(side * x, side * -width * std::cos(angle), along * kJawLength);
-    }
-  }
-  std::vector<MeshTriangle> triangles;
-  const auto at = [](int station, int a) {
-    return static_cast<std::uint32_t>(station * (kArc + 1) + a % (kArc + 1));
-  };
-  for (int k = 0; k + 1 < kStations; ++k) {
-    for (int a = 0; a <= kArc; ++a) {  // the last one is the flat inside
-      triangles.push_back({at(k, a), at(k, a + 1), at(k + 1, a + 1)});
-      triangles.push_back({at(k, a), at(k + 1, a + 1), at(k + 1, a)});
-    }
-  }
-  for (int a = 1; a < kArc; ++a) {  // caps
-    triangles.push_back({at(0, 0), at(0, a + 1), at(0, a)});
-    triangles.push_back({at(kStations - 1, 0), at(kStations - 1, a), at(kStations - 1, a + 1)});
-  }
-  return creased(points, triangles);
-}
-
-std::vector<InstrumentPart> grasper(float radius, float length, const Vec3f& band) {
-  const float clevis = kJawLength + 0.004f, sleeve_from = kJawLength + 0.009f;
+std::vector<InstrumentPart> grasper(const scene::ToolSpec& tool, const Vec3f& band) {
+  const JawForm form = jaw_form(tool);
+  const auto radius = static_cast<float>(tool.shaft_radius_m);
   std::vector<InstrumentPart> parts;
-  parts.push_back({jaw(radius, 1), kSteel, 1, kJawLength});
-  parts.push_back({jaw(radius, -1), kSteel, -1, kJawLength});
-  parts.push_back({sleeve(0.86f * radius, kJawLength - 0.0015f, clevis), kDarkSteel, 0, 0});
-  parts.push_back({sleeve(0.97f * radius, clevis, sleeve_from), kSteel, 0, 0});
-  parts.push_back({sleeve(1.06f * radius, sleeve_from, sleeve_from + kBandLength), painted(band), 0, 0});
-  parts.push_back({sleeve(radius, sleeve_from + kBandLength, length), kInsulation, 0, 0});
+  for (const float side : {1.0f, -1.0f}) parts.push_back({jaw_mesh(form, side), kSteel, side, kHinge});
+  MeshData holder = cheeks_mesh(radius);
+  append(sleeve(0.95f * radius, kHinge + 0.0035f, kHinge + 0.009f), holder);
+  parts.push_back({std::move(holder), kDarkSteel});
+  parts.push_back({pin_mesh(radius), kSteel});
+  add_shaft(radius, kHinge + 0.009f, static_cast<float>(tool.shaft_length_m), band, parts);
   return parts;
 }
 
-std::vector<InstrumentPart> probe(float radius, float length, const Vec3f& band) {
+std::vector<InstrumentPart> probe(const scene::ToolSpec& tool, const Vec3f& band) {
   constexpr float kBandFrom = 0.032f;
+  const auto radius = static_cast<float>(tool.shaft_radius_m);
+  const auto length = static_cast<float>(tool.shaft_length_m);
   std::vector<InstrumentPart> parts;
-  parts.push_back({round_tip(radius, length), kSteel, 0, 0});
-  parts.push_back({sleeve(1.06f * radius, kBandFrom, kBandFrom + kBandLength), painted(band), 0, 0});
-  InstrumentPart marks{{}, kInsulation, 0, 0};
+  parts.push_back({round_tip(radius, length), kSteel});
+  parts.push_back({sleeve(1.06f * radius, kBandFrom, kBandFrom + kBandLength), painted(band)});
+  InstrumentPart marks{{}, kInsulation};
   for (float z = kMarkSpacing; z + kMarkWidth < length; z += kMarkSpacing) {
     if (std::abs(z - kBandFrom) < 1.5f * kBandLength) continue;
     append(sleeve(1.012f * radius, z, z + kMarkWidth), marks.mesh);
@@ -118,12 +58,38 @@ std::vector<InstrumentPart> probe(float radius, float length, const Vec3f& band)
   return parts;
 }
 
+std::vector<InstrumentPart> hook(const scene::ToolSpec& tool, const Vec3f& band) {
+  const float ball = jaw_form(tool).radius;  // its points lie on a round tip as closed jaws' do
+  const float ceramic = ceramic_from(tool, ball), shaft = ceramic + 0.007f;
+  const auto radius = static_cast<float>(tool.shaft_radius_m);
+  std::vector<InstrumentPart> parts;
+  parts.push_back({ball_mesh(ball, ceramic + 0.001f), kDarkSteel});
+  parts.push_back({wire_mesh(tool), kSteel, 0, 0, kWireGlow});
+  parts.push_back({sleeve(0.72f * radius, ceramic, shaft), kCeramic});
+  add_shaft(radius, shaft, static_cast<float>(tool.shaft_length_m), band, parts);
+  return parts;
+}
+
+std::vector<InstrumentPart> scope(const scene::ToolSpec& tool, const Vec3f& band) {
+  constexpr float kBandFrom = 0.04f;
+  const auto radius = static_cast<float>(tool.shaft_radius_m);
+  const auto optics = static_cast<float>(tool.scope->optics_deg * std::numbers::pi / 180);
+  std::vector<InstrumentPart> parts;
+  parts.push_back({scope_tube_mesh(radius, static_cast<float>(tool.shaft_length_m), optics), kSteel});
+  parts.push_back({scope_lens_mesh(radius, optics), kGlass});
+  Material fibres = kCeramic;
+  fibres.glow = kFibreGlow;
+  parts.push_back({scope_fibres_mesh(radius, optics), fibres});
+  parts.push_back({sleeve(1.04f * radius, kBandFrom, kBandFrom + kBandLength), painted(band)});
+  return parts;
+}
+
 }  // namespace
 
 std::vector<InstrumentPart> instrument_parts(const scene::ToolSpec& tool, const Vec3f& band_colour) {
-  const auto radius = static_cast<float>(tool.shaft_radius_m);
-  const auto length = static_cast<float>(tool.shaft_length_m);
-  return tool.shape == "grasper" ? grasper(radius, length, band_colour) : probe(radius, length, band_colour);
+  if (tool.scope) return scope(tool, band_colour);
+  if (tool.shape == "grasper") return grasper(tool, band_colour);
+  return tool.edge.empty() ? probe(tool, band_colour) : hook(tool, band_colour);
 }
 
 Mat4f part_pose(const InstrumentPart& part, const Eigen::Vector3d& p_WT, const Eigen::Quaterniond& q_WT,

@@ -15,10 +15,13 @@ struct InstrumentPart {
   Material material;
   float jaw = 0;      // 0: fixed to the shaft; +1 and -1: opens towards +x and -x by half the grip angle
   float hinge_z = 0;  // where it turns about y, m
+  Vec3f glow_cutting = Vec3f::Zero();  // while its tool cuts
 };
 
-/// "grasper": insulated shaft, clevis and two toothed jaws; everything else: a probe of steel with a round
-/// tip and a mark each centimetre. A band near the tip carries the tool's colour.
+/// "grasper": insulated shaft, two toothed jaws (jaw_shape.h) between cheeks; a tool with an edge: an
+/// electric hook (hook_shape.h), whose wire glows while it cuts; "endoscope": a steel tube with a lens
+/// (scope_shape.h); everything else: a probe of steel with a round tip and a mark each centimetre. A band
+/// near the tip carries the tool's colour.
 std::vector<InstrumentPart> instrument_parts(const scene::ToolSpec& tool, const Vec3f& band_colour);
 
 /// Where a part is, when the tool's tip is at p_WT with orientation q_WT and the jaws are open by grip_rad.

@@ -11,6 +11,8 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 int main(int argc, char** argv) {
   using namespace omentum;
   runtime::CommandLine line(
@@ -32,14 +34,18 @@ int main(int argc, char** argv) {
           "--map", [&](const std::string& text) { return render::parse_map(text, options.map); },
           "colour organs by strain or stress (key S switches)")
       .type_name("WHICH");
+  line.flag("--folds", options.folds, "colour intestines by how sharply they are folded");
   line.flag("--no-panel", options.no_panel, "draw the scene only");
+  render::add_window_options(line, options);
 
   return line.run(argc, argv, [&] {
-    runtime::RateLoop pace(options.fps);
+    if (options.record) options.fps = std::max(options.fps, options.record_fps);
+    runtime::RateLoop pace(render::kTicksPerFrame * options.fps);
     runtime::StopSignal signal([&] { pace.stop(); });
     setpriority(PRIO_PROCESS, 0, 5);  // pictures must never take the force loop's time
     const auto folder = options.out.empty() ? std::filesystem::path(".") : options.out;
-    const auto renderer = render::gl::open_display(options.headless, options.size, "Omentum", folder);
+    const auto renderer =
+        render::gl::open_display(options.headless, options.size, "Omentum", folder, options.ui_scale);
     if (!renderer->has_window()) options.out = folder;
     const auto open_bus = [&] { return node::open_bus(options.node, "render_node"); };
     render::RenderLoop loop(options, open_bus, *renderer, pace);

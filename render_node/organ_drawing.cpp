@@ -32,9 +32,14 @@ class SurfaceDrawing final : public OrganDrawing {
     surface_.skin.map(shares);
     return true;
   }
+  bool live(std::span<const NodeForce> forces, double dt_s) override;
   const MeshData& mesh() const override { return surface_.skin.mesh(); }
   std::span<const TriangleRun> changed() const override { return surface_.skin.changed(); }
   const MeshData* bared() const override { return cut_ ? &surface_.skin.bared() : nullptr; }
+  const MeshData* blood() const override {
+    const MeshData& drops = surface_.skin.bleeding().mesh();
+    return drops.vertices.empty() ? nullptr : &drops;
+  }
   Material material() const override { return shape_.material; }
   Material bared_material() const override { return shape_.bared; }
   std::int32_t removed_count() const override { return removed_count_; }
@@ -49,7 +54,20 @@ class SurfaceDrawing final : public OrganDrawing {
   RemovedSet removed_;           // of what is drawn
   std::optional<OrganCut> cut_;  // made when it is first cut
   std::int32_t removed_count_ = 0;
+  std::vector<Press> on_skin_, on_bared_;  // workspace
 };
+
+bool SurfaceDrawing::live(std::span<const NodeForce> forces, double dt_s) {
+  on_skin_.clear();
+  on_bared_.clear();
+  OrganSkin& skin = surface_.skin;
+  for (const auto& [file_node, force_n] : forces) {
+    const geometry::SurfaceId s = surface_.node(file_node);
+    if (!s.valid() || !skin.has(s)) continue;
+    (skin.bare(s) ? on_bared_ : on_skin_).push_back(press_of(skin.position(s), skin.normal(s), force_n));
+  }
+  return skin.live(on_skin_, on_bared_, dt_s);
+}
 
 CutOutcome SurfaceDrawing::cut(const RemovedSet& removed, std::size_t node_count) {
   if (removed == removed_ || (removed.whole() && !cut_)) {
@@ -77,6 +95,13 @@ void SurfaceDrawing::show_cut() {
 }
 
 }  // namespace
+
+std::vector<const MeshData*> meshes_of(const OrganDrawing& drawing) {
+  std::vector<const MeshData*> meshes{&drawing.mesh()};
+  if (drawing.bared()) meshes.push_back(drawing.bared());
+  for (const OrganPart& part : drawing.parts()) meshes.push_back(part.mesh);
+  return meshes;
+}
 
 std::unique_ptr<OrganDrawing> make_drawing(const OrganShape& shape) {
   switch (shape.kind) {

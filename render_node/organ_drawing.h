@@ -10,6 +10,8 @@
 
 namespace omentum::render {
 
+class TubeFrames;
+
 /// One organ at rest: what its source says of it.
 struct OrganShape {
   scene::OrganKind kind = scene::OrganKind::kTetrahedralMesh;
@@ -73,12 +75,20 @@ class OrganDrawing {
   /// `shares`: of the map's scale at each node of the state that is drawn next (tissue_map.h). False: this
   /// organ is not drawn as a map.
   [[nodiscard]] virtual bool map(std::span<const float> /*shares*/) { return false; }
+  /// `dt_s` go by under these forces of all tools: tissue pales (pallor.h), blood runs. Whether meshes
+  /// changed. Nodes that it does not have are left out.
+  virtual bool live(std::span<const NodeForce> /*forces*/, double /*dt_s*/) { return false; }
   /// As many vertices and triangles as ever.
   virtual const MeshData& mesh() const = 0;
+  /// What is drawn instead of mesh(), where the organ is a tube, whose mesh() is only what other programs of
+  /// the processor look at; null for any other organ.
+  virtual TubeFrames* tube() { return nullptr; }
   /// Which triangles of mesh() the last cut() changed.
   virtual std::span<const TriangleRun> changed() const { return {}; }
   /// What cuts laid bare, of any size; null before the first one.
   virtual const MeshData* bared() const { return nullptr; }
+  /// Drops on it, always as many vertices and triangles; null before the first one bled.
+  virtual const MeshData* blood() const { return nullptr; }
   virtual Material bared_material() const { return material(); }
   /// Tetrahedra, now.
   virtual std::int32_t removed_count() const { return 0; }
@@ -91,6 +101,9 @@ class OrganDrawing {
   /// Where tools dent it; null for an organ without such a surface.
   virtual const PressedSurface* surface() const { return nullptr; }
 };
+
+/// All that is drawn of an organ now.
+std::vector<const MeshData*> meshes_of(const OrganDrawing& drawing);
 
 /// The drawing for an organ of that kind.
 std::unique_ptr<OrganDrawing> make_drawing(const OrganShape& shape);

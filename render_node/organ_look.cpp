@@ -21,6 +21,9 @@ const Material kLiverBared{{0.088f, 0.0105f, 0.0085f}, 0.0f, 0.30f};
 const Material kGallbladderBared{{0.105f, 0.078f, 0.020f}, 0.0f, 0.26f};
 const Material kColonBared{{0.260f, 0.085f, 0.060f}, 0.0f, 0.28f};
 
+// Venous, thick: nearly black where it stands.
+const Material kBlood{{0.046f, 0.0016f, 0.0016f}, 0.0f, 0.16f};
+
 const std::map<std::string, Material> kTissues{
     {"gallbladder", kGallbladder}, {"gut", kGut}, {"mesentery", kMesentery}, {"colon", kColon}};
 
@@ -29,6 +32,10 @@ const std::map<std::string, Material> kTissues{
 Material tissue_material(const std::string& look) {
   const auto found = kTissues.find(look);
   return found != kTissues.end() ? found->second : kLiver;
+}
+
+Material blood_material() {
+  return kBlood;
 }
 
 Material bared_material(const std::string& look) {

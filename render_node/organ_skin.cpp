@@ -19,11 +19,13 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
       left_(triangles_),
       closed_(triangles_),
       gone_(triangles_.size(), 0),
-      used_(rest.size(), 1),
+      used_(rest.size(), kSkin),
       normals_(rest.size(), Vec3f::UnitZ()),
       openness_(rest.size(), 1.0f),
       level_(refinement_level(triangles_.size())),
-      refinement_(triangles_, static_cast<std::int32_t>(rest.size()), level_) {
+      refinement_(triangles_, static_cast<std::int32_t>(rest.size()), level_),
+      pallor_(mesh_),
+      bared_pallor_(mesh_) {
   Eigen::AlignedBox3d box;
   for (const auto& p : rest) {
     rest_.push_back(p.cast<float>());
@@ -39,6 +41,7 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
   std::vector<Vec3f> refined_rest(mesh_.vertices.size());
   refinement_.curve(rest_, normals_, refined_rest);
   for (std::size_t i = 0; i < refined_rest.size(); ++i) mesh_.vertices[i].rest = refined_rest[i];
+  pallor_ = Pallor(mesh_);
   deform(std::vector<float>(3 * rest_.size(), 0.0f));
 }
 
@@ -51,6 +54,9 @@ void OrganSkin::cut(const CutShape& shape) {
   bared_ = BaredSkin(shape.bared, rest_, std::min(level_, refinement_level(closed_.size())));
   refinement_.spread(shape.burnt, &Vertex::charring, mesh_.vertices);
   bared_.spread(shape.burnt, &Vertex::charring);
+  pallor_ = Pallor(mesh_);
+  bared_pallor_ = Pallor(bared_.mesh());
+  bleeding_.cut(shape, closed_, left_.size(), rest_);
 }
 
 void OrganSkin::take_away(const std::vector<std::uint8_t>& gone) {
@@ -79,7 +85,9 @@ void OrganSkin::set_nodes(const CutShape& shape) {
   openness_.assign(rest_.size(), 1.0f);
   used_.assign(rest_.size(), 0);
   for (const geometry::Triangle& t : closed_)
-    for (const geometry::SurfaceId s : t) used_[static_cast<std::size_t>(s)] = 1;
+    for (const geometry::SurfaceId s : t) used_[static_cast<std::size_t>(s)] = kBare;
+  for (const geometry::Triangle& t : left_)
+    for (const geometry::SurfaceId s : t) used_[static_cast<std::size_t>(s)] = kSkin;
   closed_normals_.assign(rest_.size(), Vec3f::UnitZ());
   rest_normals_.resize(rest_.size(), Vec3f::UnitZ());
   smooth_normals(closed_, rest_, rest_normals_);
@@ -105,6 +113,14 @@ void OrganSkin::deform(std::span<const float> displacements) {
   }
   refinement_.apply(drawn_, normals_, openness_, mesh_.vertices);
   bared_.deform(drawn_, normals_, openness_);
+  bleeding_.deform(drawn_, closed_normals_);
+}
+
+bool OrganSkin::live(std::span<const Press> on_skin, std::span<const Press> on_bared, double dt_s) {
+  const bool skin = pallor_.advance(on_skin, dt_s, mesh_.vertices);
+  const bool blood = bleeding_.run(dt_s);
+  if (blood) bleeding_.deform(drawn_, closed_normals_);
+  return bared_pallor_.advance(on_bared, dt_s, bared_.vertices()) || skin || blood;
 }
 
 void OrganSkin::map(std::span<const float> shares) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "render_node/bared_skin.h"
+#include "render_node/bleeding.h"
 #include "render_node/organ_cut.h"
+#include "render_node/pallor.h"
 
 namespace omentum::render {
 
@@ -30,14 +32,22 @@ class OrganSkin {
   /// `shares`: of the map's scale at each node (tissue_map.h), which the vertices have from now on.
   void map(std::span<const float> shares);
 
+  /// `dt_s` go by: under these presses, on the skin and where it lies bare, tissue pales (pallor.h), and
+  /// blood runs. Whether it changed.
+  bool live(std::span<const Press> on_skin, std::span<const Press> on_bared, double dt_s);
+
   const MeshData& mesh() const { return mesh_; }
   /// What lies bare; without triangles where nothing does.
   const MeshData& bared() const { return bared_.mesh(); }
+  const Bleeding& bleeding() const { return bleeding_; }
   std::int32_t node_count() const { return static_cast<std::int32_t>(rest_.size()); }
   /// Whether a triangle is left at that node.
   bool has(geometry::SurfaceId node) const { return used_[static_cast<std::size_t>(node)] != 0; }
   Vec3f position(geometry::SurfaceId node) const { return positions_[node]; }
   Vec3f rest(geometry::SurfaceId node) const { return rest_[node]; }
+  /// Whether none but what lies bare is left at that node.
+  bool bare(geometry::SurfaceId node) const { return used_[static_cast<std::size_t>(node)] == kBare; }
+  Vec3f normal(geometry::SurfaceId node) const { return bare(node) ? closed_normals_[node] : normals_[node]; }
   Vec3f rest_normal(geometry::SurfaceId node) const { return rest_normals_[node]; }
   /// The largest displacement of any node that is left, m: what linear elasticity must be small against
   /// (dents: dent.h).
@@ -53,7 +63,8 @@ class OrganSkin {
   std::vector<geometry::Triangle> left_;       // of them
   std::vector<geometry::Triangle> closed_;     // and what lies bare
   std::vector<std::uint8_t> gone_;             // 1: of triangles_, not left
-  std::vector<std::uint8_t> used_;             // 1: a node of closed_
+  static constexpr std::uint8_t kSkin = 1, kBare = 2;
+  std::vector<std::uint8_t> used_;  // kSkin: a node of left_; kBare: only of what lies bare; 0: of neither
   // of the nodes: normals_ of the skin alone, closed_normals_ of all that there is
   std::vector<Vec3f> rest_, rest_normals_, positions_, normals_, closed_normals_;
   std::vector<Vec3f> drawn_;  // positions_, without the teeth of a cut
@@ -63,6 +74,8 @@ class OrganSkin {
   BaredSkin bared_;
   MeshData mesh_;
   std::vector<TriangleRun> changed_;
+  Pallor pallor_, bared_pallor_;
+  Bleeding bleeding_;
   double largest_displacement_m_ = 0;
   double extent_m_ = 0;
 };

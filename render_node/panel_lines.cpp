@@ -9,6 +9,10 @@ ImVec4 shown(const Vec3f& linear) {
   return {std::sqrt(linear.x()), std::sqrt(linear.y()), std::sqrt(linear.z()), 1};
 }
 
+float scaled(float pixels) {
+  return pixels * ImGui::GetFontSize() / kPanelFontPixels;
+}
+
 void right_aligned(const char* text, const ImVec4* colour) {
   const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, space));

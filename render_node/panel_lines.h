@@ -1,7 +1,7 @@
 // What the panel's lines are made of: figures in words, and text at the right.
 #pragma once
 
-#include "render_node/renderer.h"
+#include "render_node/panel_style.h"
 
 #include <imgui.h>
 
@@ -22,9 +22,15 @@ std::string format(const char* pattern, Args... args) {
   return text.data();
 }
 
+/// Pixels of a panel of scale 1 as pixels of this one.
+float scaled(float pixels);
+
 /// Microseconds with three digits, so that a line's length is known.
 std::string duration(double us);
 std::string pressure(double pa);
+
+inline const ImVec4 kRed{1.0f, 0.36f, 0.30f, 1};
+inline const ImVec4 kAmber{1.0f, 0.74f, 0.28f, 1};
 
 /// The rest of the line, at its right end.
 void right_aligned(const char* text, const ImVec4* colour = nullptr);

@@ -28,7 +28,8 @@ struct ToolRow {
   Vec3f colour;  // linear
   bool present = false;
   float force_n = 0;
-  float largest_n = 0;
+  float largest_n = 0;             // of the curve
+  float most_n = 0;                // of the whole session, each sample counted (docs/score.md)
   std::vector<std::string> state;  // what force safety did: "clamped", "stale" ...
   bool fault = false;              // latched, cleared by a person
   std::vector<ForceHistory::Sample> curve;
@@ -43,8 +44,10 @@ struct OrganRow {
   double moved_mm = 0;  // largest displacement of any of its nodes, the bending of the whole organ included
   double limit_mm = 0;  // up to where linear elasticity is trusted: kLinearShare of its size
   bool known = false;   // a state came
-  std::int64_t age_ns = 0;  // of the newest state; where none came, since the start
-  std::string name = {};    // empty where the scene has no other
+  std::int64_t age_ns = 0;     // of the newest state; where none came, since the start
+  std::string name = {};       // empty where the scene has no other
+  std::size_t nodes = 0;       // of a state of the uncut organ
+  std::size_t tetrahedra = 0;  // of the uncut organ; 0: it has none
   std::int32_t removed_tetrahedra = 0;
   double length_mm = 0;  // of one long tube; 0 of any other
 
@@ -64,12 +67,21 @@ struct OrganRow {
       500'000'000;  // states come at 60 Hz or more; what is drawn is old
 };
 
+/// A video that is being recorded, or was.
+struct RecordingRow {
+  bool on = false;
+  double seconds = 0;
+  std::uint64_t pictures = 0, dropped = 0;  // of this one
+};
+
 struct PanelView {
   std::string scene;
   double time_s = 0;
   bool paused = false;
   bool interactive = false;  // somebody could press a button
-  bool endoscope = false, arrows = true, markers = true;
+  bool endoscope = false, arrows = true, markers = true, wires = false;
+  bool shows_help = false;  // the keys
+  RecordingRow recording;
   TissueMap map = TissueMap::kOff;
   double full_stress_pa = 0;  // where the scale of stress ends
   std::vector<NodeRow> nodes;
@@ -79,6 +91,7 @@ struct PanelView {
   double hand_to_force_us = 0, hand_to_force_p99_us = 0;
   double hand_to_picture_us = 0, hand_to_picture_p99_us = 0;
   double real_time_factor = 0;  // of the organs that live in time of their own; 0: none does
+  std::string picture;          // how finely and how often it is drawn, in words; empty: unknown
   std::string exposed_organ;    // of which the share below is told
   std::optional<double>
       exposed_share;   // that nothing hides; none: the scene asks for none, or it is out of sight
@@ -87,12 +100,15 @@ struct PanelView {
   std::vector<OrganRow> organs;
   std::uint64_t incomplete_states = 0;
   std::vector<std::string> faults;  // of all nodes, their name in front
+  std::string mouse_help;  // what mouse and keys do to the instrument that they move; empty: they move none
 };
 
 /// What the person pressed.
 struct PanelActions {
   bool start = false, pause = false, reset = false, clear_fault = false;
-  bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_map = false;
+  bool record = false, stop_recording = false;
+  bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_wires = false;
+  bool switch_map = false, switch_help = false;
 };
 
 /// Linear elasticity is trusted up to this share of the mesh's size (Cotin 1999, section 3-3).

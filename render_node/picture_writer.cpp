@@ -44,17 +44,38 @@ void PictureWriter::write(Picture picture, const std::string& name) {
   changed_.notify_one();
 }
 
+bool PictureWriter::offer(Picture picture, const std::string& name) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (jobs_.size() == kWaiting) return false;
+    jobs_.push_back({std::move(picture), name});
+  }
+  changed_.notify_one();
+  return true;
+}
+
+void PictureWriter::end(std::function<void()> last) {
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+    last_ = std::move(last);
+  }
+  changed_.notify_one();
+}
+
 void PictureWriter::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return end_ || !jobs_.empty(); });
-    if (jobs_.empty()) return;
+    if (jobs_.empty()) break;
     const Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
     write_now(job);
     lock.lock();
   }
+  lock.unlock();
+  if (last_) last_();
 }
 
 void PictureWriter::write_now(const Job& job) {

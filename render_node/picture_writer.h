@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -24,6 +25,11 @@ class PictureWriter {
 
   /// `name`: of a file in the folder. Does not wait. Any thread.
   void write(Picture picture, const std::string& name);
+  /// The same, of a picture that may be missed: false, and nothing more, where as many wait as may.
+  [[nodiscard]] bool offer(Picture picture, const std::string& name);
+  /// No picture comes any more: when all that wait are written its thread does `last`, which must not throw.
+  /// Does not wait.
+  void end(std::function<void()> last);
   /// Writes what waits; after the last write(). Why the first picture that failed did; empty when all are
   /// there.
   std::string finish();
@@ -44,6 +50,7 @@ class PictureWriter {
   std::condition_variable changed_;
   std::deque<Job> jobs_;
   bool end_ = false;
+  std::function<void()> last_;
   std::string failure_;  // the thread's, until it is joined
   std::thread thread_;   // last: it uses all of the above
 };

@@ -3,6 +3,7 @@
 #include "node_common/node_identity.h"
 #include "node_common/organ_source.h"
 #include "node_common/session_orders.h"
+#include "render_node/panel_keys.h"
 #include "render_node/plausible.h"
 #include "runtime/report.h"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace omentum::render {
@@ -20,7 +22,9 @@ constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and
                                                   // follow them, within seconds
 constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
-constexpr double kDuty = 0.45;
+constexpr double kDuty = 0.6;
+constexpr double kSettled_s =
+    3;  // the frame rate's control has found its level, and the other nodes are there
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
@@ -89,33 +93,46 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
       begin_ns_(pace_.now_ns()),
       view_(loaded.scene, loaded.shapes, renderer),
       watch_(loaded.scene, loaded.organs, begin_ns_),
+      feel_ring_(renderer),
+      max_force_n_(loaded.scene.haptics.max_force_n),
       control_(options.fps, kDuty),
       schedule_(picture_period_s(options, renderer.has_window())),
+      recorder_(options.out.empty() ? "." : options.out, options.record_fps, faults_),
       account_(std::llround(1e9 / options.fps)),
       status_(node::introduce(msg::NODE_RENDER, options.fps)),
       bus_(open_bus()) {
   exposed_organ_ = loaded.scene.score.exposed_organ;
   to_expose_ = organ_to_expose(loaded.scene);
   scored_from_s_ = loaded.scene.score.from_s;
+  if (loaded.scene.score.camera) exercise_.emplace(loaded.scene, view_);
   choices_.orbit = view_.first_camera();
+  choices_.folds = options.folds;
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
   if (!options.node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(options.node.log);
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
+  pointer_ = std::make_unique<PointerLink>(*bus_, loaded.scene);
   inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, pace_, faults_);
   show_map(options.map);
+  if (options.record) recorder_.begin(seconds_since_begin(pace_.now_ns()));
 }
 
 void RenderLoop::run() {
   while (!closed_ && pace_.wait() != runtime::Pace::Cause::kStopped) {
-    const double time_s = seconds_since_begin(pace_.now_ns());
+    const std::int64_t now_ns = pace_.now_ns();
+    const double time_s = seconds_since_begin(now_ns);
     if (options_.seconds > 0 && time_s >= options_.seconds) break;
-    if (control_.due(time_s)) frame(false);
+    if (control_.due(time_s)) {
+      frame(false);
+    } else {
+      pointer_->look(renderer_, seen_, watch_.tools(), now_ns);
+    }
   }
   if (writer_) frame(true);
   if (writer_) picture_failure_ = writer_->finish();
   writer_.reset();
+  recorder_.finish(seconds_since_begin(pace_.now_ns()));
 }
 
 void RenderLoop::frame(bool last) {
@@ -123,6 +140,7 @@ void RenderLoop::frame(bool last) {
   account_.start(begin_ns);
   watch_.listen(*inbox_, view_, faults_, begin_ns);
   if (begin_ns >= next_slow_ns_) watch_slowly(begin_ns);
+  if (exercise_) exercise_->look(seconds_since_begin(begin_ns), view_, watch_.tools());
   const std::optional<Dent>& dent = watch_.deepest_dent();
   PicturesDue due;
   if (last) {
@@ -130,11 +148,14 @@ void RenderLoop::frame(bool last) {
   } else if (writer_) {
     due = schedule_.due(seconds_since_begin(begin_ns), dent ? dent->depth_m : 0);
   }
-  const Input input = renderer_.begin_frame();
+  pictures_.add(control_.quality(), seconds_since_begin(begin_ns));
+  tell_software(seconds_since_begin(begin_ns));
+  const Input input = pointer_->share(renderer_.begin_frame(), seen_, watch_.tools(), begin_ns);
   closed_ = closed_ || input.close;
   steer(input);
-  if (input.switch_map) show_map(next(choices_.map));
+  obey(actions_of(input.keys, panel_view(begin_ns)));
   if (!options_.no_panel) obey(lay_out_panel(panel_view(begin_ns)));
+  record();
   if (due.indent) take_close_up(*dent);
   draw(due.numbered);
   finish_frame(begin_ns, due.indent || !due.numbered.empty());
@@ -144,6 +165,15 @@ void RenderLoop::watch_slowly(std::int64_t now_ns) {
   next_slow_ns_ = now_ns + kSlow_ns;
   view_.shade_ground();
   if (to_expose_ && seconds_since_begin(now_ns) >= scored_from_s_) measure_exposure();
+}
+
+void RenderLoop::tell_software(double time_s) {
+  if (told_software_ || time_s < kSettled_s) return;
+  told_software_ = true;
+  const std::string rasterizer = renderer_.software();
+  if (rasterizer.empty()) return;
+  std::printf("render_node: %s\n", software_words(rasterizer, control_).c_str());
+  std::fflush(stdout);
 }
 
 void RenderLoop::measure_exposure() {
@@ -156,17 +186,31 @@ void RenderLoop::require_written() {
   if (!picture_failure_.empty()) throw std::runtime_error(picture_failure_);
 }
 
+void RenderLoop::record() {
+  const std::optional<node::RecordOrder> order = inbox_->orders().take_record();
+  if (!order) return;
+  const bool on = *order == node::RecordOrder::kToggle ? !recorder_.on() : *order == node::RecordOrder::kOn;
+  const double now_s = seconds_since_begin(pace_.now_ns());
+  on ? recorder_.begin(now_s) : recorder_.end(now_s);
+}
+
 void RenderLoop::take_close_up(const Dent& deepest) {
   renderer_.draw(view_.close_up(deepest, choices_, watch_.tools()));
   writer_->write(renderer_.read_back(), "indent.png");
 }
 
 void RenderLoop::draw(const std::string& picture) {
-  const double covered = options_.no_panel ? 0 : panel_share(renderer_.size());
+  const double covered = options_.no_panel ? 0 : panel_share(renderer_.size(), renderer_.ui_scale());
+  const PictureLevel level = control_.level();
+  view_.set_tube_resolution(picture.empty() ? TubeResolution{level.eps(), level.n()} : kPictureTube);
   Frame frame = view_.frame(choices_, watch_.tools(), covered);
+  seen_ = frame.view;
+  const PointerRays& mouse = pointer_->rays();
+  if (mouse.drives()) feel_ring_.add(watch_.tools()[mouse.tool()], max_force_n_, frame);
   frame.quality = picture.empty() ? control_.quality() : Quality::kFine;
   renderer_.draw(frame);
   if (!picture.empty()) writer_->write(renderer_.read_back(), picture);
+  if (recorder_.due(seconds_since_begin(pace_.now_ns()))) recorder_.take(renderer_.read_back());
   renderer_.end_frame();
 }
 
@@ -201,9 +245,13 @@ void RenderLoop::obey(const PanelActions& actions) {
   if (actions.pause) command(msg::COMMAND_PAUSE);
   if (actions.reset) command(msg::COMMAND_RESET);
   if (actions.clear_fault) command(msg::COMMAND_CLEAR_FAULT);
+  if (actions.record) command(msg::COMMAND_RECORD, node::kRecordOn);
+  if (actions.stop_recording) command(msg::COMMAND_RECORD, node::kRecordOff);
   choices_.endoscope ^= actions.switch_camera;
   choices_.arrows ^= actions.switch_arrows;
   choices_.markers ^= actions.switch_markers;
+  choices_.wires ^= actions.switch_wires;
+  help_ ^= actions.switch_help;
   if (actions.switch_map) show_map(next(choices_.map));
 }
 
@@ -214,8 +262,9 @@ void RenderLoop::show_map(TissueMap map) {
   inbox_->read_stress(map != TissueMap::kOff);
 }
 
-void RenderLoop::command(std::uint32_t command) {
-  const msg::SessionCommand order = inbox_->orders().issue(command, status_.instance);
+void RenderLoop::command(std::uint32_t command, const std::string& argument) {
+  msg::SessionCommand order = inbox_->orders().issue(command, status_.instance);
+  order.argument = argument;
   if (!command_writer_->write(order)) faults_.raise("a command could not be sent");
 }
 
@@ -225,10 +274,15 @@ PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   panel.endoscope = choices_.endoscope;
   panel.arrows = choices_.arrows;
   panel.markers = choices_.markers;
+  panel.wires = choices_.wires;
+  panel.shows_help = help_;
+  panel.recording = recorder_.row(seconds_since_begin(now_ns));
   panel.map = choices_.map;
   panel.full_stress_pa = watch_.full_stress_pa();
   panel.exposed_organ = exposed_organ_;
   panel.exposed_share = exposure_.newest;
+  panel.mouse_help = pointer_->rays().help();
+  panel.picture = rate_words(control_, view_.has_tube());
   watch_.describe(view_, now_ns, panel);
   return panel;
 }
@@ -253,8 +307,13 @@ nlohmann::json RenderLoop::report() const {
                         {"unmatched_states", watch_.unmatched_states()},
                         {"removed_tetrahedra", removed},
                         {"closed", closed_},
+                        {"videos", recorder_.report()},
+                        {"picture", pictures_.to_json(control_)},
                         {"faults", faults_.lines()}};
   if (to_expose_) report["exposed_share"] = to_json(exposure_);
+  if (exercise_) report["camera"] = exercise_->report();
+  if (nlohmann::json trocars = watch_.trocar_report(); !trocars.empty())
+    report["trocars"] = std::move(trocars);
   return report;
 }
 

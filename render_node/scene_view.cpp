@@ -2,6 +2,8 @@
 
 #include "geometry/rotation.h"
 #include "render_node/lighting.h"
+#include "render_node/organ_look.h"
+#include "render_node/scope_view.h"
 #include "render_node/solids.h"
 
 #include <algorithm>
@@ -18,7 +20,6 @@ constexpr double kShadowReach =
 
 // An endoscope without a tool or pose of its own looks from here.
 constexpr double kScopeDistance = 0.42;  // of the orbit camera's start
-constexpr double kScopeField_deg = 62;   // a laparoscope's, bottom to top
 
 constexpr std::size_t kGroundSamples = 400;  // of the organs, for a shade that follows them: 4 ms
 
@@ -50,14 +51,6 @@ std::vector<std::unique_ptr<OrganDrawing>> drawings_of(const std::vector<OrganSh
   return drawings;
 }
 
-// All that is drawn of an organ.
-std::vector<const MeshData*> meshes_of(const OrganDrawing& drawing) {
-  std::vector<const MeshData*> meshes{&drawing.mesh()};
-  if (drawing.bared()) meshes.push_back(drawing.bared());
-  for (const OrganPart& part : drawing.parts()) meshes.push_back(part.mesh);
-  return meshes;
-}
-
 // z of the mesh along `direction`, scaled.
 Mat4f placed(const Vec3& origin, const Vec3& direction, double width, double length) {
   const Eigen::Matrix3d turn = geometry::rotation_onto(Vec3::UnitZ(), direction).toRotationMatrix();
@@ -73,24 +66,18 @@ Material signal_material(std::uint32_t tool) {
 
 }  // namespace
 
-std::optional<std::size_t> scope_of(const scene::Scene& scene) {
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    if (scene.tools[t].name == "endoscope") return t;
-  }
-  return std::nullopt;
-}
-
 SceneView::SceneView(const scene::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer)
     : SceneView(scene, drawings_of(organs), renderer) {}
 
 SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs,
                      Renderer& renderer)
-    : renderer_(renderer), scene_(scene) {
+    : renderer_(renderer), scene_(scene), tubes_(renderer) {
   for (std::unique_ptr<OrganDrawing>& drawing : organs) {
-    const MeshId mesh = renderer.add_mesh(drawing->mesh());
-    std::vector<MeshId> parts;
-    for (const OrganPart& part : drawing->parts()) parts.push_back(renderer.add_mesh(*part.mesh));
-    organs_.push_back({std::move(drawing), mesh, {}, std::move(parts)});
+    DrawnOrgan& organ = organs_.emplace_back(DrawnOrgan{std::move(drawing)});
+    TubeFrames* const tube = organ.drawing->tube();
+    if (tube) organ.tube = tubes_.add(*tube);
+    if (!tube) organ.mesh = renderer.add_mesh(organ.drawing->mesh());
+    for (const OrganPart& part : organ.drawing->parts()) organ.parts.push_back(renderer.add_mesh(*part.mesh));
   }
   const Outline all = outline();
   ball_ = ball_around(all.points);
@@ -106,6 +93,7 @@ SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<Orga
   arrow_shaft_ = renderer.add_mesh(unit_shaft());
   arrow_head_ = renderer.add_mesh(unit_head());
   marker_ = renderer.add_mesh(unit_ball());
+  puff_ = renderer.add_mesh(Smoke::square());
 }
 
 Outline SceneView::outline() const {
@@ -132,11 +120,14 @@ void SceneView::deform(std::size_t organ, std::span<const float> values) {
   send_vertices(organs_[organ]);
 }
 
-void SceneView::send_vertices(const DrawnOrgan& organ) {
-  renderer_.update_vertices(organ.mesh, organ.drawing->mesh().vertices);
+void SceneView::send_vertices(DrawnOrgan& organ) {
+  organ.stale = false;
+  if (organ.tube) tubes_.send(*organ.tube);
+  if (!organ.tube) renderer_.update_vertices(organ.mesh, organ.drawing->mesh().vertices);
   const std::vector<OrganPart> parts = organ.drawing->parts();
   for (std::size_t p = 0; p < parts.size(); ++p)
     renderer_.update_vertices(organ.parts[p], parts[p].mesh->vertices);
+  if (organ.blood) renderer_.update_vertices(*organ.blood, organ.drawing->blood()->vertices);
 }
 
 bool SceneView::show(std::size_t organ, const RemovedSet& removed, std::span<const float> values,
@@ -158,18 +149,6 @@ void SceneView::forget_map() {
   for (DrawnOrgan& organ : organs_) organ.mapped = false;
 }
 
-void SceneView::show_cut(DrawnOrgan& organ) {
-  for (const auto& [first, count] : organ.drawing->changed())
-    renderer_.update_triangles(organ.mesh, first,
-                               std::span(organ.drawing->mesh().triangles).subspan(first, count));
-  const MeshData& bared = *organ.drawing->bared();
-  if (organ.bared) {
-    renderer_.replace_mesh(*organ.bared, bared);
-  } else {
-    organ.bared = renderer_.add_mesh(bared);
-  }
-}
-
 Camera SceneView::first_camera() const {
   return start_camera(scene_.camera, ball_, viewing_direction(scene_), renderer_.size().aspect());
 }
@@ -177,18 +156,20 @@ Camera SceneView::first_camera() const {
 Camera SceneView::camera(const ViewChoices& choices, std::span<const ToolNow> tools) const {
   if (!choices.endoscope) return choices.orbit;
   if (const auto scope = scope_of(scene_); scope && tools[*scope].seen) {
-    return scope_camera(tools[*scope].p_WT, tools[*scope].q_WT, kScopeField_deg);
+    return scope_camera(tools[*scope].p_WT, tools[*scope].q_WT, *scene_.tools[*scope].scope);
   }
   Camera fixed = first_camera();
   if (scene_.camera.mode == "endoscope") return fixed;
   fixed.eye = fixed.target + kScopeDistance * (fixed.eye - fixed.target);
-  fixed.field_of_view_deg = kScopeField_deg;
+  fixed.field_of_view_deg = scene::ScopeSpec{}.field_of_view_deg;
   return fixed;
 }
 
 Frame SceneView::frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const {
   Frame frame = frame_from(camera(choices, tools), choices, tools, panel_share);
   frame.through_endoscope = choices.endoscope;
+  if (choices.endoscope) frame.lighting = scope_light(camera(choices, tools), shadow_ball());
+  smoke_.draw(frame.view.eye, puff_, frame.items);
   return frame;
 }
 
@@ -199,7 +180,7 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
     if (tool.seen) shafts.push_back({tool.p_WT, tool.q_WT * Vec3::UnitZ()});
   }
   ViewChoices near = choices;
-  near.markers = near.arrows = false;  // they would cover the dent
+  near.markers = near.arrows = near.wires = false;  // they would cover the dent
   std::vector<const MeshData*> meshes;
   for (const DrawnOrgan& organ : organs_) {
     const std::vector<const MeshData*> of_organ = meshes_of(*organ.drawing);
@@ -211,25 +192,6 @@ Frame SceneView::close_up(const Dent& dent, const ViewChoices& choices,
   frame.lighting = rake_light(camera, shadow_ball());
   frame.with_panel = false;
   return frame;
-}
-
-std::optional<double> SceneView::exposed_share(std::size_t organ, std::span<const ToolNow> tools,
-                                               ExposureRaster& raster) const {
-  ViewChoices own;
-  own.orbit = first_camera();
-  own.endoscope = scene_.camera.mode == "endoscope";
-  raster.look(view_of(camera(own, tools), ball_, raster.size().aspect(), 0));
-  for (const MeshData* mesh : meshes_of(*organs_[organ].drawing)) raster.add_thing(*mesh);
-  for (std::size_t o = 0; o < organs_.size(); ++o) {
-    if (o == organ) continue;
-    for (const MeshData* mesh : meshes_of(*organs_[o].drawing)) raster.add_cover(*mesh);
-  }
-  for (std::size_t t = 0; t < tools.size(); ++t) {
-    if (!tools[t].seen || scope_of(scene_) == t) continue;
-    for (const auto& [part, mesh] : instruments_[t])
-      raster.add_cover(part.mesh, part_pose(part, tools[t].p_WT, tools[t].q_WT, tools[t].grip_rad));
-  }
-  return raster.share();
 }
 
 const PressedSurface* SceneView::touched_surface(const ToolNow& tool) const {
@@ -257,34 +219,40 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.view = view_of(from, ball_, renderer_.size().aspect(), panel_share / 2);
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
+  frame.wires = choices.wires;
+  order_translucent(frame.view.eye);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
-  for (const DrawnOrgan& organ : organs_) add_organ(organ, choices.map != TissueMap::kOff, frame.items);
+  for (const DrawnOrgan& organ : organs_) add_organ(organ, choices, frame);
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;
-    add_instrument(t, tools[t], frame.items);
+    // who looks through a scope does not see it
+    if (!choices.endoscope || !scene_.tools[t].scope) add_instrument(t, tools[t], frame.items);
     if (choices.arrows) add_arrow(t, tools[t], frame.items);
     if (choices.markers) add_markers(t, tools[t], frame.items);
   }
   return frame;
 }
 
-void SceneView::add_organ(const DrawnOrgan& organ, bool map, std::vector<DrawItem>& items) {
+void SceneView::add_organ(const DrawnOrgan& organ, const ViewChoices& choices, Frame& frame) const {
   const OrganDrawing& drawing = *organ.drawing;
-  const bool is_map = map && organ.mapped;
+  const bool is_map = choices.map != TissueMap::kOff && organ.mapped;
   const auto add = [&](MeshId mesh, Look look, const Material& material) {
-    items.push_back({mesh, is_map ? Look::kMap : look, Mat4f::Identity(), material});
+    frame.items.push_back({mesh, is_map ? Look::kMap : look, Mat4f::Identity(), material});
   };
+  if (organ.tube) frame.tubes.push_back(tubes_.item(*organ.tube, is_map, choices.folds, drawing.material()));
   const bool is_cut = organ.bared && drawing.removed_count() > 0;
-  add(organ.mesh, is_cut ? Look::kCut : drawing.look(), drawing.material());
+  if (!organ.tube) add(organ.mesh, is_cut ? Look::kCut : drawing.look(), drawing.material());
   if (is_cut) add(*organ.bared, Look::kBared, drawing.bared_material());
+  if (is_cut && organ.blood && !is_map) add(*organ.blood, Look::kBlood, blood_material());
   const std::vector<OrganPart> parts = drawing.parts();
   for (std::size_t p = 0; p < parts.size(); ++p) add(organ.parts[p], parts[p].look, parts[p].material);
 }
 
 void SceneView::add_instrument(std::size_t tool, const ToolNow& now, std::vector<DrawItem>& items) const {
-  if (scope_of(scene_) == tool) return;  // nobody sees the scope: the others would see through it
   for (const auto& [part, mesh] : instruments_[tool]) {
-    items.push_back({mesh, Look::kSolid, part_pose(part, now.p_WT, now.q_WT, now.grip_rad), part.material});
+    DrawItem& item = items.emplace_back(
+        DrawItem{mesh, Look::kSolid, part_pose(part, now.p_WT, now.q_WT, now.grip_rad), part.material});
+    if (now.cuts) item.material.glow += part.glow_cutting;
   }
 }
 

@@ -5,6 +5,8 @@
 #include "node_common/vectors.h"
 #include "render_node/plausible.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -49,9 +51,11 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
       max_force_n_(scene.haptics.max_force_n),
       loaded_(node::loaded_scene(scene, infos_of(organs))),
       begin_ns_(begin_ns),
+      listened_ns_(begin_ns),
       tools_(scene.tools.size()),
       rows_(scene.tools.size()),
       histories_(scene.tools.size()),
+      organs_(organs),
       echoes_(organs.size()),
       state_arrived_ns_(organs.size(), 0),
       full_stress_pa_(render::full_stress_pa(largest_young_pa(scene))),
@@ -62,6 +66,7 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
     ids_.push_back(scene.tools[t].id);
     rows_[t].name = scene.tools[t].name;
     rows_[t].colour = tool_colour(scene.tools[t].id);
+    trocars_.emplace_back(scene.tools[t].trocar);
   }
 }
 
@@ -69,6 +74,8 @@ void SessionWatch::listen(Inbox& inbox, SceneView& view, runtime::FaultList& fau
   listen_to_scene(inbox, faults, now_ns);
   listen_to_organs(inbox, view, faults, now_ns);
   for (std::size_t t = 0; t < tools_.size(); ++t) listen_to_tool(inbox, t, now_ns);
+  view.smoke(tools_, since_listened_s(now_ns));
+  listened_ns_ = now_ns;
   find_deepest_dent(view, now_ns);
   statuses_ = inbox.statuses();
   incomplete_states_ = inbox.incomplete_states();
@@ -90,8 +97,13 @@ void SessionWatch::listen_to_scene(Inbox& inbox, runtime::FaultList& faults, std
 void SessionWatch::listen_to_organs(Inbox& inbox, SceneView& view, runtime::FaultList& faults,
                                     std::int64_t now_ns) {
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    forces_on(i, ids_, now_ns - kForceGone_ns, max_force_n_, inbox, forces_);
+    view.live(i, forces_, since_listened_s(now_ns));
     const AssembledState* state = inbox.fetch_state(i);
-    if (!state) continue;
+    if (!state) {
+      view.refresh(i);
+      continue;
+    }
     if (!view.show(i, state->removed, state->values, shares_of(*state))) {
       faults.raise(kMisfitState);
       continue;
@@ -124,8 +136,9 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
   if (now.seen) {
     const auto& q = pose.sample.orientation;
     now.p_WT = node::to_vector(pose.sample.position);
-    now.q_WT = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+    now.q_WT = trocars_[tool].follow(now.p_WT, Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
     now.grip_rad = pose.sample.grip;
+    now.cuts = (pose.sample.buttons & msg::BUTTON_CUT) != 0 && pose.age_ns(now_ns) < kForceGone_ns;
   }
   transport::Arrived<msg::ToolForce> force;
   const bool felt = inbox.force(ids_[tool], force) && force.age_ns(now_ns) < kForceGone_ns &&
@@ -133,8 +146,12 @@ void SessionWatch::listen_to_tool(Inbox& inbox, std::size_t tool, std::int64_t n
   now.force_n = felt ? node::to_vector(force.sample.force) : Vec3::Zero();
   now.contact_nodes.clear();
   now.contact_forces_n.clear();
+  inbox.force_peaks().believe_up_to(max_force_n_);
+  rows_[tool].most_n = static_cast<float>(inbox.force_peaks().peak_n(ids_[tool]));
+  now.burning_at.reset();
   rows_[tool].present = now.seen;
   rows_[tool].state = force_state_words(felt ? force.sample.state : 0);
+  if (now.seen && trocars_[tool].misses()) rows_[tool].state.emplace_back("off its trocar");
   rows_[tool].fault = felt && (force.sample.state & msg::FORCE_FAULT) != 0;
   if (felt) {
     listen_to_contact(inbox, tool, now_ns);
@@ -152,6 +169,8 @@ void SessionWatch::listen_to_contact(Inbox& inbox, std::size_t tool, std::int64_
     const auto& [contact, arrived_ns] = inbox.contact(organ, ids_[tool]);
     if (now_ns - arrived_ns > kForceGone_ns)
       continue;  // haptic_node tells an organ that was left for a while only
+    if (contact.cutting)
+      now.burning_at = 0.5 * (node::to_vector(contact.edge.begin) + node::to_vector(contact.edge.end));
     const double total_n = node::total_force_n(contact);
     if (contact.nodes.empty() || !is_plausible(contact, max_force_n_) || total_n <= most_n) continue;
     most_n = total_n;
@@ -190,6 +209,14 @@ void SessionWatch::shown(const Inbox& inbox, std::int64_t now_ns) {
   }
 }
 
+nlohmann::json SessionWatch::trocar_report() const {
+  nlohmann::json report = nlohmann::json::array();
+  for (std::size_t t = 0; t < trocars_.size(); ++t)
+    if (trocars_[t].largest_miss_m())
+      report.push_back({{"tool", ids_[t]}, {"largest_miss_mm", 1e3 * *trocars_[t].largest_miss_m()}});
+  return report;
+}
+
 bool SessionWatch::paused(std::int64_t now_ns) const {
   return haptic_paused(statuses_, now_ns).value_or(ordered_to_pause_);
 }
@@ -217,6 +244,8 @@ void SessionWatch::describe(const SceneView& view, std::int64_t now_ns, PanelVie
     OrganRow& row = panel.organs.emplace_back();
     if (view.organ_count() > 1) row.name = loaded_.organs[i].name;
     row.known = state_arrived_ns_[i] > 0;
+    row.nodes = organs_[i].node_count;
+    row.tetrahedra = organs_[i].tetrahedron_count;
     row.removed_tetrahedra = view.removed_count(i);
     row.length_mm = 1e3 * view.length_m(i);
     row.age_ns = now_ns - std::max(state_arrived_ns_[i], begin_ns_);

@@ -4,8 +4,10 @@
 #include "node_common/loaded_scene.h"
 #include "render_node/force_history.h"
 #include "render_node/inbox.h"
+#include "render_node/node_forces.h"
 #include "render_node/panel_view.h"
 #include "render_node/scene_view.h"
+#include "render_node/trocar_watch.h"
 #include "runtime/histogram.h"
 
 namespace omentum::render {
@@ -34,6 +36,8 @@ class SessionWatch {
   const std::optional<Dent>& deepest_dent() const { return dent_; }
   /// Of the whole session, m.
   double largest_dent_m() const { return largest_dent_m_; }
+  /// {"tool", "largest_miss_mm"} of each tool with a trocar that was seen (trocar_watch.h).
+  nlohmann::json trocar_report() const;
   /// States that were not drawn because of their topology (inbox.h).
   std::uint64_t unmatched_states() const { return unmatched_states_; }
 
@@ -48,18 +52,24 @@ class SessionWatch {
   std::span<const float> shares_of(const AssembledState& state);
   static void draw_contact(const msg::Contact& contact, ToolNow& now);
   void find_deepest_dent(const SceneView& view, std::int64_t now_ns);
+  double since_listened_s(std::int64_t now_ns) const {
+    return 1e-9 * static_cast<double>(now_ns - listened_ns_);
+  }
   double seconds_since_begin(std::int64_t now_ns) const {
     return 1e-9 * static_cast<double>(now_ns - begin_ns_);
   }
 
   std::string scene_name_;
-  std::vector<std::uint32_t> ids_;  // of the scene's tools
-  double max_force_n_;              // of the scene
+  std::vector<std::uint32_t> ids_;    // of the scene's tools
+  double max_force_n_;                // of the scene
+  std::vector<TrocarWatch> trocars_;  // per tool
   node::LoadedScene loaded_;
-  std::int64_t begin_ns_;
+  std::int64_t begin_ns_, listened_ns_;
+  std::vector<NodeForce> forces_;  // on an organ, workspace
   std::vector<ToolNow> tools_;
   std::vector<ToolRow> rows_;
   std::vector<ForceHistory> histories_;
+  std::vector<LoadedOrgan> organs_;
   std::vector<std::vector<msg::Echo>> echoes_;  // per organ, of the state that is drawn
   std::vector<std::int64_t> state_arrived_ns_;  // per organ; 0: none came
   TissueMap map_ = TissueMap::kOff;

@@ -25,6 +25,8 @@ class SheetSkin {
 
   /// Closed, as many vertices and triangles as ever.
   const MeshData& mesh() const { return mesh_; }
+  /// For fields that are not this class's.
+  std::span<Vertex> vertices() { return mesh_.vertices; }
 
  private:
   // A value between rows or columns of masses: spline weights of four of them, ghosts included.

@@ -77,7 +77,11 @@ SurfaceRefinement::SurfaceRefinement(std::span<const geometry::Triangle> triangl
 
 Vec3f SurfaceRefinement::curved(std::size_t vertex, std::span<const Vec3f> positions,
                                 std::span<const Vec3f> normals) const {
-  const Place& v = places_[vertex];
+  return curved(places_[vertex], positions, normals);
+}
+
+Vec3f SurfaceRefinement::curved(const Place& v, std::span<const Vec3f> positions,
+                                std::span<const Vec3f> normals) {
   Vec3f flat = Vec3f::Zero();
   for (int c = 0; c < 3; ++c) flat += v.weight[c] * positions[v.node[c]];
   Vec3f offset = Vec3f::Zero();

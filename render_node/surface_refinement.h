@@ -34,7 +34,9 @@ class SurfaceRefinement {
              std::span<const float> openness, std::span<Vertex> out) const;
   /// One value of each node, [S], to a field of the vertices.
   void spread(std::span<const float> of_nodes, float Vertex::*field, std::span<Vertex> out) const;
-  /// The curved position of one vertex.
+  /// The curved position of any place on the surface.
+  static Vec3f curved(const Place& place, std::span<const Vec3f> positions, std::span<const Vec3f> normals);
+  /// And of one vertex.
   Vec3f curved(std::size_t vertex, std::span<const Vec3f> positions, std::span<const Vec3f> normals) const;
 
  private:

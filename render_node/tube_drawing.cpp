@@ -1,7 +1,10 @@
 #include "render_node/tube_drawing.h"
 
+#include "geometry/gut_skin.h"
 #include "geometry/precondition.h"
+#include "render_node/pallor.h"
 #include "render_node/sheet_skin.h"
+#include "render_node/tube_frames.h"
 #include "render_node/tube_skin.h"
 
 #include <algorithm>
@@ -22,7 +25,11 @@ class TubeDrawing final : public OrganDrawing {
         wall_(wall),
         masses_(rest.positions),
         tube_(axis_of(layout_, masses_), rest.tube_radius_m),
-        sheet_(rest) {
+        sheet_(rest),
+        swept_(axis_of(layout_, masses_), rest.tube_radius_m),
+        touched_(rest),
+        touched_places_(touched_.node_count()),
+        sheet_pallor_(sheet_.mesh()) {
     sheet_.deform(masses_, tube_.shade());
   }
 
@@ -31,7 +38,9 @@ class TubeDrawing final : public OrganDrawing {
   bool wanders() const override { return true; }
   void deform(std::span<const float> values) override;
   [[nodiscard]] bool map(std::span<const float> shares) override;
-  const MeshData& mesh() const override { return tube_.mesh(); }
+  bool live(std::span<const NodeForce> forces, double dt_s) override;
+  const MeshData& mesh() const override;
+  TubeFrames* tube() override { return &tube_; }
   Material material() const override { return wall_; }
   Look look() const override { return Look::kGut; }
   std::vector<OrganPart> parts() const override {
@@ -43,13 +52,42 @@ class TubeDrawing final : public OrganDrawing {
   geometry::GutLayout layout_;
   Material wall_;
   std::vector<geometry::Vec3> masses_;  // of the last state
-  TubeSkin tube_;
+  TubeFrames tube_;
   SheetSkin sheet_;
+  // Of the last state once somebody asks: who looks at the wall without a picture does so once in a second.
+  mutable TubeSkin swept_;
+  mutable bool is_swept_ = true;
+  geometry::GutSkin touched_;  // what tools' forces are told of
+  std::vector<geometry::Vec3> touched_places_;
+  Pallor sheet_pallor_;
+  std::vector<Press> on_sheet_;  // workspace
 };
+
+const MeshData& TubeDrawing::mesh() const {
+  if (!is_swept_) swept_.deform(axis_of(layout_, masses_));
+  is_swept_ = true;
+  return swept_.mesh();
+}
+
+// Of the mesentery alone: the wall's frames carry no pallor.
+bool TubeDrawing::live(std::span<const NodeForce> forces, double dt_s) {
+  on_sheet_.clear();
+  if (!forces.empty()) touched_.place(masses_, touched_places_);
+  const auto nodes = touched_.node_count();
+  const std::size_t of_sheet = 2 * static_cast<std::size_t>(layout_.mass_count());  // the last ones
+  for (const auto& [node, force_n] : forces) {
+    if (node >= nodes || node + of_sheet < nodes) continue;
+    const geometry::Vec3& place = touched_places_[node];
+    const geometry::NodeId id(std::size_t{node});
+    const geometry::Vec3 outward = place - geometry::weighted(touched_.node(id), masses_);
+    on_sheet_.push_back(press_of(place.cast<float>(), outward.normalized().cast<float>(), force_n));
+  }
+  return sheet_pallor_.advance(on_sheet_, dt_s, sheet_.vertices());
+}
 
 Outline TubeDrawing::outline() const {
   Outline outline;
-  for (const Vertex& vertex : tube_.mesh().vertices) {
+  for (const Vertex& vertex : mesh().vertices) {
     outline.points.push_back(vertex.position.cast<double>());
     outline.normals.push_back(vertex.normal);
   }
@@ -57,7 +95,7 @@ Outline TubeDrawing::outline() const {
   const Vertex lowest = *std::ranges::min_element(sheet_.mesh().vertices, {}, height);
   outline.points.push_back(lowest.position.cast<double>());
   outline.normals.push_back(Vec3f::Zero());
-  outline.area_m2 = 2 * std::numbers::pi * tube_.radius_m() * tube_.length_m();
+  outline.area_m2 = 2 * std::numbers::pi * swept_.radius_m() * tube_.length_m();
   return outline;
 }
 
@@ -65,6 +103,7 @@ void TubeDrawing::deform(std::span<const float> values) {
   geometry::require(values.size() == 3 * masses_.size(), "three values for each mass");
   for (std::size_t m = 0; m < masses_.size(); ++m)
     masses_[m] = {values[3 * m], values[3 * m + 1], values[3 * m + 2]};
+  is_swept_ = false;
   tube_.deform(axis_of(layout_, masses_));
   sheet_.deform(masses_, tube_.shade());
 }

@@ -1,6 +1,7 @@
 #include "render_node/tube_skin.h"
 
 #include "geometry/precondition.h"
+#include "render_node/between_points.h"
 
 #include <algorithm>
 #include <array>
@@ -45,14 +46,6 @@ std::size_t sections_for(double length_m, double radius_m) {
   const double wanted = std::ceil(length_m / (TubeSkin::kStep * radius_m));
   const auto most = static_cast<double>(kMostSections);
   return std::max(kFewestSections, static_cast<std::size_t>(std::min(wanted, most)));
-}
-
-// A value of the masses at u.
-template <class Real>
-float between(std::span<const Real> of_masses, double u) {
-  const double i = std::clamp(std::floor(u), 0.0, static_cast<double>(of_masses.size() - 2));
-  const auto before = static_cast<std::size_t>(i);
-  return static_cast<float>(std::lerp(of_masses[before], of_masses[before + 1], u - i));
 }
 
 // How far out the wall is where the bend reaches `bend` = radius times curvature towards there.

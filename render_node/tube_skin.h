@@ -1,4 +1,5 @@
-// The drawn wall of a gut: a tube swept along its axis.
+// The wall of a gut: a tube swept along its axis, for what the processor itself looks at. Pictures skin it
+// (tube_frames.h).
 #pragma once
 
 #include "geometry/tube_axis.h"
@@ -25,6 +26,8 @@ class TubeSkin {
 
   /// Closed, as many vertices and triangles as ever.
   const MeshData& mesh() const { return mesh_; }
+  /// For fields that are not this class's.
+  std::span<Vertex> vertices() { return mesh_.vertices; }
   const FoldShade& shade() const { return shade_; }
   /// Along its masses.
   double length_m() const { return length_m_; }

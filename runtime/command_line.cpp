@@ -15,6 +15,7 @@ namespace omentum::runtime {
 namespace {
 
 constexpr int kBadInput = 2;  // the exit code of every refused argument, scene, mesh or organ
+constexpr int kMachineLacks = 3;
 
 std::string on_one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -22,9 +23,9 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-int refuse(const std::string& name, const std::string& what) {
+int refuse(const std::string& name, const std::string& what, int code = kBadInput) {
   std::cerr << name << ": " << on_one_line(what) << std::endl;
-  return kBadInput;
+  return code;
 }
 
 }  // namespace
@@ -127,6 +128,8 @@ int CommandLine::run(int argc, char** argv, const std::function<void()>& program
     const bool no_thread = e.code() == std::errc::resource_unavailable_try_again;
     return refuse(
         name, no_thread ? "not enough memory or processes for another thread (see ulimit -v, -u)" : e.what());
+  } catch (const MachineLacks& e) {
+    return refuse(name, e.what(), kMachineLacks);
   } catch (const std::exception& e) {
     return refuse(name, e.what());
   }

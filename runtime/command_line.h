@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,12 @@ class Option;
 }  // namespace CLI
 
 namespace omentum::runtime {
+
+/// What this machine has not: nothing that was asked for is wrong, and others can do without the program.
+class MachineLacks : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Options, positional arguments and --help of one program; "name" is an argument, "--name" an option,
 /// "-o,--output" two names of one. Values are written by run(), so they must outlive it. CLI11 does the work,
@@ -57,7 +64,8 @@ class CommandLine {
   void needs(const Room& room) { room_ = room; }
 
   /// Parses, calls `program`, and turns what happens into an exit code: 0 after program() returns, and for
-  /// --help; 2 with one line "NAME: what and where" on stderr for a wrong argument or any std::exception.
+  /// --help; 2 with one line "NAME: what and where" on stderr for a wrong argument or any std::exception, but
+  /// 3 for MachineLacks.
   int run(int argc, char** argv, const std::function<void()>& program);
 
  private:

@@ -1,12 +1,13 @@
 #include "scene/dynamics_keys.h"
 
+#include "scene/step_range.h"
+
 namespace omentum::scene {
 namespace {
 
 using enum TomlSection::Need;
 
 // No picture shows steps that are longer, and a hand would feel them.
-constexpr Range kStep_s{.minimum = 1e-6, .maximum = 0.02};
 // Numbers of a mesh are good to 1e-12; a limit that a breath of load passes would let all tissue go at rest.
 constexpr Range kLimit{.minimum = 1e-3};
 constexpr Range kStress_pa{.minimum = 1};
@@ -33,7 +34,7 @@ void read_law(TomlSection& s, std::string& law) {
 void read_motion(TomlSection& s, const std::string& model, DynamicsSpec& dynamics) {
   read_integrator(s, model, dynamics.integrator);
   if (model == "hybrid") read_law(s, dynamics.law);
-  s.read("step_s", dynamics.step_s, kStep_s);
+  s.read("step_s", dynamics.step_s, kStepRange_s);
   s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
   s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);
   dynamics.tears = read_tears(s);

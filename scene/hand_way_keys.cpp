@@ -9,6 +9,7 @@ namespace {
 using enum TomlSection::Need;
 
 constexpr Range kGrip_rad{.minimum = 0, .maximum = std::numbers::pi / 2};
+constexpr Range kRoll_rad{.minimum = -std::numbers::pi, .maximum = std::numbers::pi};
 // No surgeon's hand is faster, at the peak of a minimum-jerk move, which is 15/8 of its mean.
 constexpr double kFastest_m_s = 5, kPeakOfMean = 15.0 / 8;
 
@@ -17,6 +18,7 @@ HandWaypoint read_waypoint(TomlSection& s) {
   s.read("to", waypoint.to, kRequired);
   s.read("seconds", waypoint.seconds, kRequired, kPositive);
   s.read("grip_rad", waypoint.grip_rad, kOptional, kGrip_rad);
+  s.read("roll_rad", waypoint.roll_rad, kOptional, kRoll_rad);
   s.refuse_unknown_keys();
   return waypoint;
 }

@@ -1,5 +1,7 @@
 #include "scene/intestine_keys.h"
 
+#include "scene/step_range.h"
+
 #include <limits>
 
 namespace omentum::scene {
@@ -8,7 +10,6 @@ namespace {
 using enum TomlSection::Need;
 
 // No picture shows steps that are longer, and a hand would feel them.
-constexpr Range kStep_s{.minimum = 1e-6, .maximum = 0.02};
 // A session's memory and a state's message end somewhere: four metres in masses a millimetre apart.
 constexpr std::uint32_t kMostRows = 16, kMostColumns = 4000;
 // A wall that gives way more than its own thickness under a breath, or no more than bone does.
@@ -54,7 +55,7 @@ IntestineSpec read_intestine(TomlSection& s) {
   read_anatomy(s, intestine.anatomy);
   read_material(s, intestine.material);
   s.read_word("method", intestine.method, kOptional, {"projective", "explicit"});
-  s.read("step_s", intestine.step_s, kStep_s);
+  s.read("step_s", intestine.step_s, kStepRange_s);
   s.read("gravity_m_s2", intestine.gravity_m_s2, kOptional);
   s.read_word("collision", intestine.collision, kOptional, {"complete", "stochastic"});
   s.read("seed", intestine.seed, kOptional, std::numeric_limits<std::uint32_t>::max());

@@ -4,6 +4,7 @@
 #include "scene/dynamics_keys.h"
 #include "scene/hand_way_keys.h"
 #include "scene/intestine_keys.h"
+#include "scene/scope_keys.h"
 #include "scene/score_keys.h"
 #include "scene/toml_section.h"
 
@@ -156,8 +157,8 @@ ToolSpec read_tool(TomlSection& s) {
   ToolSpec tool;
   s.read("id", tool.id, kRequired, msg::MAX_TOOLS - 1);
   s.read("name", tool.name, kRequired);
-  s.read_word("shape", tool.shape, kRequired, {"probe", "grasper"});
-  s.read("points", tool.points, kRequired);
+  s.read_word("shape", tool.shape, kRequired, {"probe", "grasper", kScopeShape});
+  read_points_or_scope(s, tool);
   s.read("shaft_radius_m", tool.shaft_radius_m, kOptional, kPositive);
   s.read("shaft_length_m", tool.shaft_length_m, kOptional, kPositive);
   s.read("trocar", tool.trocar);
@@ -174,7 +175,6 @@ void read_press(TomlSection& s, HandSpec& hand) {
   s.read("hover_m", hand.hover_m, kOptional, kPositive);
   s.read("depth_m", hand.depth_m, kOptional, kNotNegative);
   s.read("slide_m", hand.slide_m, kOptional, kNotNegative);
-  s.read("cut", hand.cut, kOptional);
   s.read("start_s", hand.start_s, kOptional, kNotNegative);
   s.read("approach_s", hand.approach_s, kOptional, kPositive);
   s.read("press_s", hand.press_s, kOptional, kPositive);
@@ -191,6 +191,7 @@ HandSpec read_hand(TomlSection& s) {
   s.read("stiffness_n_m", hand.stiffness_n_m, kOptional, kPositive);
   s.read("damping_n_s_m", hand.damping_n_s_m, kOptional, kNotNegative);
   hand.way = read_way(s);
+  s.read("cut", hand.cut, kOptional);
   if (hand.way.empty()) {
     read_press(s, hand);
   } else {
@@ -320,9 +321,10 @@ Scene load_scene(const std::filesystem::path& file) {
   refuse_wrong_count(root, "tools", tools.size(), msg::MAX_TOOLS);
   refuse_repeated_organs(scene, organs);
   refuse_repeated_tools(scene, tools);
+  refuse_second_scope(scene.tools, tools);
   refuse_wrong_hands(scene, hands);
   find_pressed_organs(scene, hands);
-  scene.score = read_score(std::move(score), scene.organs);
+  scene.score = read_score(std::move(score), scene.organs, scene.tools);
   return scene;
 }
 

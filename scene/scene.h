@@ -2,8 +2,10 @@
 #pragma once
 
 #include "geometry/types.h"
+#include "scene/camera_score_spec.h"
 #include "scene/dynamics_spec.h"
 #include "scene/intestine_spec.h"
+#include "scene/scope_spec.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -96,12 +98,13 @@ inline constexpr double kGripForce_n = 8;
 struct ToolSpec {
   std::uint32_t id = 0;
   std::string name;
-  std::string shape;         // "probe" or "grasper": how it is drawn, and whether it has jaws
-  std::vector<Vec3> points;  // [P] p_TP, m
+  std::string shape;  // "probe", "grasper" or "endoscope": how it is drawn, and whether it has jaws or optics
+  std::vector<Vec3> points;  // [P] p_TP, m; of an endoscope none
   double shaft_radius_m = 0.0025, shaft_length_m = 0.3;
   double grip_force_n = kGripForce_n;  // tissue that pulls harder slips out of the jaws
-  std::optional<Vec3> trocar;  // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
-  std::vector<Vec3> edge;      // begin and end of what cuts while its button is pressed, in T, m; or empty
+  std::optional<Vec3> trocar;      // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
+  std::optional<ScopeSpec> scope;  // of an endoscope
+  std::vector<Vec3> edge;  // begin and end of what cuts while its button is pressed, in T, m; or empty
 };
 
 /// A place that a simulated hand goes to.
@@ -109,6 +112,7 @@ struct HandWaypoint {
   Vec3 to = Vec3::Zero();  // of the tip, in W, m
   double seconds = 1;      // from the waypoint before; of the first one, from the last
   double grip_rad = 0;     // how far its jaws are open there; 0: closed
+  double roll_rad = 0;     // about the shaft there, from where a hand holds it by itself
 };
 
 /// A simulated hand: a mass on a spring and damper to a target that moves along a script: it presses an organ
@@ -155,9 +159,10 @@ struct ScoreSpec {
   std::string exposed_organ;  // its name: the share of it that nothing hides is told; empty: none
   double from_s = 0;    // since render_node began: what is seen earlier, while organs settle, does not count
   std::string line_of;  // the name of the organ that is to be cut; empty: none
-  std::vector<Vec3> planned_line;      // [2 or more] along which, in W, m, the organ at rest; or empty
-  double line_width_m = kLineWidth_m;  // what is removed farther from the line's cut lies outside of it
-  double pull_limit_n = kPullLimit_n;  // a pull that is stronger counts
+  std::vector<Vec3> planned_line;         // [2 or more] along which, in W, m, the organ at rest; or empty
+  double line_width_m = kLineWidth_m;     // what is removed farther from the line's cut lies outside of it
+  double pull_limit_n = kPullLimit_n;     // a pull that is stronger counts
+  std::optional<CameraScoreSpec> camera;  // who holds the endoscope
 };
 
 struct Scene {

@@ -162,6 +162,10 @@ void add(const ToolSpec& tool, Table table) {
   table.add("shaft_length_m", tool.shaft_length_m);
   if (tool.shape == "grasper") table.add("grip_force_n", tool.grip_force_n);
   table.add("trocar", tool.trocar);
+  if (tool.scope) {
+    table.add("optics_deg", tool.scope->optics_deg);
+    table.add("field_of_view_deg", tool.scope->field_of_view_deg);
+  }
   for (std::size_t i = 0; i < tool.edge.size(); ++i)
     table.add("edge[" + std::to_string(i) + "]", tool.edge[i]);
 }
@@ -190,6 +194,7 @@ void add(const HandSpec& hand, Table table) {
     table.add(of + "to", hand.way[i].to);
     table.add(of + "seconds", hand.way[i].seconds);
     table.add(of + "grip_rad", hand.way[i].grip_rad);
+    if (hand.way[i].roll_rad != 0) table.add(of + "roll_rad", hand.way[i].roll_rad);
   }
 }
 

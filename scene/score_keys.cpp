@@ -1,5 +1,7 @@
 #include "scene/score_keys.h"
 
+#include "scene/camera_score_keys.h"
+
 #include <algorithm>
 
 namespace omentum::scene {
@@ -42,13 +44,15 @@ void read_line(TomlSection& s, const std::vector<OrganSpec>& organs, ScoreSpec& 
 
 }  // namespace
 
-ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs) {
+ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs,
+                     const std::vector<ToolSpec>& tools) {
   ScoreSpec score;
   s.read("exposed_organ", score.exposed_organ, kOptional);
   s.read("from_s", score.from_s, kOptional, kNotNegative);
   s.read("pull_limit_n", score.pull_limit_n, kOptional, kPull_n);
   if (s.has("exposed_organ")) organ_named("exposed_organ", score.exposed_organ, organs, s);
   read_line(s, organs, score);
+  score.camera = read_camera_score(s, organs, tools);
   s.refuse_unknown_keys();
   return score;
 }

@@ -6,7 +6,7 @@
 
 namespace omentum::scene {
 
-/// [score], of a scene with these organs.
-ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs);
+/// [score], of a scene with these organs and tools.
+ScoreSpec read_score(TomlSection s, const std::vector<OrganSpec>& organs, const std::vector<ToolSpec>& tools);
 
 }  // namespace omentum::scene

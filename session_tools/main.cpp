@@ -140,14 +140,16 @@ int main(int argc, char** argv) {
                                                       {"pause", msg::COMMAND_PAUSE},
                                                       {"toggle-pause", kTogglePause},
                                                       {"reset", msg::COMMAND_RESET},
-                                                      {"clear-fault", msg::COMMAND_CLEAR_FAULT}};
+                                                      {"clear-fault", msg::COMMAND_CLEAR_FAULT},
+                                                      {"record", msg::COMMAND_RECORD}};
   runtime::CommandLine line("omentum_session", "Sends one command to every node of a running session.");
   std::vector<std::string> names;
   for (const auto& [name, number] : commands) names.push_back(name);
   std::string command, dds = "fast", profile = "loopback", keystore;
   int domain = 0, nodes = 0;
   line.needs(runtime::kRoomForDds);
-  line.option("command", command, "start, pause, toggle-pause, reset or clear-fault")
+  line.option("command", command,
+              "start, pause, toggle-pause, reset, clear-fault or record (begins a video, or ends it)")
       .required()
       .one_of(names);
   line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();

@@ -65,6 +65,8 @@ template <> inline constexpr TopicSpec kTopicSpec<msg::NodeStatus> {
     topic_name<"node_status">(), Reliability::kReliable, Durability::kTransientLocal};
 template <> inline constexpr TopicSpec kTopicSpec<msg::SessionCommand> {
     topic_name<"session_command">(), Reliability::kReliable, Durability::kVolatile, kCommandDepth};
+template <> inline constexpr TopicSpec kTopicSpec<msg::PointerRay> {
+    topic_name<"pointer_ray">(), Reliability::kBestEffort, Durability::kVolatile};
 // clang-format on
 
 /// Largest RTPS message, bytes: what one datagram carries.

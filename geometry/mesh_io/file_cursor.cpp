@@ -1,13 +1,12 @@
 #include "geometry/mesh_io/file_cursor.h"
 
+#include "geometry/mesh_io/byte_order_mark.h"
+
 #include <charconv>
 #include <fstream>
 
 namespace omentum::geometry {
 namespace {
-
-// What some editors put in front of UTF-8.
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_space(char c) {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';

@@ -1,5 +1,7 @@
 #include "geometry/mesh_io/file_kind.h"
 
+#include "geometry/mesh_io/byte_order_mark.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -9,7 +11,6 @@ namespace omentum::geometry {
 namespace {
 
 constexpr std::size_t kHead = 1024;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 struct Signature {
   std::string_view bytes;

@@ -1,7 +1,7 @@
 """A person's commands to the running nodes."""
 import subprocess
 
-SAID = {"reset": "run: reset", "clear-fault": "run: fault cleared"}
+SAID = {"reset": "run: reset", "clear-fault": "run: fault cleared", "record": "run: told to record, or to end it"}
 PAUSE = {"paused": "run: paused (p goes on)", "goes on": "run: goes on"}
 
 

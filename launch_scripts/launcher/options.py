@@ -22,7 +22,7 @@ class Options:
     seconds: float = None
     out: pathlib.Path = pathlib.Path("out")
     dds: dict = field(default_factory=dict)  # process -> vendor
-    device: str = "virtual"  # virtual, none or trace
+    device: str = "virtual"  # virtual, mouse, none or trace
     trace: pathlib.Path = None
     organ: pathlib.Path = None
     scale: float = None
@@ -34,6 +34,8 @@ class Options:
     profile: str = "loopback"
     split: str = None
     map: str = None
+    record: float = None  # pictures of a second of video
+    ui_scale: float = None
     paused: bool = False
     restart: bool = False
     programs: pathlib.Path = REPOSITORY / "build" / "release" / "bin"
@@ -59,7 +61,7 @@ def build_parser():
     parser = OneLineParser(
         prog="launch_scripts/run",
         description="Starts a session: haptic_node, deform_node, render_node and a simulated hand on this machine. "
-        "In a terminal: p pauses, r resets, c clears a latched fault, q ends.",
+        "In a terminal: p pauses, r resets, c clears a latched fault, v records a video or ends it, q ends.",
         epilog="Environment: OMENTUM_CACHE=FOLDER keeps the precomputed organs (default: build/cache). OMENTUM_BIN=FOLDER has "
         "the built programs (default: build/release/bin, built when needed).")
     add = parser.add_argument
@@ -69,7 +71,8 @@ def build_parser():
     add("--out", metavar="DIR", default="out", help="report.json and pictures go here (default: out)")
     add("--dds", default="fast", metavar="VENDOR",
         help="fast, cyclone, or haptic=fast,deform=cyclone,render=fast,device=cyclone")
-    add("--device", default="virtual", metavar="KIND", help="virtual, none or trace:FILE (default: virtual)")
+    add("--device", default="virtual", metavar="KIND", help="virtual, mouse, none or trace:FILE (default: virtual). "
+        "mouse: the pointer in the window moves the first instrument, key Tab picks the next one (docs/devices.md)")
     add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's first one")
     add("--scale", type=float, metavar="METRES_PER_UNIT", help="of that mesh (default: found from its size)")
     add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them "
@@ -82,6 +85,9 @@ def build_parser():
     add("--split", choices=("paper",), help="paper: hand and haptic_node on one processor, organ and picture on the "
         "other, as Cotin 1999 did with two machines")
     add("--map", choices=("strain", "stress"), help="draw organs as a map of it (default: as tissue; key S switches)")
+    add("--record", type=float, nargs="?", const=25.0, metavar="FPS", help="record a video from the start: numbered pictures in "
+        "DIR/video, and DIR/video.mp4 where ffmpeg is installed (default: 25 pictures a second; in the window key V)")
+    add("--ui-scale", type=float, metavar="SCALE", help="of the window's panel, 0.5 to 4 (default: as monitor and window ask for)")
     add("--paused", action="store_true", help="start paused")
     add("--restart", action="store_true", help="start a node again when it crashed")
     add("--secure", action="store_true", help="secured topics (not part of this version)")
@@ -98,7 +104,8 @@ def parse(arguments):
     options = Options(
         scene=find_scene(given.scene), seconds=given.seconds, out=pathlib.Path(given.out), dds=parse_dds(given.dds),
         scale=given.scale, fixed=given.fixed, rate_hz=given.rate_hz, headless=given.headless, domain=given.domain,
-        log=given.log, profile=given.profile, split=given.split, map=given.map, paused=given.paused, restart=given.restart,
+        log=given.log, profile=given.profile, split=given.split, map=given.map, record=given.record,
+        ui_scale=given.ui_scale, paused=given.paused, restart=given.restart,
         check_only=given.check, prepare_only=given.prepare)
     options.device, options.trace = parse_device(given.device)
     options.organ = existing(given.organ, "--organ") if given.organ else None
@@ -146,16 +153,22 @@ def check_vendor(vendor):
 
 def parse_device(text):
     kind, _, file = text.partition(":")
-    if kind == "mouse":
-        raise Refusal("--device mouse is not part of this version; expected virtual, none or trace:FILE")
     if kind == "trace" and file:
         return "trace", existing(file, "--device trace")
-    if text in ("virtual", "none"):
+    if text in ("virtual", "mouse", "none"):
         return text, None
-    raise Refusal(f"--device: found '{text}', expected virtual, none or trace:FILE")
+    raise Refusal(f"--device: found '{text}', expected virtual, mouse, none or trace:FILE")
+
+
+def has_display():
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def check_values(options):
+    if options.device == "mouse" and options.headless:
+        raise Refusal("--device mouse needs a window to point at; run it without --headless")
+    if options.device == "mouse" and not has_display() and not options.prepare_only:
+        raise Refusal("--device mouse needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set")
     if options.seconds is not None and not options.seconds > 0:
         raise Refusal(f"--seconds: found {options.seconds:g}, expected more than 0")
     if options.scale is not None and not options.scale > 0:
@@ -164,6 +177,10 @@ def check_values(options):
         raise Refusal(f"--rate-hz: found {options.rate_hz:g}, expected 50 to 10000")
     if options.domain is not None and not 0 <= options.domain <= LAST_DOMAIN:
         raise Refusal(f"--domain: found {options.domain}, expected 0 to {LAST_DOMAIN}")
+    if options.record is not None and not 1 <= options.record <= 120:
+        raise Refusal(f"--record: found {options.record:g}, expected 1 to 120 pictures a second")
+    if options.ui_scale is not None and not 0.5 <= options.ui_scale <= 4:
+        raise Refusal(f"--ui-scale: found {options.ui_scale:g}, expected 0.5 to 4")
     if (options.scale or options.fixed) and not options.organ:
         raise Refusal("--scale and --fixed describe the mesh of --organ, which is missing")
     if options.split and len(os.sched_getaffinity(0)) < 2:

@@ -11,6 +11,7 @@ from .errors import Refusal
 STOP_PATIENCE_S = 8.0  # a node writes its report, render_node its last pictures
 LEAD_S = 0.15  # the hand lets go before the others end
 REFUSED = 2  # exit code of bad input
+MACHINE_LACKS = 3  # and of a node that this machine has no means for, as a display
 PR_SET_PDEATHSIG = 1
 
 

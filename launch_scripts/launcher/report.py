@@ -19,7 +19,8 @@ FIELDS = {
                     "local_models": {"heard": 0, "dropped": 0, "gone": 0}, "hands": [], "faults": []},
     "deform_node": {"loop": NO_LOOP, "states": 0, "stress_states": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
                     "cuts": {"way_cm": 0.0, "lost_cm3": 0.0, "lost_cm3_per_cm": 0.0}, "real_time_factor": 0.0, "faults": []},
-    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "removed_tetrahedra": 0, "closed": False,
+    "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "removed_tetrahedra": 0, "closed": False, "videos": [],
+                    "picture": {"level": "", "asked_fps": 0.0, "reached_fps": 0.0, "changes": 0, "share": {}},
                     "faults": []},
     "virtual_device": {"round_trip_us": NONE_US, "sent": 0, "lost": 0, "energy_j": 0.0, "faults": []},
 }
@@ -181,6 +182,15 @@ def score_lines(haptic, organs):
     return lines
 
 
+def camera_line(camera):
+    """How the endoscope was held (docs/score.md)."""
+    line = (f"camera: target {camera['mean_deg']:.1f} degrees off centre in the mean, {camera['largest_deg']:.1f} at most; centred "
+            f"{100 * camera['within_share']:.0f} %, in sight {100 * camera['in_sight_share']:.0f} % of {camera['seconds']:.1f} s")
+    if camera["roll_mean_deg"] is not None:
+        line += f"; rolled by {camera['roll_mean_deg']:.1f} degrees, {camera['roll_largest_deg']:.1f} at most"
+    return line
+
+
 def summary(report):
     """A short table, and what a person should know besides."""
     rows = [["", "dds", "exit", "rate", "done", "not done", "time of", "median", "99 %", "longest"]]
@@ -201,6 +211,8 @@ def summary(report):
     if exposed and exposed["first"] is not None:
         lines.append(f"exposed: {100 * exposed['first']:.0f} % at first, {100 * exposed['newest']:.0f} % at the end, "
                      f"{100 * exposed['largest']:.0f} % at most")
+    if picture and picture.get("camera", {}).get("seconds"):
+        lines.append(camera_line(picture["camera"]))
     for name, node in report["nodes"].items():
         lines += [f"{name}: {fault}" for fault in node["faults"]]
         if node["exit"] is None:

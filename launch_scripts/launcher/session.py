@@ -4,22 +4,19 @@ import pathlib
 import tempfile
 import time
 
-from . import processes, report
+from . import processes, report, video
 from .domain import Domain
 from .keys import Keys
 from .leftovers import Leftovers
 from .machine import StealWatch
 from .messenger import Messenger
+from .options import has_display
 
 POLL_S = 0.1
 REFUSAL_WINDOW_S = 10.0  # a node that ends with code 2 within this refused to start
 RESTART_PAUSE_S = 1.0
-COMMANDS = {"p": "toggle-pause", "r": "reset", "c": "clear-fault"}
+COMMANDS = {"p": "toggle-pause", "r": "reset", "c": "clear-fault", "v": "record"}
 PICTURES = ("frame_[0-9][0-9][0-9][0-9].png", "indent.png", "final.png")
-
-
-def has_display():
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def processors_of(split):
@@ -59,7 +56,7 @@ class Session:
         own = {"haptic_node": [], "deform_node": ["--journal", str(journal)],
                "render_node": ["--out", str(self.options.out.resolve())]}
         if self.options.device != "none":
-            own["virtual_device"] = ["--trace", str(self.options.trace)] if self.options.trace else []
+            own["virtual_device"] = self.device_options()
         if self.options.rate_hz:
             # the loop is stepped by the hand's poses: both keep the rate
             for name in {"haptic_node", "virtual_device"} & own.keys():
@@ -68,9 +65,17 @@ class Session:
             own["render_node"].append("--headless")
         if self.options.map:
             own["render_node"] += ["--map", self.options.map]
+        for option, value in (("--record", self.options.record), ("--ui-scale", self.options.ui_scale)):
+            if value:
+                own["render_node"] += [option, f"{value:g}"]
         processors = processors_of(self.options.split)
         return [processes.Node(name, self.command(name) + extra, self.report_file(name), processors.get(name))
                 for name, extra in own.items()]
+
+    def device_options(self):
+        if self.options.trace:
+            return ["--trace", str(self.options.trace)]
+        return ["--mouse"] if self.options.device == "mouse" else []
 
     def command(self, name):
         command = [str(self.options.programs / name), "--scene", str(self.scene), "--dds", self.options.dds[name],
@@ -88,6 +93,7 @@ class Session:
         for pattern in (*PICTURES, "report.json"):
             for file in self.options.out.glob(pattern):
                 file.unlink()
+        video.clear(self.options.out)
 
     def announce(self):
         vendors = sorted(set(self.options.dds[node.name] for node in self.nodes))
@@ -164,6 +170,8 @@ class Session:
             self.stop()
             return 0
         print(f"run: {node.name} {node.how_it_ended()}; the others go on", flush=True)
+        if node.exit == processes.MACHINE_LACKS:
+            return 0  # its own line says what; trying again would not help
         if self.options.restart and node.exit not in (0, processes.REFUSED):
             self.restarts[node.name] = time.monotonic() + RESTART_PAUSE_S
         else:
@@ -205,4 +213,5 @@ class Session:
         report.write(merged, self.options.out / "report.json")
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)
+        video.make_all(merged["nodes"].get("render_node", {}).get("videos", []))
         return 1 if report.never_answered(merged) else 0

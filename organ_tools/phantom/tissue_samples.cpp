@@ -6,7 +6,7 @@
 namespace omentum::phantom {
 namespace {
 
-constexpr double kEdgeRounding = 0.002;  // m
+constexpr double kSampleRounding_m = 0.002;  // m
 const Vec3 kPlateHalf{0.1, 0.1, 0.005};
 constexpr double kCylinderRadius = 0.03, kCylinderHalf = 0.06;
 
@@ -14,8 +14,8 @@ constexpr double kCylinderRadius = 0.03, kCylinderHalf = 0.06;
 // rounded edges outside, to the nearest side inside.
 template <class Sides>
 double rounded(const Sides& beyond) {
-  const Sides outside = (beyond.array() + kEdgeRounding).max(0.0).matrix();
-  return outside.norm() + std::min(beyond.maxCoeff() + kEdgeRounding, 0.0) - kEdgeRounding;
+  const Sides outside = (beyond.array() + kSampleRounding_m).max(0.0).matrix();
+  return outside.norm() + std::min(beyond.maxCoeff() + kSampleRounding_m, 0.0) - kSampleRounding_m;
 }
 
 }  // namespace

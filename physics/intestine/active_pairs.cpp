@@ -71,6 +71,12 @@ void ActivePairs::reset() noexcept {
   random_ = seed_;
 }
 
+void ActivePairs::take_up(const PairFinder& other) noexcept {
+  const auto& same = static_cast<const ActivePairs&>(other);
+  active_ = same.active_;
+  random_ = same.random_;
+}
+
 // SplitMix64 (Steele, Lea and Flood 2014), its upper bits scaled to the range.
 std::uint64_t ActivePairs::random_below(std::uint64_t end) noexcept {
   std::uint64_t z = random_ += 0x9E3779B97F4A7C15U;

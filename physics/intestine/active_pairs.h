@@ -27,6 +27,8 @@ class ActivePairs : public PairFinder {
   std::size_t tracked() const noexcept override { return active_.size(); }
   std::int64_t distance_tests() const noexcept override { return tests_; }
   void reset() noexcept override;
+  /// With its active pairs, which would take many steps to be found again.
+  void take_up(const PairFinder& other) noexcept override;
 
  private:
   struct Active {

@@ -281,6 +281,7 @@ void GutCollisions::reset() noexcept {
 
 void GutCollisions::take_up(const GutCollisions& other) noexcept {
   reset();
+  finder_->take_up(*other.finder_);
   const double longer = step_s_ / other.step_s_;
   pushes_.take_over(other.pushes_, [longer](const Push& push) { return Push{longer * push.impulse}; });
 }

@@ -1,5 +1,7 @@
 #include "physics/intestine/gut_response.h"
 
+#include "geometry/across.h"
+
 #include <algorithm>
 
 namespace omentum::physics {
@@ -15,11 +17,6 @@ Vec3 weighted(const Row& row, std::span<const Vec3> of) {
   Vec3 sum = Vec3::Zero();
   for (std::int32_t i = 0; i < row.count; ++i) sum += row.weight[i] * of[row.mass[i]];
   return sum;
-}
-
-// What of a vector lies in the plane of a normal.
-Vec3 across(const Vec3& vector, const Vec3& normal) {
-  return vector - vector.dot(normal) * normal;
 }
 
 Eigen::Map<Vec3> vector(double* components) {
@@ -63,7 +60,7 @@ GutResponse::Row GutResponse::prepared(const GutContact& contact, std::span<cons
 void GutResponse::begin_with(Row& row, const Vec3& warm, double step_s) const noexcept {
   row.f = warm.dot(vector(row.normal));
   row.g = row.f * step_s;
-  vector(row.rubbed_speed) = across(warm, vector(row.normal));
+  vector(row.rubbed_speed) = geometry::across(warm, vector(row.normal));
   vector(row.rubbed_way) = vector(row.rubbed_speed) * step_s;
 }
 

@@ -57,6 +57,9 @@ class PairFinder {
   virtual std::size_t tracked() const noexcept = 0;
   virtual std::int64_t distance_tests() const noexcept = 0;
   virtual void reset() noexcept = 0;
+  /// Goes on where `other` is, which searches the same parts in the same way; what a search does not need to
+  /// find the same may be forgotten.
+  virtual void take_up(const PairFinder& /*other*/) noexcept { reset(); }
 };
 
 }  // namespace omentum::physics

@@ -4,15 +4,28 @@
 #include <epoxy/gl.h>
 #include <imgui.h>
 
+#include <dlfcn.h>
+
 #include <array>
 #include <cstdio>
+#include <string>
 
 namespace omentum::render::gl {
 namespace {
 
+// libepoxy ends the process where a library is missing.
+void require_library(const char* name, const char* package) {
+  void* const library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr)
+    throw DisplayError(std::string("off-screen pictures: ") + name + " cannot be loaded (is " + package +
+                       " installed?)");
+  dlclose(library);
+}
+
 // Mesa's surfaceless platform needs no display server and no graphics device; a device of the machine is next
 // (drivers that know no surfaceless platform); last the default display.
 EGLDisplay find_display() {
+  require_library("libEGL.so.1", "libegl1");
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     const EGLDisplay display =
         eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);

@@ -1,10 +1,15 @@
 #include "render_node/gl/gl_context.h"
+#include "render_node/gl/pointer_reader.h"
+#include "render_node/gl/window_keys.h"
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace omentum::render::gl {
 namespace {
@@ -33,9 +38,16 @@ class GlfwContext final : public GlContext {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(
         0);  // the render loop keeps the pace; waiting for the screen would add its period to the latency
+    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);  // a key that is tapped between two frames counts
     glfwSetWindowUserPointer(window_, this);
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
       static_cast<GlfwContext*>(glfwGetWindowUserPointer(w))->scrolled_ += static_cast<float>(y);
+    });
+    // told, not asked: on a slow machine a key is up again before the next frame
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+      if (action != GLFW_PRESS) return;
+      static_cast<GlfwContext*>(glfwGetWindowUserPointer(w))
+          ->typed_.add(letter_of(key, modifiers, glfwGetKeyName(key, scancode)));
     });
   }
   ~GlfwContext() override {
@@ -49,6 +61,11 @@ class GlfwContext final : public GlContext {
     return {std::max(size.width, 1), std::max(size.height, 1)};  // 0 while minimized
   }
   bool has_window() const override { return true; }
+  float content_scale() const override {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return std::max(x, y);
+  }
   void start_panel() override {
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
   }  // after our own callbacks: it chains them
@@ -67,20 +84,29 @@ class GlfwContext final : public GlContext {
       if (mouse.other && mouse_.other) input.pan_x = dx, input.pan_y = dy;
       input.zoom = scrolled_;
     }
-    const bool key = glfwGetKey(window_, GLFW_KEY_S) == GLFW_PRESS;
-    input.switch_map = key && !map_key_;
-    map_key_ = key;
+    input.pointer = read_pointer();
+    input.keys = std::exchange(typed_, KeyPresses{});
     mouse_ = mouse;
-    scrolled_ = 0;
+    scrolled_ = seen_scrolled_ = 0;
     return input;
   }
   void end_frame() override { glfwSwapBuffers(window_); }
+  Pointer look_at_pointer() override {
+    glfwPollEvents();
+    return read_pointer();
+  }
 
  private:
   struct Mouse {
     double x = 0, y = 0;
     bool left = false, other = false;
   };
+  Pointer read_pointer() {
+    const Pointer pointer =
+        pointer_reader_.read(window_, scrolled_ - seen_scrolled_, ImGui::GetIO().WantCaptureMouse);
+    seen_scrolled_ = scrolled_;
+    return pointer;
+  }
   Mouse read_mouse() const {
     Mouse mouse;
     glfwGetCursorPos(window_, &mouse.x, &mouse.y);
@@ -92,8 +118,9 @@ class GlfwContext final : public GlContext {
 
   GLFWwindow* window_ = nullptr;
   Mouse mouse_;
-  float scrolled_ = 0;
-  bool map_key_ = false;  // was down
+  PointerReader pointer_reader_;
+  float scrolled_ = 0, seen_scrolled_ = 0;  // since the last frame, and of that by who looked at the pointer
+  KeyPresses typed_;                        // since the last frame
 };
 
 }  // namespace

@@ -16,8 +16,9 @@ inline constexpr Size kOffscreenSize{960, 600};
 inline constexpr runtime::Room kRoomToDraw{32, std::size_t{1} << 30};
 
 /// `size` 0x0: the default above. Without a display, says so on stdout and writes pictures to `out` instead.
-/// Throws DisplayError where neither a window nor an off-screen picture can be drawn.
+/// `ui_scale`: as open_window() takes it. Throws DisplayError where neither a window nor an off-screen
+/// picture can be drawn.
 std::unique_ptr<Renderer> open_display(bool headless, Size size, const std::string& title,
-                                       const std::filesystem::path& out);
+                                       const std::filesystem::path& out, float ui_scale = 0);
 
 }  // namespace omentum::render::gl

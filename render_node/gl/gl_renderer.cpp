@@ -1,12 +1,17 @@
 #include "render_node/gl/gl_renderer.h"
 
+#include "render_node/draw_order.h"
 #include "render_node/gl/gl_context.h"
 #include "render_node/gl/mesh_buffer.h"
+#include "render_node/gl/noise_texture.h"
 #include "render_node/gl/panel_backend.h"
-#include "render_node/gl/program.h"
+#include "render_node/gl/programs.h"
 #include "render_node/gl/render_target.h"
+#include "render_node/gl/stretch.h"
+#include "render_node/gl/tube_painter.h"
+#include "render_node/gl/wires.h"
+#include "render_node/picture_quality.h"
 #include "render_node/tissue_map.h"
-#include "render_node/tissue_pattern.h"
 #include "shader_sources.h"  // generated from gl/shaders/
 
 #include <epoxy/gl.h>
@@ -18,8 +23,6 @@
 namespace omentum::render::gl {
 namespace {
 
-constexpr int kSamples = 4;                       // per pixel of a fine frame: smooth edges of instruments
-constexpr float kCoarseScale = 0.6f;              // of a coarse frame's sides: a third of the pixels
 constexpr int kShadowSide = 1024;                 // texels; a texel is 0.3 mm on a liver (shaders: lit())
 constexpr int kPatternSide = 64;                  // texels: 1 MB
 constexpr int kShadowUnit = 0, kPatternUnit = 1;  // texture units
@@ -27,76 +30,12 @@ constexpr float kSignalDepth =
     0.02f;  // share of the depth range that is kept for what is drawn over the world
 constexpr float kShadowSlope = 2.0f, kShadowBias = 4.0f;  // glPolygonOffset, against self-shadowing
 
-class NoiseTexture {
- public:
-  explicit NoiseTexture(const TissuePattern& pattern) {
-    glGenTextures(1, &texture_);
-    glBindTexture(GL_TEXTURE_3D, texture_);
-    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, pattern.side, pattern.side, pattern.side, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, pattern.texels.data());
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  }
-  ~NoiseTexture() { glDeleteTextures(1, &texture_); }
-  NoiseTexture(const NoiseTexture&) = delete;
-  NoiseTexture& operator=(const NoiseTexture&) = delete;
-  void bind(int unit) const {
-    glActiveTexture(GL_TEXTURE0 + static_cast<unsigned>(unit));
-    glBindTexture(GL_TEXTURE_3D, texture_);
-  }
-
- private:
-  unsigned texture_ = 0;
-};
-
-// The programs, by what they draw. `prefix`: what all fragment shaders share.
-struct Programs {
-  explicit Programs(const std::string& prefix)
-      : backdrop("backdrop", shaders::screen_vert, prefix, shaders::backdrop_frag),
-        lens("lens", shaders::screen_vert, prefix, shaders::lens_frag),
-        tissue("tissue", shaders::surface_vert, prefix, shaders::tissue_frag),
-        cut("cut tissue", shaders::surface_vert, prefix + "#define CUT\n", shaders::tissue_frag),
-        bared("bared tissue", shaders::surface_vert, prefix + "#define CUT\n#define BARED\n",
-              shaders::tissue_frag),
-        map("map", shaders::surface_vert, prefix, shaders::map_frag),
-        gut("gut", shaders::surface_vert, prefix + "#define GUT\n", shaders::tissue_frag),
-        mesentery("mesentery", shaders::surface_vert, prefix + "#define SHEET\n", shaders::tissue_frag),
-        solid("solid", shaders::surface_vert, prefix, shaders::solid_frag),
-        ground("ground", shaders::surface_vert, prefix, shaders::ground_frag),
-        signal("signal", shaders::surface_vert, prefix, shaders::signal_frag) {}
-
-  Program backdrop, lens, tissue, cut, bared, map, gut, mesentery, solid, ground, signal;
-
-  const Program& of(Look look) const {
-    switch (look) {
-      case Look::kTissue:
-        return tissue;
-      case Look::kCut:
-        return cut;
-      case Look::kBared:
-        return bared;
-      case Look::kMap:
-        return map;
-      case Look::kGut:
-        return gut;
-      case Look::kMesentery:
-        return mesentery;
-      case Look::kGround:
-        return ground;
-      case Look::kSignal:
-        return signal;
-      default:
-        return solid;
-    }
-  }
-};
-
 class GlRenderer final : public Renderer {
  public:
-  explicit GlRenderer(std::unique_ptr<GlContext> context)
+  GlRenderer(std::unique_ptr<GlContext> context, float ui_scale)
       : context_(std::move(context)), pattern_(make_tissue_pattern(kPatternSide)), shadow_(kShadowSide) {
     glGenVertexArrays(1, &no_vertices_);
-    panel_.emplace(*context_);
+    panel_.emplace(*context_, ui_scale);
   }
   ~GlRenderer() override { glDeleteVertexArrays(1, &no_vertices_); }
 
@@ -115,12 +54,16 @@ class GlRenderer final : public Renderer {
     meshes_[static_cast<std::size_t>(mesh)].replace(with);
   }
 
+  TubeId add_tube() override { return tubes_.add(); }
+  void update_tube(TubeId tube, std::span<const SkinFrame> frames) override { tubes_.update(tube, frames); }
+
   Input begin_frame() override { return panel_->begin_frame(); }
+  Pointer look_at_pointer() override { return context_->look_at_pointer(); }
 
   void draw(const Frame& frame) override {
     fit_targets();
     const RenderTarget& scene = target(frame.quality);
-    cast_shadows(frame);
+    if (casts_shadows(frame)) cast_shadows(frame);
     draw_scene(frame, scene);
     resolve(scene);
     if (frame.with_panel) panel_->draw();
@@ -147,6 +90,12 @@ class GlRenderer final : public Renderer {
 
   Size size() const override { return context_->size(); }
   bool has_window() const override { return context_->has_window(); }
+  float ui_scale() const override { return panel_->scale(); }
+  std::string software() const override {
+    const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const bool is_program = name.find("llvmpipe") == 0 || name.find("softpipe") == 0 || name.find("SWR") == 0;
+    return is_program ? name.substr(0, name.find(' ')) : "";
+  }
 
  private:
   unsigned output() const { return output_ ? output_->framebuffer() : 0; }
@@ -165,12 +114,11 @@ class GlRenderer final : public Renderer {
     if (target) return *target;
     GLint most = 0;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
-    Size size = fitted_;
-    if (quality == Quality::kCoarse) {
-      size = {std::max(1, static_cast<int>(kCoarseScale * static_cast<float>(size.width))),
-              std::max(1, static_cast<int>(kCoarseScale * static_cast<float>(size.height)))};
-    }
-    return target.emplace(size, quality == Quality::kFine ? std::min(kSamples, most) : 0, true);
+    return target.emplace(drawn_size(quality, fitted_), std::min(means_of(quality).samples, most), true);
+  }
+
+  static bool casts_shadows(const Frame& frame) {
+    return means_of(frame.quality).shading <= Shading::kHardShadows;
   }
 
   void cast_shadows(const Frame& frame) {
@@ -182,10 +130,11 @@ class GlRenderer final : public Renderer {
     shadow_program_.use();
     shadow_program_.set("clip_from_W", frame.lighting.clip_from_W);
     for (const DrawItem& item : frame.items) {
-      if (item.look == Look::kGround || item.look == Look::kSignal) continue;
+      if (!casts_shadow(item.look)) continue;
       shadow_program_.set("W_from_mesh", item.W_from_mesh);
       mesh(item.mesh).draw();
     }
+    tubes_.cast_shadows(frame);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_DEPTH_CLAMP);
   }
@@ -200,46 +149,64 @@ class GlRenderer final : public Renderer {
 
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
-    // what hides the rest comes first: hidden pixels are never shaded
-    for (const Look look : {Look::kSolid, Look::kGut, Look::kTissue, Look::kCut, Look::kBared,
-                            Look::kMesentery, Look::kMap, Look::kGround, Look::kSignal})
-      draw_items(frame, look);
-    glDisable(GL_CULL_FACE);
+    for (const Look look : opaque_looks(frame.quality)) draw_items(frame, look);
     glDepthRange(kSignalDepth, 1);
+    if (frame.wires) wires_.draw(frame, [this](MeshId id) -> const MeshBuffer& { return mesh(id); });
+    glDisable(GL_CULL_FACE);
     glDepthFunc(GL_LEQUAL);
-    fill_screen(programs(frame).backdrop, frame);
+    fill_screen(programs(frame).backdrop(), frame);
     glDepthFunc(GL_LESS);
+    blend_looks(frame);
     glDisable(GL_DEPTH_TEST);
 
     if (frame.through_endoscope) {
       glEnable(GL_BLEND);
       glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-      fill_screen(programs(frame).lens, frame);
+      fill_screen(programs(frame).lens(), frame);
       glDisable(GL_BLEND);
     }
   }
 
+  void blend_looks(const Frame& frame) {
+    glEnable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    for (const Look look : blended_looks(frame.quality)) draw_items(frame, look);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+  }
+
   void draw_items(const Frame& frame, Look look) {
     const Program& program = programs(frame).of(look);
-    program.use();
-    set_scene(program, frame);
-    program.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
-    if (look == Look::kMap) set_colours(program);
+    const auto set_all = [&](const Program& p) {
+      set_scene(p, frame);
+      p.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
+      if (look == Look::kMap) set_colours(p);
+    };
     const bool over = look == Look::kSignal;
     glDepthRange(over ? 0 : kSignalDepth, over ? kSignalDepth : 1);
+    tubes_.draw(frame, look, set_all);
+    program.use();
+    set_all(program);
     for (const DrawItem& item : frame.items) {
       if (item.look != look) continue;
       program.set("W_from_mesh", item.W_from_mesh);
       program.set("material_colour", item.material.colour);
       program.set("material_metalness", item.material.metalness);
       program.set("material_roughness", item.material.roughness);
+      program.set("material_glow", item.material.glow);
+      if (look == Look::kSmoke) program.set("material_opacity", item.material.opacity);
       mesh(item.mesh).draw();
     }
   }
 
   void set_scene(const Program& program, const Frame& frame) {
     program.set("eye", frame.view.eye);
-    program.set("towards_key", frame.lighting.towards_key);
+    program.set("far_key", frame.lighting.towards_key);
+    program.set("lamp", frame.lighting.lamp);
+    program.set("lamp_reach", frame.lighting.lamp_reach_m);
     program.set("light_from_W", frame.lighting.clip_from_W);
     program.set("unit_length", frame.lighting.radius_m);
     program.set("picture_size", static_cast<float>(drawn_.width), static_cast<float>(drawn_.height));
@@ -262,45 +229,50 @@ class GlRenderer final : public Renderer {
   }
 
   void resolve(const RenderTarget& scene) {
-    const auto [from_width, from_height] = scene.size();
     const auto [width, height] = fitted_;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, scene.framebuffer());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, output());
-    glBlitFramebuffer(0, 0, from_width, from_height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                      scene.size() == fitted_ ? GL_NEAREST : GL_LINEAR);
+    if (scene.size() == fitted_) {
+      glBindFramebuffer(GL_READ_FRAMEBUFFER, scene.framebuffer());
+      glBindFramebuffer(GL_DRAW_FRAMEBUFFER, output());
+      glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+    if (scene.size() != fitted_) stretch_.draw(scene, output(), fitted_);
     glBindFramebuffer(GL_FRAMEBUFFER, output());
     glViewport(0, 0, width, height);
   }
 
-  const Programs& programs(const Frame& frame) const {
-    return frame.quality == Quality::kFine ? fine_ : plain_;
+  const Programs& programs(const Frame& frame) {
+    const Shading shading = means_of(frame.quality).shading;
+    auto& programs = programs_[static_cast<std::size_t>(shading)];
+    return programs ? *programs : programs.emplace(shading);
   }
   const MeshBuffer& mesh(MeshId id) const { return meshes_[static_cast<std::size_t>(id)]; }
 
   // the context comes first and goes last: everything below lives in it
   std::unique_ptr<GlContext> context_;
   Program shadow_program_{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
-  Programs plain_{std::string(shaders::common_glsl)};
-  Programs fine_{"#define SOFT_SHADOWS\n" + std::string(shaders::common_glsl)};
+  std::array<std::optional<Programs>, kShadingCount> programs_;  // made when first needed
+  TubePainter tubes_;
+  Stretch stretch_{!software().empty()};
   NoiseTexture pattern_;
+  Wires wires_;
   ShadowMap shadow_;
   unsigned no_vertices_ = 0;
   std::vector<MeshBuffer> meshes_;
-  Size fitted_;                                         // what the targets were made for
-  Size drawn_;                                          // of the target being drawn
-  std::array<std::optional<RenderTarget>, 3> targets_;  // by quality, made when first needed
-  std::optional<RenderTarget> output_;                  // off-screen only
+  Size fitted_;                                                     // what the targets were made for
+  Size drawn_;                                                      // of the target being drawn
+  std::array<std::optional<RenderTarget>, kQualityCount> targets_;  // made when first needed
+  std::optional<RenderTarget> output_;                              // off-screen only
   std::optional<PanelBackend> panel_;
 };
 
 }  // namespace
 
-std::unique_ptr<Renderer> open_window(Size size, const std::string& title) {
-  return std::make_unique<GlRenderer>(open_glfw_context(size, title));
+std::unique_ptr<Renderer> open_window(Size size, const std::string& title, float ui_scale) {
+  return std::make_unique<GlRenderer>(open_glfw_context(size, title), ui_scale);
 }
 
-std::unique_ptr<Renderer> open_offscreen(Size size) {
-  return std::make_unique<GlRenderer>(open_egl_context(size));
+std::unique_ptr<Renderer> open_offscreen(Size size, float ui_scale) {
+  return std::make_unique<GlRenderer>(open_egl_context(size), ui_scale);
 }
 
 }  // namespace omentum::render::gl

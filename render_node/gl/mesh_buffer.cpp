@@ -31,6 +31,7 @@ MeshBuffer::MeshBuffer(const MeshData& mesh) {
   attribute(3, 1, offsetof(Vertex, openness));
   attribute(4, 1, offsetof(Vertex, charring));
   attribute(5, 1, offsetof(Vertex, share));
+  attribute(6, 1, offsetof(Vertex, pallor));
   glBindVertexArray(0);
 }
 

@@ -8,10 +8,13 @@
 
 namespace omentum::render::gl {
 
-PanelBackend::PanelBackend(GlContext& context) : context_(context) {
+PanelBackend::PanelBackend(GlContext& context, float asked_scale)
+    : context_(context),
+      asked_scale_(asked_scale),
+      scale_(ui_scale(asked_scale, context.content_scale(), context.size())) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // leaves no file where somebody happened to start it
-  style_panel();
+  style_panel(scale_);
   context_.start_panel();
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
@@ -22,7 +25,17 @@ PanelBackend::~PanelBackend() {
   ImGui::DestroyContext();
 }
 
+void PanelBackend::fit() {
+  const float scale = ui_scale(asked_scale_, context_.content_scale(), context_.size());
+  if (scale == scale_) return;
+  scale_ = scale;
+  style_panel(scale);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
 Input PanelBackend::begin_frame() {
+  fit();
   ImGui_ImplOpenGL3_NewFrame();
   const Input input = context_.begin_frame();
   ImGui::NewFrame();

@@ -30,8 +30,8 @@ unsigned compile(GLenum kind, const std::string& name, std::string_view prefix, 
 }  // namespace
 
 Program::Program(const std::string& name, std::string_view vertex, std::string_view prefix,
-                 std::string_view fragment) {
-  const unsigned v = compile(GL_VERTEX_SHADER, name, "", vertex);
+                 std::string_view fragment, std::string_view vertex_prefix) {
+  const unsigned v = compile(GL_VERTEX_SHADER, name, vertex_prefix, vertex);
   const unsigned f = compile(GL_FRAGMENT_SHADER, name, prefix, fragment);
   id_ = glCreateProgram();
   glAttachShader(id_, v);

@@ -13,7 +13,7 @@ class Program {
  public:
   /// Both sources begin without #version; `prefix` goes before the fragment shader.
   Program(const std::string& name, std::string_view vertex, std::string_view prefix,
-          std::string_view fragment);
+          std::string_view fragment, std::string_view vertex_prefix = "");
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

@@ -28,13 +28,31 @@ unsigned attach_renderbuffer(GLenum attachment, GLenum format, Size size, int sa
 RenderTarget::RenderTarget(Size size, int samples, bool with_depth) : size_(size) {
   glGenFramebuffers(1, &framebuffer_);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  colour_ = attach_renderbuffer(GL_COLOR_ATTACHMENT0, GL_RGBA8, size, samples);
+  if (samples > 0) {
+    colour_ = attach_renderbuffer(GL_COLOR_ATTACHMENT0, GL_RGBA8, size, samples);
+  } else {
+    attach_texture();
+  }
   if (with_depth) depth_ = attach_renderbuffer(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, samples);
   check_complete("a multisampled framebuffer");
 }
 
+// In the order of a window's bytes: Mesa's rasterizer stretches those at a fraction of the cost of any other.
+void RenderTarget::attach_texture() {
+  glGenTextures(1, &texture_);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size_.width, size_.height, 0, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV,
+               nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
+}
+
 RenderTarget::~RenderTarget() {
   glDeleteFramebuffers(1, &framebuffer_);
+  glDeleteTextures(1, &texture_);
   glDeleteRenderbuffers(1, &colour_);
   glDeleteRenderbuffers(1, &depth_);
 }

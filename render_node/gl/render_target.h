@@ -14,11 +14,15 @@ class RenderTarget {
   RenderTarget& operator=(const RenderTarget&) = delete;
 
   unsigned framebuffer() const { return framebuffer_; }
+  /// What was drawn, smooth between its pixels; 0 with several samples per pixel.
+  unsigned texture() const { return texture_; }
   Size size() const { return size_; }
 
  private:
+  void attach_texture();
+
   Size size_;
-  unsigned framebuffer_ = 0, colour_ = 0, depth_ = 0;
+  unsigned framebuffer_ = 0, texture_ = 0, colour_ = 0, depth_ = 0;
 };
 
 /// Owns a square depth texture that is compared when sampled.

@@ -25,8 +25,7 @@ class CutScoreTest : public testing::Test {
         return std::array<Vec3, 2>{Vec3(x, kMiddle_m + aside_m, -0.01), Vec3(x, kMiddle_m + aside_m, 0.02)};
       };
       const CutStroke stroke{.from = blade(from_x + 1e-3 * i), .to = blade(from_x + 1e-3 * (i + 1))};
-      way_m_ += 1e-3;
-      score.follow({&stroke, 1}, view(), way_m_, now_s_ += 0.01);
+      score.follow({&stroke, 1}, view(), 1, now_s_ += 0.01);
     }
   }
   /// All whose middles have y between these, and how much that is.
@@ -52,7 +51,7 @@ class CutScoreTest : public testing::Test {
                          .line_width_m = kLineWidth_m};
   std::vector<double> u_;
   std::vector<std::uint8_t> removed_;
-  double way_m_ = 0, now_s_ = 3;
+  double now_s_ = 3;
 };
 
 TEST_F(CutScoreTest, ABladeOnTheLineIsNowhereFromIt) {
@@ -94,6 +93,18 @@ TEST_F(CutScoreTest, ABladeInTheAirIsNotScored) {
   score.follow({&stroke, 1}, view(), 0, 1);
   EXPECT_EQ(score.figures(view()).way_m, 0);
   EXPECT_EQ(score.figures(view()).seconds, 0);
+}
+
+TEST_F(CutScoreTest, ASecondBladeInTheAirIsNotScoredWhileTheFirstCuts) {
+  CutScore score(spec_, mesh_, surface_);
+  const std::array cutting{Vec3(0.03, kMiddle_m, -0.01), Vec3(0.03, kMiddle_m, 0.02)};
+  const Vec3 on(1e-3, 0, 0), off(0, 0, 1);
+  const std::array strokes{
+      CutStroke{.tool = 0, .from = cutting, .to = {cutting[0] + on, cutting[1] + on}},
+      CutStroke{.tool = 1, .from = {off, 2 * off}, .to = {off + 10 * on, 2 * off + 10 * on}}};
+  score.follow(strokes, view(), 1, now_s_);
+  EXPECT_NEAR(score.figures(view()).way_m, 1e-3, kScoreRounding);
+  EXPECT_NEAR(score.figures(view()).largest_m, 0, kScoreRounding);
 }
 
 TEST_F(CutScoreTest, WhatThePlannedCutMeetsIsInsideHoweverDeepAndTheRestIsOutside) {

@@ -109,8 +109,10 @@ TEST_F(DynamicModelTest, ItTellsWhatACutCostsInTissue) {
   const CutStroke stroke = stroke_at(0.05), beside = stroke_at(0.5);
   model.step({.presses = {}, .cuts = {&beside, 1}}, kTick_s);
   EXPECT_EQ(model.status().cuts.way_m, 0);
+  EXPECT_EQ(model.status().cuts.tools, 0u);
   model.step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
   EXPECT_DOUBLE_EQ(model.status().cuts.way_m, 2);
+  EXPECT_EQ(model.status().cuts.tools, 1u << stroke.tool);
   const double share =
       static_cast<double>(model.status().removed_tetrahedra) / static_cast<double>(mesh_.tetrahedra.size());
   EXPECT_NEAR(model.status().cuts.lost_m3, share * kLength_m * kThick_m * kThick_m, 1e-12);

@@ -196,12 +196,23 @@ struct TwoGuts {
   }
   /// Between both axes, where they are free.
   double nearest_m() const {
+    double least_m = 1;
+    for (const double gap_m : gaps_m()) least_m = std::min(least_m, gap_m);
+    return least_m;
+  }
+  /// Of low_y's axis, where the other is nearest.
+  Vec3 nearest_place() const {
+    const std::vector<double> gap_m = gaps_m();
+    return masses(low_y)[static_cast<std::size_t>(std::ranges::min_element(gap_m) - gap_m.begin())];
+  }
+  /// From each free mass of low_y's axis to the other axis; 1 m at its held ends.
+  std::vector<double> gaps_m() const {
     const auto axis = static_cast<std::size_t>(small_gut().layout.columns);
     const std::vector<Vec3> one = masses(low_y), other = masses(high_y);
-    double least_m = 1;
+    std::vector<double> gap_m(axis, 1.0);
     for (std::size_t i = 1; i + 1 < axis; ++i)
-      for (std::size_t j = 1; j + 1 < axis; ++j) least_m = std::min(least_m, (one[i] - other[j]).norm());
-    return least_m;
+      for (std::size_t j = 1; j + 1 < axis; ++j) gap_m[i] = std::min(gap_m[i], (one[i] - other[j]).norm());
+    return gap_m;
   }
 
   GutModel low_y, high_y;
@@ -242,6 +253,42 @@ TEST(GutsMeet, PushesAreOppositeAndEqualFromTheFirstToThoseThatGoOn) {
   EXPECT_LT(of_one.y(), 0);
   EXPECT_GT(of_other.y(), 0) << "they part";
   EXPECT_LT((of_one + of_other).norm(), 0.03 * of_one.norm()) << of_one.transpose();
+}
+
+// What the other one pushes is no load before the next step; without it a hand would be told of a fall.
+TEST(GutsMeet, AHandIsToldWhereOneThatLiesAtAnotherGoesNext) {
+  TwoGuts guts(-0.002, {.step_s = kGutTick_s});
+  for (int i = 0; i < 600; ++i) guts.tick();
+  LocalPatch patch(GutModel::kPatchNodes);
+  double off_m_s = 0, count = 0;
+  for (int i = 0; i < 20; ++i) {
+    guts.tick();
+    ASSERT_TRUE(guts.low_y.local_model({0, guts.nearest_place(), 0.02}, patch));
+    const std::vector<Vec3> before = skin_places(guts.low_y);
+    guts.tick();
+    const std::vector<Vec3> after = skin_places(guts.low_y);
+    for (std::size_t n = 0; n < patch.node_count; ++n, ++count) {
+      const Vec3 happened = (after[patch.nodes[n]] - before[patch.nodes[n]]) / kGutTick_s;
+      off_m_s += (patch.velocities[n] - happened).norm();
+    }
+  }
+  EXPECT_LT(off_m_s / count, 0.005) << "on the average";
+}
+
+// A gut steps less often than the loop ticks: what it is to be pushed in a step does not grow by waiting for
+// it.
+TEST(GutsMeet, TicksBetweenTheirStepsChangeNothing) {
+  const physics::GutStepSettings step{.step_s = kGutTick_s};
+  TwoGuts once(0.01, step), often(0.01, step);
+  once.tick(0);  // they meet before their first step
+  for (int i = 0; i < 20; ++i) {
+    once.tick();
+    for (int part = 0; part < 4; ++part) often.tick(kGutTick_s / 4);
+  }
+  double apart_m = 0;
+  const std::vector<Vec3> x = masses(once.high_y), other = masses(often.high_y);
+  for (std::size_t m = 0; m < x.size(); ++m) apart_m = std::max(apart_m, (x[m] - other[m]).norm());
+  EXPECT_LT(apart_m, 1e-6);
 }
 
 TEST(GutsMeet, AfterAResetTheSameRunComesAgain) {

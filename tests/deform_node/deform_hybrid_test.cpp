@@ -3,6 +3,7 @@
 
 #include "deform_node/model_table.h"
 #include "deform_node/strain_gauge.h"
+#include "geometry/mesh_editor.h"
 #include "tests/deform_node/hybrid_organ.h"
 #include "tests/deform_node/rates.h"
 #include "tests/support/heap_count.h"
@@ -128,6 +129,43 @@ TEST_F(HybridModelTest, WhatIsCutOffFallsAndTheRestRisesToWhereThePrecomputedPar
   model->reset();
   pass(*model, 0.1);
   EXPECT_EQ(model->status().removed_tetrahedra, 0u);
+}
+
+// Without weight nothing moves, so that what an edge meets is known from the shape at rest.
+TEST_F(HybridModelTest, AllThatIsGoneMetTheEdgeOrWasRepairAndAnotherLineTakesOthers) {
+  spec_.dynamics->gravity_m_s2.setZero();
+  constexpr int kStrokes = 20;
+  std::array<std::vector<std::uint8_t>, 2> gone;
+  for (const std::size_t line : {0, 1}) {
+    const auto model = make("hybrid");
+    const Vec3 begin(0.0752 + 0.005 * static_cast<double>(line), -0.005, 0), way(0.02, 0.04, 0),
+        up(0, 0, 0.05);
+    const Vec3 across = way.cross(up);
+    for (int i = 0; i < kStrokes; ++i) {
+      const Vec3 a = begin + way * i / kStrokes, b = begin + way * (i + 1) / kStrokes;
+      const CutStroke stroke{.tool = 0, .cut = 1, .from = {a + up, a - up}, .to = {b + up, b - up}};
+      model->step({.presses = {}, .cuts = {&stroke, 1}}, kTick_s);
+    }
+    geometry::MeshEditor editor(source_.organ.mesh);
+    editor.set_removed(model->view().removed_bits);
+    EXPECT_EQ(editor.piece_count(), 2) << "the tip is cut off";
+    std::uint32_t beside = 0;
+    for (std::size_t t = 0; t < source_.organ.mesh.tetrahedra.size(); ++t) {
+      double low = 1, high = -1;
+      for (const NodeId n : source_.organ.mesh.tetrahedra[geometry::TetId(t)]) {
+        const double side = (source_.organ.mesh.positions[n] - begin).dot(across);
+        low = std::min(low, side), high = std::max(high, side);
+      }
+      const bool met = low <= 0 && high >= 0, is_gone = editor.is_removed(geometry::TetId(t));
+      EXPECT_TRUE(is_gone || !met) << t << ": the wire went through it";
+      beside += is_gone && !met;
+    }
+    // what hung may be what the wire would have met later
+    EXPECT_LE(beside, model->status().repaired_tetrahedra);
+    EXPECT_GT(model->status().removed_tetrahedra, 15u + model->status().repaired_tetrahedra);
+    gone[line].assign(model->view().removed_bits.begin(), model->view().removed_bits.end());
+  }
+  EXPECT_NE(gone[0], gone[1]) << "5 mm aside";
 }
 
 // Across the border and on both sides of it, until little is left.

@@ -60,6 +60,20 @@ TEST(HandWay, OneWaypointIsAHandThatStaysThere) {
   }
 }
 
+TEST(HandWay, AHandThatCutsPressesItsButtonWhileItMoves) {
+  scene::HandSpec hand = grasping_hand();
+  hand.cut = true;
+  VirtualHand device(hand, {}, 1000);
+  int pressed = 0;
+  for (int tick = 1; tick <= 5500; ++tick) {
+    const bool cuts = device.measure(0).buttons != 0;
+    const bool holds = (tick > 1002 && tick < 1498) || (tick > 3002 && tick < 3498);
+    EXPECT_FALSE(cuts && holds) << tick;
+    pressed += cuts;
+  }
+  EXPECT_NEAR(pressed, 4500, 5) << "as long as its moves take";
+}
+
 TEST(HandWay, AVirtualHandMeasuresItsJaws) {
   VirtualHand hand(grasping_hand(), {}, 1000);
   for (int tick = 0; tick < 900; ++tick) EXPECT_GT(hand.measure(0).grip, 0.4);

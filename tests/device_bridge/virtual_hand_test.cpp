@@ -171,6 +171,27 @@ TEST(VirtualHand, ATrocarTurnsTheShaftAboutThePivotWithoutSpinAndLeavesTheTipToT
   EXPECT_GT(turned, 0.1);
 }
 
+TEST(VirtualHand, AScopePivotsAboutItsTrocarLevelAndRollsAsItsWaySays) {
+  scene::ToolSpec scope;
+  scope.trocar = scene::Vec3{0.05, -0.2, 0.2};
+  scope.scope.emplace();
+  scene::HandSpec hand;
+  hand.way = {{.to = Vec3(0, 0, 0.1), .seconds = 1},
+              {.to = Vec3(0.03, 0.01, 0.08), .seconds = 1, .roll_rad = 0.5}};
+  hand.press_point = hand.way[0].to;
+  VirtualHand device(hand, scope, 1000);
+  double most_rolled = 0;
+  for (const Measurement& m : press(device, hand, 1000, script_period_s(hand))) {
+    const Vec3 shaft = m.orientation * Vec3::UnitZ();
+    ASSERT_LT(shaft.cross(*scope.trocar - m.position).norm(), 1e-9) << "the shaft passes the pivot";
+    // sin of the roll: how far the x axis leans out of the level, where the shaft itself is not upright
+    const double level = std::hypot(shaft.x(), shaft.y());
+    most_rolled = std::max(most_rolled, std::asin((m.orientation * Vec3::UnitX()).z() / level));
+  }
+  EXPECT_NEAR(most_rolled, 0.5, 0.01);
+  EXPECT_NEAR((device.measure(0).orientation * Vec3::UnitX()).z(), 0, 0.01) << "level again";
+}
+
 TEST(VirtualHand, WithoutATrocarTheShaftStandsOnTheSurface) {
   scene::HandSpec hand;
   hand.press_normal = {0, 0.6, 0.8};

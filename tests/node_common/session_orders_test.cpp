@@ -52,6 +52,22 @@ TEST_F(SessionOrdersTest, AnEventThatIsSentTwiceIsObeyedOnce) {
   EXPECT_FALSE(orders_.paused());
 }
 
+TEST_F(SessionOrdersTest, ToRecordIsAskedForByAWordAndOnce) {
+  EXPECT_FALSE(orders_.take_record());
+  std::uint64_t order = 0;
+  for (const auto& [argument, meant] :
+       {std::pair(kRecordOn, RecordOrder::kOn), std::pair(kRecordOff, RecordOrder::kOff),
+        std::pair("", RecordOrder::kToggle)}) {
+    msg::SessionCommand record = command(msg::COMMAND_RECORD, ++order);
+    record.argument = argument;
+    hear(record);
+    EXPECT_EQ(orders_.take_record(), meant);
+    hear(record);
+    EXPECT_FALSE(orders_.take_record()) << "a copy";
+  }
+  EXPECT_FALSE(orders_.paused());
+}
+
 TEST_F(SessionOrdersTest, CopiesOfSeveralSendersMayCross) {
   for (const std::uint64_t sender : {kBen, kAnn}) {
     hear(msg::COMMAND_RESET, 5, sender);

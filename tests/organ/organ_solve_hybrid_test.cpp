@@ -5,7 +5,7 @@ namespace omentum::organ {
 namespace {
 
 // Of the largest value: the tensors are stored in float.
-constexpr double kEqual = 1e-6;
+constexpr double kHybridEqual = 1e-6;
 
 class OrganSolveHybridTest : public OrganProgramsTest {
  protected:
@@ -36,8 +36,8 @@ class OrganSolveHybridTest : public OrganProgramsTest {
 
   void expect_equal(const std::vector<std::string>& task) const {
     const Solved direct = solve("direct", task), hybrid = solve("hybrid", task);
-    EXPECT_LE(largest_difference(hybrid.u, direct.u), kEqual * largest_entry(direct.u));
-    EXPECT_LE(largest_difference(hybrid.f, direct.f), 10 * kEqual * largest_entry(direct.f));
+    EXPECT_LE(largest_difference(hybrid.u, direct.u), kHybridEqual * largest_entry(direct.u));
+    EXPECT_LE(largest_difference(hybrid.f, direct.f), 10 * kHybridEqual * largest_entry(direct.f));
   }
 };
 

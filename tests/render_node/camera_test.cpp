@@ -1,6 +1,7 @@
 #include "render_node/camera.h"
 
 #include "render_node/lighting.h"
+#include "render_node/scope_view.h"
 
 #include <gtest/gtest.h>
 
@@ -105,7 +106,7 @@ TEST(Camera, PanMovesTheTargetsPointWithTheMouse) {
 TEST(Camera, ScopeLooksAlongItsShaftAwayFromTheHandle) {
   const Eigen::Quaterniond q(
       Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()));  // z of T along -y of W
-  const Camera camera = scope_camera({0, 0.1, 0}, q, 60);
+  const Camera camera = scope_camera({0, 0.1, 0}, q, {.optics_deg = 0});
   EXPECT_LT((camera.forward() - Vec3::UnitY()).norm(), kRounding);
   EXPECT_EQ(camera.eye, Vec3(0, 0.1, 0));
 }

@@ -8,12 +8,12 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kRadius = 0.09;  // the size of a liver
+constexpr double kBallRadius = 0.09;  // the size of a liver
 constexpr double kFloat_m = 1e-6;
 const geometry::SurfaceId kTopNode(4);
 
 struct Ball90 {
-  OrganShape shape = test::ball_organ(kRadius, 4);
+  OrganShape shape = test::ball_organ(kBallRadius, 4);
   OrganSkin skin{shape.surface, shape.rest};
 
   double dent(std::vector<float> displacements) {
@@ -48,7 +48,7 @@ TEST(Dent, TiltOfTheOrganDoesNotCount) {
 
 TEST(Dent, FarSideOfTheOrganIsNotItsSurroundings) {
   // a slab of 2 cm: its lower face lies within the ring's distance
-  OrganShape thin = test::ball_organ(kRadius, 4);
+  OrganShape thin = test::ball_organ(kBallRadius, 4);
   for (Vec3& p : thin.rest) p.z() *= 0.1;
   OrganSkin skin(thin.surface, thin.rest);
   std::vector<float> u = test::dent(thin, thin.rest[4], 0.006, 0.01);

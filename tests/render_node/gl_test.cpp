@@ -1,6 +1,7 @@
 // Properties of the pixels that OpenGL draws, off-screen.
 #include "render_node/gl/gl_context.h"
 #include "render_node/gl/gl_renderer.h"
+#include "render_node/gl/window_keys.h"
 #include "render_node/panel.h"
 #include "render_node/scene_view.h"
 
@@ -19,7 +20,7 @@ using test::scene_with;
 using test::tool_at;
 
 constexpr double kRadius = 0.05;
-constexpr Size kSize{320, 240};
+constexpr Size kGlPicture{320, 240};
 const Vec3 kFront = kRadius * Vec3(0, -0.8, 0.6);
 
 using Rgb = Eigen::Array3i;
@@ -61,7 +62,7 @@ class Drawing : public testing::Test {
  protected:
   void SetUp() override {
     try {
-      renderer_ = gl::open_offscreen(kSize);
+      renderer_ = gl::open_offscreen(kGlPicture, 1);
     } catch (const gl::DisplayError& error) {
       GTEST_SKIP() << error.what();
     }
@@ -87,10 +88,10 @@ class Drawing : public testing::Test {
 
   // Where a point of W lies in the picture.
   Eigen::Vector2d at(const Vec3& p) const {
-    const View view = view_of(choices_.orbit, view_->ball(), kSize.aspect(), 0);
+    const View view = view_of(choices_.orbit, view_->ball(), kGlPicture.aspect(), 0);
     const Eigen::Vector4f clip = view.clip_from_eye * (view.eye_from_W * p.cast<float>().homogeneous());
-    return {kSize.width * (0.5 + 0.5 * clip.x() / clip.w()),
-            kSize.height * (0.5 - 0.5 * clip.y() / clip.w())};
+    return {kGlPicture.width * (0.5 + 0.5 * clip.x() / clip.w()),
+            kGlPicture.height * (0.5 - 0.5 * clip.y() / clip.w())};
   }
 
   OrganShape shape_ = ball_organ(kRadius, 4);
@@ -103,9 +104,9 @@ class Drawing : public testing::Test {
 TEST_F(Drawing, LiverIsInTheMiddleAndTheCornersAreDark) {
   const Picture picture = draw();
   const Area tissue = area_where(picture, [&](int x, int y) { return is_tissue(pixel(picture, x, y)); });
-  EXPECT_GT(tissue.count, kSize.width * kSize.height / 20);
+  EXPECT_GT(tissue.count, kGlPicture.width * kGlPicture.height / 20);
   EXPECT_LT((tissue.middle - at(Vec3::Zero())).norm(), 15);
-  for (const auto& [x, y] : {std::pair{1, 1}, {kSize.width - 2, 1}})
+  for (const auto& [x, y] : {std::pair{1, 1}, {kGlPicture.width - 2, 1}})
     EXPECT_LT(pixel(picture, x, y).maxCoeff(), 60);
 }
 
@@ -135,8 +136,9 @@ TEST_F(Drawing, DentIsSeenAroundTheToolInItsCloseUp) {
   const Area changed = area_where(
       rest_picture, [&](int x, int y) { return difference(pressed_picture, rest_picture, x, y) > kSeen; });
   // at least the dent itself: 18 mm across, seen 23 degrees above its rim, in a picture of 78 mm by 59 mm
-  EXPECT_GT(changed.count, 0.02 * kSize.width * kSize.height);
-  EXPECT_LT((changed.middle - 0.5 * Eigen::Vector2d(kSize.width, kSize.height)).norm(), 0.25 * kSize.width);
+  EXPECT_GT(changed.count, 0.02 * kGlPicture.width * kGlPicture.height);
+  EXPECT_LT((changed.middle - 0.5 * Eigen::Vector2d(kGlPicture.width, kGlPicture.height)).norm(),
+            0.25 * kGlPicture.width);
 }
 
 TEST_F(Drawing, NoPixelIsBroken) {
@@ -223,12 +225,42 @@ TEST_F(Drawing, QualitiesShowTheSame) {
   }
 }
 
+TEST_F(Drawing, LinesOfTheTrianglesLieOnTheOrganAndLeaveItSeen) {
+  const Picture plain = draw();
+  choices_.wires = true;
+  const Picture lined = draw();
+  const auto lighter = [&](int x, int y) {
+    return (pixel(lined, x, y) - pixel(plain, x, y)).minCoeff() > 20;
+  };
+  const Area tissue = area_where(plain, [&](int x, int y) { return is_tissue(pixel(plain, x, y)); });
+  const Area lines =
+      area_where(plain, [&](int x, int y) { return is_tissue(pixel(plain, x, y)) && lighter(x, y); });
+  EXPECT_GT(lines.count, tissue.count / 20);
+  EXPECT_LT(lines.count, tissue.count * 9 / 10);
+  const Area outside = area_where(plain, [&](int x, int y) {
+    const bool far = (Eigen::Vector2d(x, y) - at(Vec3::Zero())).norm() > 110;
+    return far && difference(plain, lined, x, y) > 2;
+  });
+  EXPECT_EQ(outside.count, 0);
+}
+
+TEST(WindowKeys, AreTheLettersOfThePersonsLayout) {
+  constexpr int kA = 65, kM = 77, kF1 = 290, kControl = 2;  // GLFW's
+  EXPECT_EQ(gl::letter_of(kA, 0, "q"), 'q') << "a French keyboard";
+  EXPECT_EQ(gl::letter_of(kM, 0, ","), 0) << "and its comma";
+  EXPECT_EQ(gl::letter_of(kA, 0, "\xd1\x84"), 'A') << "a Russian one";
+  EXPECT_EQ(gl::letter_of(kA, 0, nullptr), 'A');
+  EXPECT_EQ(gl::letter_of(kF1, 0, nullptr), 'H');
+  EXPECT_EQ(gl::letter_of(kA, kControl, "a"), 0);
+  EXPECT_EQ(gl::letter_of(32, 0, nullptr), 0);
+}
+
 TEST_F(Drawing, EndoscopeIsRound) {
   choices_.endoscope = true;
   const Picture picture = draw();
-  const int y = kSize.height / 2;
+  const int y = kGlPicture.height / 2;
   EXPECT_EQ(pixel(picture, 2, y).maxCoeff(), 0) << "black outside";
-  EXPECT_GT(pixel(picture, kSize.width / 2, y).maxCoeff(), 20);
+  EXPECT_GT(pixel(picture, kGlPicture.width / 2, y).maxCoeff(), 20);
 }
 
 TEST_F(Drawing, PanelIsDrawnOverThePicture) {
@@ -248,7 +280,7 @@ TEST_F(Drawing, PanelIsDrawnOverThePicture) {
     return x < 200 && y < 40 && pixel(with, x, y).minCoeff() > 150;  // text
   });
   EXPECT_GT(bright.count, 20);
-  EXPECT_EQ(difference(with, without, kSize.width - 5, kSize.height - 5), 0);
+  EXPECT_EQ(difference(with, without, kGlPicture.width - 5, kGlPicture.height - 5), 0);
 }
 
 TEST_F(Drawing, WindowAndOffscreenAgree) {
@@ -257,11 +289,11 @@ TEST_F(Drawing, WindowAndOffscreenAgree) {
   const Picture offscreen = draw(*renderer_, tools);
   renderer_.reset();  // one panel at a time
   try {
-    renderer_ = gl::open_window(kSize, "test");
+    renderer_ = gl::open_window(kGlPicture, "test", 1);
   } catch (const gl::DisplayError& error) {
     GTEST_SKIP() << error.what();
   }
-  if (renderer_->size() != kSize) GTEST_SKIP() << "the window has another size than asked for";
+  if (renderer_->size() != kGlPicture) GTEST_SKIP() << "the window has another size than asked for";
   arrange(*renderer_);
   const Picture window = draw(*renderer_, tools);
   int different = 0;

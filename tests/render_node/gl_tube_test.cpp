@@ -10,23 +10,23 @@
 namespace omentum::render {
 namespace {
 
-constexpr Size kSize{320, 240};
+constexpr Size kTubePicture{320, 240};
 
 /// The colour where a place of W is seen.
 Eigen::Array3i colour_at(const Picture& picture, const View& view, const Vec3& place) {
   const Vec3f p =
       view.eye_from_W.topLeftCorner<3, 3>() * place.cast<float>() + view.eye_from_W.topRightCorner<3, 1>();
   const Vec3f clip = (view.clip_from_eye * p.homogeneous()).hnormalized();
-  const auto x = static_cast<int>(kSize.width * (0.5f + 0.5f * clip.x()));
-  const auto y = static_cast<int>(kSize.height * (0.5f - 0.5f * clip.y()));
-  const std::uint8_t* rgb = &picture.rgba[4 * static_cast<std::size_t>(y * kSize.width + x)];
+  const auto x = static_cast<int>(kTubePicture.width * (0.5f + 0.5f * clip.x()));
+  const auto y = static_cast<int>(kTubePicture.height * (0.5f - 0.5f * clip.y()));
+  const std::uint8_t* rgb = &picture.rgba[4 * static_cast<std::size_t>(y * kTubePicture.width + x)];
   return {rgb[0], rgb[1], rgb[2]};
 }
 
 TEST(GutDrawing, IsPinkAndItsMesenteryYellow) {
   std::unique_ptr<Renderer> renderer;
   try {
-    renderer = gl::open_offscreen(kSize);
+    renderer = gl::open_offscreen(kTubePicture);
   } catch (const gl::DisplayError& error) {
     GTEST_SKIP() << error.what();
   }

@@ -35,8 +35,8 @@ class Pyramid final : public OrganDrawing {
 };
 
 /// A ball and, beside it, the toy.
-struct Stage {
-  Stage() : view(scene, organs(), renderer) { choices.orbit = view.first_camera(); }
+struct DrawnStage {
+  DrawnStage() : view(scene, organs(), renderer) { choices.orbit = view.first_camera(); }
   static std::vector<std::unique_ptr<OrganDrawing>> organs() {
     std::vector<std::unique_ptr<OrganDrawing>> organs;
     organs.push_back(make_drawing(test::ball_organ(kRadius, 2)));
@@ -66,7 +66,7 @@ TEST(OrganDrawing, ATetrahedralMeshIsDrawnAsItsSurface) {
 }
 
 TEST(OrganDrawing, AToyOfAnotherKindIsDrawnBesideIt) {
-  Stage stage;
+  DrawnStage stage;
   const std::vector<DrawItem> tissue = stage.tissue();
   ASSERT_EQ(tissue.size(), 2u);
   EXPECT_EQ(tissue[1].material.colour, Vec3f(0, 1, 0));
@@ -76,7 +76,7 @@ TEST(OrganDrawing, AToyOfAnotherKindIsDrawnBesideIt) {
 }
 
 TEST(OrganDrawing, WhatHasNoSurfaceIsNotDentedAndHidesDentsAllTheSame) {
-  Stage stage;
+  DrawnStage stage;
   EXPECT_EQ(stage.view.surface(1), nullptr);
   ToolNow tool = test::tool_at(Vec3(0.2, 0, kRadius), Vec3(0, 0, 1));
   tool.contact_organ = 1;

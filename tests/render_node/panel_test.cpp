@@ -232,6 +232,12 @@ class PanelLayout : public testing::Test {
       for (const ImDrawVert& v : data->CmdLists[list]->VtxBuffer) visit(v);
   }
 
+  static int count_corners() {
+    int count = 0;
+    for_each_corner([&](const ImDrawVert&) { ++count; });
+    return count;
+  }
+
   static PanelView busy() {
     PanelView view;
     view.scene = "A liver pressed by a simulated hand";
@@ -255,14 +261,31 @@ TEST_F(PanelLayout, BusyPanelFitsAPictureAndItsColumn) {
   EXPECT_LT(height_of(busy()), 590);
 }
 
-TEST_F(PanelLayout, FaultsAndButtonsTakeRoom) {
+TEST_F(PanelLayout, FaultsTakeRoom) {
   PanelView view = busy();
   const float with_faults = height_of(view);
   view.faults.clear();
-  const float without = height_of(view);
-  EXPECT_LT(without, with_faults);
-  view.interactive = true;
-  EXPECT_GT(height_of(view), without);
+  EXPECT_LT(height_of(view), with_faults);
+}
+
+TEST_F(PanelLayout, MoreOrgansAndFaultsThanFitAreCounted) {
+  PanelView view = busy();
+  view.organs.assign(8,
+                     {.moved_mm = 25, .limit_mm = 18, .known = true, .age_ns = 4 * kSecond, .name = "gut"});
+  EXPECT_LT(height_of(view), 600 - 2 * kPanelMargin + 1);
+}
+
+TEST_F(PanelLayout, AnOrgansSizeAndAHandsPeakAreTold) {
+  PanelView view = busy();
+  view.organs[0].age_ns = 0;
+  const float before = height_of(view);
+  view.organs[0].nodes = 1765;
+  view.organs[0].tetrahedra = 7185;
+  EXPECT_GT(height_of(view), before);
+  const int corners = count_corners();
+  view.tools[0].most_n = 3.5f;
+  height_of(view);
+  EXPECT_GT(count_corners(), corners);
 }
 
 TEST_F(PanelLayout, ATubeHasALengthAndNoDentAndAnExposedOrganItsShare) {
@@ -289,6 +312,7 @@ TEST_F(PanelLayout, StaleOrganIsTold) {
 
 TEST_F(PanelLayout, CutsAndTheirTimeAreTold) {
   PanelView view = busy();
+  view.faults.clear();  // they give way
   const float whole = height_of(view);
   view.organs[0].removed_tetrahedra = 312;
   const float cut = height_of(view);
@@ -308,6 +332,7 @@ TEST_F(PanelLayout, NoLatencyIsTooLongForItsLine) {
 
 TEST_F(PanelLayout, TheMapsScaleAndWhatIsNotToldTakeALineEach) {
   PanelView view = busy();
+  view.faults.clear();  // they give way
   const float tissue = height_of(view);
   view.map = TissueMap::kStress;
   view.full_stress_pa = 1800;
@@ -325,18 +350,13 @@ TEST_F(PanelLayout, TheMapsScaleAndWhatIsNotToldTakeALineEach) {
 }
 
 TEST_F(PanelLayout, WhatIsNewIsInTheBoxAtOnceInTheFirstFrameToo) {
-  const auto corners = [] {
-    int count = 0;
-    for_each_corner([&](const ImDrawVert&) { ++count; });
-    return count;
-  };
   PanelView view = busy();
   view.faults.clear();
   for (int change = 0; change < 2; ++change) {
     const float at_once = height_of(view, 1);
-    const int drawn = corners();
+    const int drawn = count_corners();
     EXPECT_EQ(at_once, height_of(view));
-    EXPECT_EQ(drawn, corners());
+    EXPECT_EQ(drawn, count_corners());
     view.map = TissueMap::kStrain;
     view.real_time_factor = 1;
   }
@@ -374,6 +394,29 @@ TEST_F(PanelLayout, NoLabelLiesOnTheForceCurve) {
     const bool inside = v.pos.x > field.x && v.pos.x < field.z && v.pos.y > field.y && v.pos.y < field.w;
     EXPECT_FALSE(inside && v.col == label) << "at " << v.pos.x << ", " << v.pos.y;
   });
+}
+
+TEST_F(PanelLayout, ALongNameLeavesRoomForWhatForceSafetyDid) {
+  // which letters are dim, as their places in the font: three dots may stand for three letters
+  const auto dim_letters = [&](const std::string& name, const std::string& word, float most_n) {
+    PanelView view;
+    ToolRow& tool = view.tools.emplace_back();
+    tool.name = name;
+    tool.present = true;
+    tool.most_n = most_n;
+    tool.state = {word};
+    height_of(view);
+    const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    double places = 0;
+    for_each_corner([&](const ImDrawVert& v) { places += v.col == dim ? v.uv.x + v.uv.y : 0; });
+    return places;
+  };
+  for (const char* word : {"stale", "clamped", "damped"})
+    for (const float most_n : {0.31f, 0.91f, 1.47f, 4.44f, 11.11f})
+      for (const char* name :
+           {"right hand, probe", "left hand, grasper", "iiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiiii"})
+        EXPECT_NEAR(dim_letters(name, word, most_n), dim_letters("a", word, most_n), 1e-6)
+            << name << ", " << word;
 }
 
 TEST_F(PanelLayout, EmptyPanelIsLaidOutToo) {

@@ -1,5 +1,4 @@
-// Which frames become files, how fine frames are drawn, and the files themselves.
-#include "render_node/frame_rate_control.h"
+// Which frames become files, and the files themselves.
 #include "render_node/picture_schedule.h"
 #include "render_node/picture_writer.h"
 #include "render_node/png_file.h"
@@ -28,56 +27,6 @@ TEST(PictureSchedule, DeepestDentIsTakenAgainWhenDeeper) {
   EXPECT_FALSE(schedule.due(2.1, 0.0041).indent) << "5 % deeper at least";
   EXPECT_TRUE(schedule.due(2.2, 0.008).indent);
   EXPECT_FALSE(schedule.due(9, 0.005).indent);
-}
-
-TEST(FrameRateControl, FastMachineDrawsFinelyAtTheFullRate) {
-  FrameRateControl control(30, 0.45);
-  for (int k = 0; k < 100; ++k) {
-    EXPECT_TRUE(control.due(k / 30.0));
-    control.record(k / 30.0, 0.002);
-  }
-  EXPECT_EQ(control.quality(), Quality::kFine);
-  EXPECT_FALSE(control.due(99 / 30.0 + 0.01));
-}
-
-TEST(FrameRateControl, SlowMachineGetsCoarserThenSlowerAndKeepsItsDuty) {
-  FrameRateControl control(30, 0.45);
-  const auto cost = [&] {
-    return control.quality() == Quality::kFine ? 0.11 : control.quality() == Quality::kPlain ? 0.05 : 0.03;
-  };
-  double time = 0, busy = 0, begin = 0;
-  for (int k = 0; k < 200; ++k) {
-    while (!control.due(time)) time += 1e-3;
-    if (k == 100) begin = time, busy = 0;
-    control.record(time, cost());
-    busy += cost();
-    time += cost();
-  }
-  EXPECT_EQ(control.quality(), Quality::kCoarse);
-  EXPECT_LT(busy / (time - begin), 0.5);
-}
-
-TEST(FrameRateControl, DoesNotSwing) {
-  // neighbouring qualities differ by 2.5: none of them is both too dear and five times too cheap
-  for (const double fine : {0.001, 0.01, 0.02, 0.04, 0.1, 0.3}) {
-    FrameRateControl control(30, 0.45);
-    int changes = 0;
-    Quality last = control.quality();
-    for (int k = 0; k < 500; ++k) {
-      control.record(k, fine / std::pow(2.5, static_cast<int>(control.quality())));
-      changes += control.quality() != last;
-      last = control.quality();
-    }
-    EXPECT_LE(changes, 2) << fine;
-  }
-}
-
-TEST(FrameRateControl, BecomesFinerAgain) {
-  FrameRateControl control(30, 0.45);
-  for (int k = 0; k < 50; ++k) control.record(k, 0.2);
-  ASSERT_EQ(control.quality(), Quality::kCoarse);
-  for (int k = 50; k < 500; ++k) control.record(k, 0.001);
-  EXPECT_EQ(control.quality(), Quality::kFine);
 }
 
 Picture chequered(Size size) {

@@ -35,7 +35,16 @@ class RecordingRenderer final : public Renderer {
     meshes.at(static_cast<std::size_t>(id)) = with;
     triangles_sent += with.triangles.size();
   }
+  TubeId add_tube() override {
+    tubes.emplace_back();
+    return static_cast<TubeId>(tubes.size() - 1);
+  }
+  void update_tube(TubeId id, std::span<const SkinFrame> frames) override {
+    tubes.at(static_cast<std::size_t>(id)).assign(frames.begin(), frames.end());
+    ++updates;
+  }
   Input begin_frame() override { return on_begin_frame ? on_begin_frame() : Input{}; }
+  Pointer look_at_pointer() override { return on_look ? on_look() : Pointer{}; }
   void draw(const Frame& frame) override {
     frames.push_back(frame);
     if (frame.with_panel && on_panel) on_panel();
@@ -53,6 +62,7 @@ class RecordingRenderer final : public Renderer {
   }
 
   std::vector<MeshData> meshes;
+  std::vector<std::vector<SkinFrame>> tubes;
   std::vector<Frame> frames;
   int updates = 0;
   std::size_t triangles_sent = 0;           // of meshes that were added before
@@ -61,6 +71,7 @@ class RecordingRenderer final : public Renderer {
   // a scripted person at a window
   bool windowed = false;
   std::function<Input()> on_begin_frame;
+  std::function<Pointer()> on_look;
   std::function<void()> on_panel;
 
  private:

@@ -1,6 +1,8 @@
 // The node's loop between a scripted bus and a scripted pace, on a renderer that only remembers, with a
 // scripted person at its window.
 #include "render_node/render_loop.h"
+#include "render_node/panel_keys.h"
+#include "render_node/video_slots.h"
 
 #include "block_session.h"
 #include "panel_context.h"
@@ -66,21 +68,26 @@ class RenderLoopTest : public testing::Test {
     return renderer_.frames.back().view.eye;
   }
   void drag() { frame({.orbit_x = 50}); }
-  /// Moves the mouse over the panel until Dear ImGui says that it is over the item called `label`, then
+  /// Moves the mouse over the panel's bar until Dear ImGui says that it is over the button of `control`, then
   /// clicks.
-  void click(const char* label) {
-    constexpr float kStep = 6;  // pixels, a third of a button's height
-    for (float x = 30; x < kWindow.width; x += 10 * kStep) {
-      for (float y = kStep; y < kWindow.height; y += kStep) {
+  void click(Control control) {
+    constexpr float kStep = 12;  // pixels, two thirds of a button's height
+    frames(1);
+    const ImGuiWindow* bar = ImGui::FindWindowByName("controls");
+    ASSERT_NE(bar, nullptr);
+    const ImRect all = bar->Rect();
+    for (float y = all.Min.y + kStep; y < all.Max.y; y += kStep) {
+      for (float x = all.Min.x + kStep; x < all.Max.x; x += 2 * kStep) {
         mouse_ = {x, y};
         frames(1);
-        if (!hovers(label)) continue;
+        if (!hovers(control)) continue;
         frames(1);  // where nothing is hovered Dear ImGui names what was
-        if (hovers(label)) return press_and_release();
+        if (hovers(control)) return press_and_release();
       }
     }
-    ADD_FAILURE() << "no item " << label;
+    ADD_FAILURE() << "no button " << word_of(control).button_id;
   }
+  void type(char letter) { frame({.keys = KeyPresses(letter)}); }
   std::vector<std::string> faults() {
     frames(kStatusFrames);
     return bus_.newest<msg::NodeStatus>()->faults;
@@ -93,9 +100,9 @@ class RenderLoopTest : public testing::Test {
   std::unique_ptr<Node> node_;
 
  private:
-  static bool hovers(const char* label) {
-    const ImGuiWindow* panel = ImGui::FindWindowByName("omentum");
-    return panel != nullptr && ImGui::GetHoveredID() == ImHashStr(label, 0, panel->ID);
+  static bool hovers(Control control) {
+    const ImGuiWindow* bar = ImGui::FindWindowByName("controls");
+    return ImGui::GetHoveredID() == ImHashStr(word_of(control).button_id, 0, bar->ID);
   }
   void press_and_release() {
     for (const bool down : {true, false, false}) {
@@ -137,29 +144,90 @@ TEST_F(RenderLoopTest, DraggingTurnsTheOrbitButNotTheEndoscope) {
   const Vec3f before = eye();
   drag();
   const Vec3f turned = eye();
-  click("endoscope");
+  click(Control::kCamera);
   drag();
-  click("endoscope");
+  click(Control::kCamera);
   EXPECT_GT((turned - before).norm(), 1e-3f);
   EXPECT_LT((eye() - turned).norm(), 1e-6f) << "the hidden camera stayed";
 }
 
+constexpr std::array kSent{std::pair(Control::kFlow, msg::COMMAND_PAUSE),
+                           std::pair(Control::kFlow, msg::COMMAND_START),
+                           std::pair(Control::kReset, msg::COMMAND_RESET),
+                           std::pair(Control::kClearFault, msg::COMMAND_CLEAR_FAULT)};
+
 TEST_F(RenderLoopTest, ButtonsSendTheirCommands) {
   bus_.watch<msg::SessionCommand>();
   start();
-  for (const auto& [label, sent] :
-       {std::pair("Pause", msg::COMMAND_PAUSE), std::pair("Start", msg::COMMAND_START),
-        std::pair("Reset", msg::COMMAND_RESET), std::pair("Clear fault", msg::COMMAND_CLEAR_FAULT)}) {
+  for (const auto& [control, sent] : kSent) {
     bus_.expect<msg::SessionCommand>(Field(&msg::SessionCommand::command, sent));
-    click(label);
-    EXPECT_THAT(bus_.left_over(), IsEmpty()) << label;
+    click(control);
+    EXPECT_THAT(bus_.left_over(), IsEmpty()) << word_of(control).does;
   }
+}
+
+TEST_F(RenderLoopTest, KeysSendTheirCommandsWithoutAPanelToo) {
+  options_.no_panel = true;
+  bus_.watch<msg::SessionCommand>();
+  start();
+  for (const auto& [control, sent] : kSent) {
+    bus_.expect<msg::SessionCommand>(Field(&msg::SessionCommand::command, sent));
+    type(word_of(control).key);
+    EXPECT_THAT(bus_.left_over(), IsEmpty()) << word_of(control).does;
+  }
+}
+
+TEST_F(RenderLoopTest, AKeySwitchesTheLinesOfTrianglesOnAndOff) {
+  start();
+  for (const bool on : {true, false}) {
+    type('L');
+    frames(1);
+    EXPECT_EQ(renderer_.frames.back().wires, on);
+  }
+}
+
+TEST_F(RenderLoopTest, WhatARecordingSessionShowsIsAVideoThatLastsAsLong) {
+  const test::ScratchFolder folder;
+  options_.out = folder.path();
+  options_.record_fps = 50;
+  start();
+  frames(10);
+  type('V');
+  frames(500);
+  click(Control::kRecord);
+  const auto videos = close()["videos"];
+  ASSERT_THAT(videos, SizeIs(1));
+  EXPECT_NEAR(videos[0]["seconds"].get<double>(), 0.5, 0.2) << "and what the mouse took to find the button";
+  const auto pictures = videos[0]["pictures"].get<int>();
+  EXPECT_TRUE(std::filesystem::exists(folder / "video" / video_picture_name(pictures - 1)));
+  EXPECT_FALSE(std::filesystem::exists(folder / "video" / video_picture_name(pictures)));
+}
+
+TEST_F(RenderLoopTest, RecordsFromTheStartAndOnWhenAPersonOfTheSessionAsks) {
+  const test::ScratchFolder folder;
+  options_.out = folder.path();
+  options_.record = true;
+  start();
+  frames(200);
+  const auto order = [&](std::uint64_t number, const char* argument) {
+    bus_.post(msg::SessionCommand{
+        .order = number, .sender = 1, .command = msg::COMMAND_RECORD, .argument = argument});
+    frames(200);
+  };
+  order(1, node::kRecordOn);
+  order(2, "");
+  order(3, node::kRecordOff);
+  order(4, "");
+  const auto videos = close()["videos"];
+  ASSERT_THAT(videos, SizeIs(2));
+  EXPECT_NEAR(videos[0]["seconds"].get<double>(), 0.4, 0.1);
+  EXPECT_EQ(videos[1]["folder"], (folder / "video_2").string());
 }
 
 TEST_F(RenderLoopTest, ACommandThatCannotBeSentIsAFault) {
   start();
   bus_.refuse_writes<msg::SessionCommand>(true);
-  click("Pause");
+  click(Control::kFlow);
   EXPECT_THAT(faults(), ElementsAre(StartsWith("a command could not be sent")));
 }
 
@@ -251,15 +319,15 @@ TEST_F(MapTest, AKeyAndAButtonSwitchThroughStrainAndStressAndOff) {
   tell();
   EXPECT_THAT(items(), testing::Not(map_));
   EXPECT_FALSE(is_read()) << "nobody asked";
-  frame({.switch_map = true});
+  type('S');
   EXPECT_TRUE(is_read());
   tell();
   EXPECT_FLOAT_EQ(share(), 0.15f / kFullStrain);
-  click(kMapButton);
+  click(Control::kMap);
   EXPECT_THAT(items(), testing::Not(map_)) << "strain is not stress";
   tell();
   EXPECT_FLOAT_EQ(share(), 0.25f);
-  frame({.switch_map = true});
+  type('S');
   EXPECT_FALSE(is_read());
   tell();
   EXPECT_THAT(items(), testing::Not(map_));
@@ -316,6 +384,18 @@ TEST_F(RenderLoopTest, WithoutAScoreNothingIsSaidOfExposure) {
   start();
   frames(1);
   EXPECT_FALSE(close().contains("exposed_share"));
+}
+
+TEST_F(RenderLoopTest, ReportsHowFinelyAndHowOftenItDrew) {
+  start();
+  frames(500);
+  const auto picture = close()["picture"];
+  EXPECT_EQ(picture["level"], words(PictureLevel{kFinestStep})) << "frames cost nothing here";
+  EXPECT_NEAR(picture["reached_fps"], kPace_hz, 5);
+  double all = 0;
+  for (const auto& [quality, share] : picture["share"].items()) all += share.get<double>();
+  EXPECT_NEAR(all, 1, 1e-9);
+  EXPECT_GT(picture["share"]["fine"], 0.5);
 }
 
 TEST_F(RenderLoopTest, StatusesComeTenTimesASecondAndSayWhetherTheSessionIsPaused) {

@@ -107,6 +107,21 @@ TEST(RenderNode, ShowsStatesAndEchoesThePoseThatItDrew) {
   EXPECT_TRUE(report["faults"].empty()) << report;
 }
 
+TEST(RenderNode, WhereNothingCanDrawItSaysWhyInOneLineAndThatNobodyDidWrong) {
+  const BlockScene scene(3);
+  std::ofstream(scene.file("libEGL.so.1")) << "no library";
+  for (const auto& [name, value] : {std::pair("LD_LIBRARY_PATH", scene.file("").string()),
+                                    std::pair("LIBGL_DRIVERS_PATH", scene.file("none").string())}) {
+    setenv(name, value.c_str(), 1);
+    test::Process node("render_node", arguments(scene, test::domain_of_test()));
+    EXPECT_EQ(node.wait(), 3) << name;
+    const std::string text = node.messages();
+    EXPECT_THAT(text, HasSubstr("render_node: off-screen pictures: ")) << name;
+    EXPECT_THAT(text, HasSubstr("installed?")) << name;
+    unsetenv(name);
+  }
+}
+
 TEST(RenderNode, EndsByItselfAfterItsTime) {
   const BlockScene scene(3);
   test::Process node("render_node",

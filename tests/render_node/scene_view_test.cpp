@@ -224,7 +224,7 @@ TEST(SceneView, CameraLooksAtTheSideThatIsPressed) {
 
 TEST(SceneView, EndoscopeFollowsTheScope) {
   scene::Scene scene = scene_with({"probe", "probe"});
-  scene.tools[1].name = "endoscope";
+  scene.tools[1].scope.emplace();
   Stage stage(scene);
   stage.choices.endoscope = true;
   const Vec3 at(0, -0.2, 0);
@@ -232,6 +232,9 @@ TEST(SceneView, EndoscopeFollowsTheScope) {
   EXPECT_TRUE(frame.through_endoscope);
   EXPECT_LT((frame.view.eye - at.cast<float>()).norm(), kFloat);
   EXPECT_TRUE(with_look(frame, Look::kSolid).empty()) << "the scope does not see itself";
+  stage.choices.endoscope = false;
+  EXPECT_FALSE(with_look(stage.frame({{}, tool_at(at, Vec3::Zero())}), Look::kSolid).empty())
+      << "the orbit camera does";
 }
 
 TEST(SceneView, EndoscopeWithoutAScopeLooksFromNearer) {

@@ -18,7 +18,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kWatchedSecond = 1'000'000'000;
 constexpr double kRadius_m = 0.05;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -54,12 +54,12 @@ class SessionWatchTest : public testing::Test {
 TEST_F(SessionWatchTest, AForeignSceneEndsANodeThatStartsAndIsAFaultOfASettledOne) {
   const msg::SceneInfo foreign{.protocol = msg::PROTOCOL_VERSION + 1, .scene = "s", .organs = {}};
   bus_.post(foreign);
-  listen(60 * kSecond);
+  listen(60 * kWatchedSecond);
   EXPECT_TRUE(has_fault("scene: a deform_node with other organs"));
   bus_.post(foreign);
   std::string why;
   try {
-    listen(kSecond);
+    listen(kWatchedSecond);
   } catch (const std::runtime_error& error) {
     why = error.what();
   }
@@ -68,11 +68,35 @@ TEST_F(SessionWatchTest, AForeignSceneEndsANodeThatStartsAndIsAFaultOfASettledOn
 
 TEST_F(SessionWatchTest, OfSeveralOrgansThePanelSaysWhichOneItMeans) {
   PanelView panel;
-  watch_.describe(view_, 60 * kSecond, panel);
+  watch_.describe(view_, 60 * kWatchedSecond, panel);
   ASSERT_EQ(panel.organs.size(), 2u);
   EXPECT_TRUE(panel.organs[0].stale());
   EXPECT_EQ(panel.organs[0].name, "left");
   EXPECT_EQ(panel.organs[1].name, "right");
+}
+
+TEST_F(SessionWatchTest, APeakBetweenTwoFramesCountsAndOneBeyondTheScenesLimitDoesNot) {
+  listen(kWatchedSecond);
+  msg::ToolForce force{};
+  const auto feel = [&](double force_n) {
+    ++force.seq;
+    force.force = {0, 0, force_n};
+    bus_.post(force);
+  };
+  const double limit_n = scene_.haptics.max_force_n;
+  for (const double force_n : {0.1 * limit_n, 0.9 * limit_n, 100 * limit_n, kNan, 0.2 * limit_n})
+    feel(force_n);
+  listen(kWatchedSecond + 1);
+  PanelView panel;
+  watch_.describe(view_, kWatchedSecond + 1, panel);
+  EXPECT_FLOAT_EQ(panel.tools[0].force_n, static_cast<float>(0.2 * limit_n));
+  EXPECT_FLOAT_EQ(panel.tools[0].most_n, static_cast<float>(0.9 * limit_n));
+}
+
+TEST_F(SessionWatchTest, ThePanelKnowsHowLargeAnOrganIs) {
+  PanelView panel;
+  watch_.describe(view_, kWatchedSecond, panel);
+  EXPECT_EQ(panel.organs[0].nodes, ball_.rest.size());
 }
 
 TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
@@ -92,7 +116,7 @@ TEST_F(SessionWatchTest, AToolIsDrawnWithTheOrganThatItPresses) {
   bus_.post(force);
   for (const msg::Contact& contact : {pressed, left, nowhere}) bus_.post(contact);
   EXPECT_TRUE(has_fault("contact with an organ that the scene does not have"));
-  listen(kSecond);
+  listen(kWatchedSecond);
   EXPECT_EQ(watch_.tools()[0].contact_organ, 1u);
   EXPECT_THAT(watch_.tools()[0].contact_nodes, ElementsAre(5u));
 }
@@ -113,14 +137,14 @@ TEST_F(SessionWatchTest, ObeysCommandsByTheRuleOfAllNodes) {
     bus_.post(msg::SessionCommand{.order = order, .sender = 1, .command = what, .argument = {}});
   };
   send(msg::COMMAND_PAUSE, 0);
-  listen(kSecond);
-  EXPECT_TRUE(watch_.paused(kSecond)) << "a sender may count from zero";
+  listen(kWatchedSecond);
+  EXPECT_TRUE(watch_.paused(kWatchedSecond)) << "a sender may count from zero";
   send(msg::COMMAND_START, 1);
   send(msg::COMMAND_PAUSE, 0);
   send(msg::COMMAND_RESET, 2);
   EXPECT_TRUE(inbox_.orders().take_reset());
-  listen(kSecond);
-  EXPECT_FALSE(watch_.paused(kSecond));
+  listen(kWatchedSecond);
+  EXPECT_FALSE(watch_.paused(kWatchedSecond));
 }
 
 TEST_F(SessionWatchTest, OnlyWhatCanBeDrawnIsDrawn) {
@@ -157,11 +181,11 @@ TEST_F(SessionWatchTest, ToolsAndForcesOfWhoFellSilentAreGone) {
   force.force = {0, 0, 1};
   bus_.post(pose);
   bus_.post(force);
-  clock_.stall(kSecond / 2);
+  clock_.stall(kWatchedSecond / 2);
   listen(clock_.now_ns());
   EXPECT_TRUE(watch_.tools()[0].seen);
   EXPECT_EQ(watch_.tools()[0].force_n, Vec3(0, 0, 0));
-  clock_.stall(kSecond);
+  clock_.stall(kWatchedSecond);
   listen(clock_.now_ns());
   EXPECT_FALSE(watch_.tools()[0].seen);
 }

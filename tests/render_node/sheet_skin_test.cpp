@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr float kFloat = 1e-6f;  // m
+constexpr float kSheetFloat = 1e-6f;  // m
 
 std::size_t faces_apart(const SheetSkin& skin) {
   return skin.mesh().vertices.size() / 2;
@@ -33,8 +33,8 @@ TEST(SheetSkin, IsThinnerThanWhatCollides) {
   const double thickness = SheetSkin::kDrawnThickness * gut.mesentery_thickness_m;
   for (std::size_t i = 0; i < faces_apart(skin); ++i) {
     const Vertex &front = skin.mesh().vertices[i], &back = skin.mesh().vertices[i + faces_apart(skin)];
-    EXPECT_NEAR((front.position - back.position).norm(), thickness, kFloat);
-    EXPECT_LT((front.normal + back.normal).norm(), kFloat);
+    EXPECT_NEAR((front.position - back.position).norm(), thickness, kSheetFloat);
+    EXPECT_LT((front.normal + back.normal).norm(), kSheetFloat);
     EXPECT_NEAR(front.normal.norm(), 1, 1e-5f);
   }
 }
@@ -49,14 +49,14 @@ TEST(SheetSkin, GoesThroughItsMassesAndBeginsOnTheTubesAxis) {
   for (const Vec3& mass : gut.positions) {
     float nearest = 1;
     for (const Vec3f& p : middle) nearest = std::min(nearest, (p - mass.cast<float>()).norm());
-    EXPECT_LT(nearest, kFloat);
+    EXPECT_LT(nearest, kSheetFloat);
   }
   geometry::TubeAxis axis(static_cast<std::size_t>(gut.layout.columns));
   axis.set(std::span(gut.positions).first(static_cast<std::size_t>(gut.layout.columns)));
   const std::size_t columns = middle.size() / (3 * SheetSkin::kAcross + 1);
   for (std::size_t c = 0; c < columns; ++c) {
     const double u = axis.end() * static_cast<double>(c) / static_cast<double>(columns - 1);
-    EXPECT_LT((middle[c] - axis.at(u).place.cast<float>()).norm(), kFloat);
+    EXPECT_LT((middle[c] - axis.at(u).place.cast<float>()).norm(), kSheetFloat);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(SheetSkin, MovesWithItsMassesAndKeepsItsPattern) {
   skin.deform(gut.positions, no_loops());
   for (std::size_t i = 0; i < before.vertices.size(); ++i) {
     const Vertex& v = skin.mesh().vertices[i];
-    EXPECT_LT((v.position - before.vertices[i].position - Vec3f(0, 0, 0.1f)).norm(), 2 * kFloat);
+    EXPECT_LT((v.position - before.vertices[i].position - Vec3f(0, 0, 0.1f)).norm(), 2 * kSheetFloat);
     EXPECT_EQ(v.rest, before.vertices[i].rest);
   }
 }

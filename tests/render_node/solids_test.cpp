@@ -13,7 +13,7 @@
 namespace omentum::render {
 namespace {
 
-constexpr float kFloat = 1e-4f;
+constexpr float kSolidFloat = 1e-4f;
 
 // Six times the enclosed volume: positive when all triangles face outwards and the surface is closed.
 double volume(const MeshData& mesh) {
@@ -64,9 +64,11 @@ TEST(Solids, GroundIsDarkUnderTheOrganAndOpenFarAway) {
 }
 
 TEST(Instruments, AreClosedAndTurnedOutwards) {
-  for (const char* shape : {"probe", "grasper"}) {
+  for (const char* shape : {"probe", "grasper", "hook", "endoscope"}) {
     scene::ToolSpec tool;
     tool.shape = shape;
+    if (tool.shape == "hook") tool.edge = {Vec3(0.003, 0, 0.01), Vec3(0.003, 0, -0.01)};
+    if (tool.shape == "endoscope") tool.scope.emplace();
     for (const auto& part : instrument_parts(tool, Vec3f::Ones())) {
       EXPECT_GT(volume(part.mesh), 0) << shape;
       expect_normals_outward(part.mesh);
@@ -86,8 +88,8 @@ TEST(Instruments, ReachFromTheTipAlongZ) {
         EXPECT_LT(v.position.head<2>().norm(), 1.1 * tool.shaft_radius_m);
       }
     }
-    EXPECT_NEAR(lowest, 0, kFloat);
-    EXPECT_NEAR(highest, tool.shaft_length_m, kFloat);
+    EXPECT_NEAR(lowest, 0, kSolidFloat);
+    EXPECT_NEAR(highest, tool.shaft_length_m, kSolidFloat);
   }
 }
 
@@ -101,20 +103,20 @@ TEST(Instruments, JawsOpenAlongXByTheGripAngle) {
     const Mat4f pose = part_pose(part, Vec3::Zero(), Eigen::Quaterniond::Identity(), grip);
     const Vec3f tip = (pose * Eigen::Vector4f(0, 0, 0, 1)).head<3>();
     const Vec3f hinge(0, 0, part.hinge_z);
-    EXPECT_NEAR((tip - hinge).norm(), part.hinge_z, kFloat);
+    EXPECT_NEAR((tip - hinge).norm(), part.hinge_z, kSolidFloat);
     EXPECT_GT(part.jaw * tip.x(), 0);
     tips.push_back(std::atan2(tip.x(), part.hinge_z - tip.z()));
   }
   ASSERT_EQ(tips.size(), 2u);
-  EXPECT_NEAR(std::abs(tips[0] - tips[1]), grip, kFloat);
+  EXPECT_NEAR(std::abs(tips[0] - tips[1]), grip, kSolidFloat);
 }
 
 TEST(Instruments, PoseCarriesThemWhole) {
   InstrumentPart part;
   const Eigen::Quaterniond q(Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()));
   const Mat4f pose = part_pose(part, {0.1, 0.2, 0.3}, q, 0.5);
-  EXPECT_LT((pose.topLeftCorner<3, 3>() - q.toRotationMatrix().cast<float>()).norm(), kFloat);
-  EXPECT_LT((pose.topRightCorner<3, 1>() - Vec3f(0.1f, 0.2f, 0.3f)).norm(), kFloat);
+  EXPECT_LT((pose.topLeftCorner<3, 3>() - q.toRotationMatrix().cast<float>()).norm(), kSolidFloat);
+  EXPECT_LT((pose.topRightCorner<3, 1>() - Vec3f(0.1f, 0.2f, 0.3f)).norm(), kSolidFloat);
 }
 
 TEST(Instruments, ToolsHaveDistinctColours) {

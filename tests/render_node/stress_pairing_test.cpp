@@ -13,12 +13,13 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr std::size_t kNodes = 4, kMostNodes = 6;
+constexpr std::size_t kPairedNodes = 4, kMostNodes = 6;
 constexpr std::int64_t kTick_ns = 10'000'000;
 
 class StressPairingTest : public testing::Test {
  protected:
-  static AssembledState state(std::uint64_t seq, std::uint64_t version = 0, std::size_t nodes = kNodes) {
+  static AssembledState state(std::uint64_t seq, std::uint64_t version = 0,
+                              std::size_t nodes = kPairedNodes) {
     AssembledState state;
     state.seq = seq;
     state.topology_version = version;
@@ -30,8 +31,8 @@ class StressPairingTest : public testing::Test {
     block.seq = seq;
     block.block = number;
     block.block_count = count;
-    block.node_count = kNodes;
-    const std::size_t in_block = kNodes / count;
+    block.node_count = kPairedNodes;
+    const std::size_t in_block = kPairedNodes / count;
     block.first = static_cast<std::uint32_t>(in_block * number);
     block.strains.assign(in_block, static_cast<float>(seq));
     block.stresses.assign(in_block, 100.0f * static_cast<float>(seq));
@@ -54,7 +55,7 @@ class StressPairingTest : public testing::Test {
     return shown;
   }
   static bool is_pair(const std::optional<AssembledState>& shown, std::uint64_t seq) {
-    return shown && shown->seq == seq && shown->strain.size() == kNodes;
+    return shown && shown->seq == seq && shown->strain.size() == kPairedNodes;
   }
 
   StressPairing pairing_{kMostNodes};

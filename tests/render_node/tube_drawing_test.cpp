@@ -3,6 +3,7 @@
 #include "gut_organ.h"
 #include "recording_renderer.h"
 #include "render_node/scene_view.h"
+#include "render_node/tube_cylinder.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +30,16 @@ struct Stage {
     ADD_FAILURE() << "nothing drawn looks so";
     return {};
   }
+  TubeItem tube() const {
+    const Frame frame = view.frame(choices, {}, 0);
+    return frame.tubes.size() == 1 ? frame.tubes.front() : TubeItem{};
+  }
+  /// The wall as a renderer would draw it.
+  MeshData wall() const {
+    const TubeItem item = tube();
+    return skinned_tube(renderer.tubes.at(static_cast<std::size_t>(item.tube)), item.radius_m,
+                        make_tube_cylinder(item.resolution.n));
+  }
   geometry::GutShape gut = test::gut_shape();
   scene::Scene scene;
   RecordingRenderer renderer;
@@ -38,18 +49,17 @@ struct Stage {
 
 TEST(TubeDrawing, IsATubeAndAMesenteryOfOtherMaterials) {
   Stage stage;
-  EXPECT_NE(stage.item(Look::kGut).material.colour, stage.item(Look::kMesentery).material.colour);
-  EXPECT_NE(stage.item(Look::kGut).mesh, stage.item(Look::kMesentery).mesh);
+  EXPECT_NE(stage.tube().material.colour, stage.item(Look::kMesentery).material.colour);
+  EXPECT_EQ(stage.tube().look, Look::kGut);
 }
 
 TEST(TubeDrawing, BothMoveWithAState) {
   Stage stage;
-  const MeshData tube = stage.renderer.mesh_of(stage.item(Look::kGut));
+  const MeshData tube = stage.wall();
   const MeshData sheet = stage.renderer.mesh_of(stage.item(Look::kMesentery));
   for (Vec3& p : stage.gut.positions) p.z() += 0.25;
   ASSERT_TRUE(stage.view.show(0, {}, values_of(stage.gut)));
-  EXPECT_NEAR(stage.renderer.mesh_of(stage.item(Look::kGut)).vertices[99].position.z(),
-              tube.vertices[99].position.z() + 0.25f, 1e-5f);
+  EXPECT_NEAR(stage.wall().vertices[99].position.z(), tube.vertices[99].position.z() + 0.25f, 1e-5f);
   EXPECT_NEAR(stage.renderer.mesh_of(stage.item(Look::kMesentery)).vertices[99].position.z(),
               sheet.vertices[99].position.z() + 0.25f, 1e-5f);
 }
@@ -57,9 +67,8 @@ TEST(TubeDrawing, BothMoveWithAState) {
 TEST(TubeDrawing, NothingOfItLiesBelowTheGround) {
   const Stage stage;
   const float ground = stage.renderer.mesh_of(stage.item(Look::kGround)).vertices[0].position.z();
-  for (const Look look : {Look::kGut, Look::kMesentery})
-    for (const Vertex& v : stage.renderer.mesh_of(stage.item(look)).vertices)
-      ASSERT_GT(v.position.z(), ground);
+  for (const MeshData& mesh : {stage.wall(), stage.renderer.mesh_of(stage.item(Look::kMesentery))})
+    for (const Vertex& v : mesh.vertices) ASSERT_GT(v.position.z(), ground);
 }
 
 TEST(TubeDrawing, TheGroundsShadeFollowsIt) {
@@ -88,13 +97,42 @@ TEST(TubeDrawing, BothAreMapped) {
   const std::vector<float> shares(stage.gut.positions.size(), 0.25f);
   ASSERT_TRUE(stage.view.show(0, {}, values_of(stage.gut), shares));
   stage.choices.map = TissueMap::kStrain;
-  int maps = 0;
-  for (const DrawItem& item : stage.view.frame(stage.choices, {}, 0).items) {
-    if (item.look != Look::kMap) continue;
-    ++maps;
-    EXPECT_FLOAT_EQ(stage.renderer.mesh_of(item).vertices[800].share, 0.25f);
-  }
-  EXPECT_EQ(maps, 2);
+  EXPECT_FLOAT_EQ(stage.renderer.mesh_of(stage.item(Look::kMap)).vertices[800].share, 0.25f);
+  EXPECT_EQ(stage.tube().look, Look::kMap);
+  EXPECT_FALSE(stage.tube().by_turn);
+  EXPECT_FLOAT_EQ(stage.wall().vertices[800].share, 0.25f);
+}
+
+TEST(TubeDrawing, IsColouredByItsFoldsOnWish) {
+  Stage stage;
+  stage.choices.folds = true;
+  EXPECT_EQ(stage.tube().look, Look::kMap);
+  EXPECT_TRUE(stage.tube().by_turn);
+}
+
+TEST(TubeDrawing, SendsFramesAnewWhenItsResolutionChanges) {
+  Stage stage;
+  const auto frames = [&] { return stage.renderer.tubes.at(0).size(); };
+  stage.view.set_tube_resolution({kCoarsestTubeEps, 0});
+  const std::size_t coarse = frames();
+  EXPECT_EQ(stage.view.tube_cost(), tube_cost(coarse, 0));
+  const int sent = stage.renderer.updates;
+  stage.view.set_tube_resolution({kCoarsestTubeEps, 2});
+  EXPECT_EQ(stage.renderer.updates, sent) << "of another n, the same frames";
+  EXPECT_EQ(stage.tube().resolution.n, 2);
+  stage.view.set_tube_resolution({0, 99});
+  EXPECT_EQ(stage.view.tube_resolution(), (TubeResolution{kFinestTubeEps, kMostTubeN})) << "its bounds";
+  EXPECT_GT(frames(), coarse);
+  EXPECT_EQ(stage.view.tube_cost(), tube_cost(frames(), kMostTubeN));
+}
+
+TEST(TubeDrawing, WhoLooksWithoutAPictureSeesTheStateThatIsDrawn) {
+  Stage stage;
+  ExposureRaster raster({80, 60});
+  EXPECT_GT(stage.view.exposed_share(0, {}, raster), 0.5);
+  for (Vec3& p : stage.gut.positions) p.z() += 100;
+  stage.view.deform(0, values_of(stage.gut));
+  EXPECT_FALSE(stage.view.exposed_share(0, {}, raster).has_value()) << "far out of sight";
 }
 
 TEST(TubeDrawing, IsNeitherDentedNorCut) {

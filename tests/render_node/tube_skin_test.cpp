@@ -13,8 +13,9 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kRadius = 0.012;
-constexpr double kFloat = 1e-6;  // m: what positions of some tenths of a metre are rounded to, and some more
+constexpr double kTubeRadius = 0.012;
+constexpr double kTubeFloat =
+    1e-6;  // m: what positions of some tenths of a metre are rounded to, and some more
 
 std::vector<Vec3> straight(int masses = 21, double length_m = 0.4) {
   std::vector<Vec3> axis;
@@ -41,7 +42,7 @@ std::vector<Vec3> meander() {
 
 TEST(TubeSkin, IsClosedAndItsNormalsPointOutwards) {
   for (const auto& axis : {straight(), meander()}) {
-    const TubeSkin skin(axis, kRadius);
+    const TubeSkin skin(axis, kTubeRadius);
     EXPECT_TRUE(test::is_closed(skin.mesh()));
     EXPECT_EQ(test::flipped_triangles(skin.mesh()), 0);
     for (const Vertex& v : skin.mesh().vertices) EXPECT_NEAR(v.normal.norm(), 1, 1e-5f);
@@ -50,16 +51,17 @@ TEST(TubeSkin, IsClosedAndItsNormalsPointOutwards) {
 
 TEST(TubeSkin, HasTheVolumeOfATube) {
   // a polygon of twenty corners has 98 % of its circle's area
-  const TubeSkin skin(straight(), kRadius);
-  const double area = 0.5 * TubeSkin::kAround * std::sin(2 * kPi / TubeSkin::kAround) * kRadius * kRadius;
+  const TubeSkin skin(straight(), kTubeRadius);
+  const double area =
+      0.5 * TubeSkin::kAround * std::sin(2 * kPi / TubeSkin::kAround) * kTubeRadius * kTubeRadius;
   const double volume = test::volume_m3(skin.mesh());
   EXPECT_GT(volume, area * 0.4);
-  EXPECT_LT(volume, area * (0.4 + 2 * kRadius)) << "two blunt ends";
+  EXPECT_LT(volume, area * (0.4 + 2 * kTubeRadius)) << "two blunt ends";
 }
 
 TEST(TubeSkin, WallIsOneRadiusFromTheAxis) {
   const std::vector<Vec3> masses = meander();
-  const TubeSkin skin(masses, kRadius);
+  const TubeSkin skin(masses, kTubeRadius);
   geometry::TubeAxis axis(masses.size());
   axis.set(masses);
   std::vector<Vec3> on_axis;
@@ -68,12 +70,12 @@ TEST(TubeSkin, WallIsOneRadiusFromTheAxis) {
     if (v.rest.x() < 0 || v.rest.x() > skin.rest_length_m()) continue;  // a cap
     double nearest = 1;
     for (const Vec3& p : on_axis) nearest = std::min(nearest, (p - v.position.cast<double>()).norm());
-    ASSERT_NEAR(nearest, kRadius, 0.002 * kRadius);
+    ASSERT_NEAR(nearest, kTubeRadius, 0.002 * kTubeRadius);
   }
 }
 
 TEST(TubeSkin, MovesWithItsMassesAndKeepsItsPattern) {
-  TubeSkin skin(meander(), kRadius);
+  TubeSkin skin(meander(), kTubeRadius);
   const MeshData before = skin.mesh();
   std::vector<Vec3> moved = meander();
   for (Vec3& p : moved) p += Vec3(0.1, -0.2, 0.05);
@@ -81,14 +83,14 @@ TEST(TubeSkin, MovesWithItsMassesAndKeepsItsPattern) {
   for (std::size_t i = 0; i < before.vertices.size(); ++i) {
     EXPECT_LT(
         (skin.mesh().vertices[i].position - before.vertices[i].position - Vec3f(0.1f, -0.2f, 0.05f)).norm(),
-        kFloat);
-    EXPECT_LT((skin.mesh().vertices[i].rest - before.vertices[i].rest).norm(), kFloat);
+        kTubeFloat);
+    EXPECT_LT((skin.mesh().vertices[i].rest - before.vertices[i].rest).norm(), kTubeFloat);
     EXPECT_NEAR(skin.mesh().vertices[i].openness, before.vertices[i].openness, 1e-3f);
   }
 }
 
 TEST(TubeSkin, PatternStaysWhereItIsOnTheWallWhileALoopIsPulled) {
-  TubeSkin skin(straight(), kRadius);
+  TubeSkin skin(straight(), kTubeRadius);
   std::vector<Vec3> pulled = straight();
   pulled[10].z() += 0.06;
   pulled[9].z() += 0.04;
@@ -104,7 +106,7 @@ TEST(TubeSkin, PatternStaysWhereItIsOnTheWallWhileALoopIsPulled) {
 }
 
 TEST(TubeSkin, TellsItsLengthNowAndAtRest) {
-  TubeSkin skin(straight(), kRadius);
+  TubeSkin skin(straight(), kTubeRadius);
   EXPECT_NEAR(skin.length_m(), 0.4, 1e-12);
   std::vector<Vec3> longer = straight();
   for (Vec3& p : longer) p *= 1.2;
@@ -114,7 +116,7 @@ TEST(TubeSkin, TellsItsLengthNowAndAtRest) {
 }
 
 TEST(TubeSkin, SharesOfTheMapLieAlongIt) {
-  TubeSkin skin(straight(), kRadius);
+  TubeSkin skin(straight(), kTubeRadius);
   std::vector<float> shares(straight().size());
   for (std::size_t m = 0; m < shares.size(); ++m)
     shares[m] = static_cast<float>(m) / static_cast<float>(shares.size() - 1);
@@ -125,15 +127,15 @@ TEST(TubeSkin, SharesOfTheMapLieAlongIt) {
 }
 
 TEST(TubeSkin, ABendTighterThanTheTubeIsAKinkThatDoesNotTurnInsideOut) {
-  for (const double apart : {2.6 * kRadius, 2.0 * kRadius, 1.4 * kRadius}) {
-    const TubeSkin skin(hairpin(apart), kRadius);
+  for (const double apart : {2.6 * kTubeRadius, 2.0 * kTubeRadius, 1.4 * kTubeRadius}) {
+    const TubeSkin skin(hairpin(apart), kTubeRadius);
     EXPECT_TRUE(test::is_closed(skin.mesh()));
-    EXPECT_EQ(test::flipped_triangles(skin.mesh()), 0) << apart / kRadius << " radii apart";
+    EXPECT_EQ(test::flipped_triangles(skin.mesh()), 0) << apart / kTubeRadius << " radii apart";
   }
 }
 
 TEST(TubeSkin, MassesInOnePlaceLeaveItFinite) {
-  TubeSkin skin(meander(), kRadius);
+  TubeSkin skin(meander(), kTubeRadius);
   std::vector<Vec3> masses = meander();
   std::fill(masses.begin() + 10, masses.begin() + 20, masses[10]);
   std::fill(masses.begin(), masses.begin() + 4, masses[0]);
@@ -144,13 +146,13 @@ TEST(TubeSkin, MassesInOnePlaceLeaveItFinite) {
 }
 
 TEST(TubeSkin, LoopsShadeEachOtherAndNothingElse) {
-  const TubeSkin alone(straight(), kRadius);
+  const TubeSkin alone(straight(), kTubeRadius);
   for (const Vertex& v : alone.mesh().vertices) EXPECT_GT(v.openness, 0.99f);
-  const TubeSkin side_by_side(hairpin(2.05 * kRadius), kRadius);
+  const TubeSkin side_by_side(hairpin(2.05 * kTubeRadius), kTubeRadius);
   float between = 0, outside = 0;
   int of_between = 0, of_outside = 0;
   for (const Vertex& v : side_by_side.mesh().vertices) {
-    if (v.position.x() < 0.05f || v.position.x() > 0.15f || v.position.y() > kRadius) continue;
+    if (v.position.x() < 0.05f || v.position.x() > 0.15f || v.position.y() > kTubeRadius) continue;
     if (v.normal.y() > 0.95f) between += v.openness, ++of_between;
     if (v.normal.y() < -0.5f) outside += v.openness, ++of_outside;
   }

@@ -52,6 +52,16 @@ TEST(HandWayKeys, AHandThatWouldTeleportIsRefusedWithWhatItNeeds) {
               HasSubstr("hands[0].way[0].seconds: found 0"));
 }
 
+TEST(HandWayKeys, AHandWithWaypointsMayCut) {
+  std::string text = going("cut = true\n" + kTwo);
+  EXPECT_THAT(message_of(write_scene(text)),
+              HasSubstr("hands[0].cut: found true with a tool that does not cut"));
+  text.insert(text.find("points ="), "cuts = true\nedge = [[0, 0, 0], [0, 0, 0.01]]\n");
+  const HandSpec hand = load_scene(write_scene(text)).hands[0];
+  EXPECT_TRUE(hand.cut);
+  EXPECT_EQ(hand.way.size(), 2u);
+}
+
 TEST(HandWayKeys, JawsOpenToARightAngleAtMost) {
   EXPECT_THAT(message_of(write_scene(going("[[hands.way]]\nto = [0, 0, 0]\nseconds = 1\ngrip_rad = 30\n"))),
               HasSubstr("hands[0].way[0].grip_rad: found 30"));

@@ -1,5 +1,5 @@
 // What is cut stays cut, whoever dies.
-#include "tests/system/session_on_trial.h"
+#include "tests/system/hurried_scene.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,11 +10,24 @@
 namespace omentum::test {
 namespace {
 
-const std::string& plate_scene() {
-  static const ScratchFolder folder;
-  static const std::string scene =
-      prepare_scene(OMENTUM_SOURCE_DIR "/scenes/plate_cut.toml", {}, folder.path());
-  return scene;
+/// A scene, and the vendor of each process.
+struct CutTrial {
+  std::string name, scene;
+  Vendors vendors;
+  double hurry = 1;  // how many times as fast as the scene says hands go along their waypoints
+
+  friend void PrintTo(const CutTrial& trial, std::ostream* out) { *out << trial.name; }
+};
+
+/// Each made once.
+const std::string& prepared(const CutTrial& trial) {
+  static std::map<std::string, std::unique_ptr<ScratchFolder>> folders;
+  static std::map<std::string, std::string> scenes;
+  if (!scenes.contains(trial.scene)) {
+    const auto& folder = folders[trial.scene] = std::make_unique<ScratchFolder>();
+    scenes[trial.scene] = prepare_hurried(trial.scene, trial.hurry, folder->path());
+  }
+  return scenes[trial.scene];
 }
 
 /// The topologies of an organ, newest last.
@@ -54,8 +67,11 @@ bool holds_all(const msg::Topology& topology, const msg::Topology& earlier) {
 
 /// The largest change of the force on a hand, as a multiple of what the slew limit lets it change in the
 /// ticks between two samples.
-double steepest(const std::vector<msg::ToolForce>& forces) {
+double steepest(const std::vector<msg::ToolForce>& of_all_hands, std::uint32_t tool) {
   constexpr double kSlew_n_per_tick = 2000 * 0.001;  // scene::HapticsSpec's own, at its own rate
+  std::vector<msg::ToolForce> forces;
+  std::ranges::copy_if(of_all_hands, std::back_inserter(forces),
+                       [tool](const msg::ToolForce& force) { return force.tool == tool; });
   double most = 0;
   for (std::size_t i = 1; i < forces.size(); ++i) {
     const msg::Vec3 &now = forces[i].force, &before = forces[i - 1].force;
@@ -67,7 +83,7 @@ double steepest(const std::vector<msg::ToolForce>& forces) {
   return most;
 }
 
-class CutSurvivalTest : public ::testing::TestWithParam<std::string> {
+class CutSurvivalTest : public ::testing::TestWithParam<CutTrial> {
  protected:
   /// Of a deform_node that knows what the last one cut.
   void start_organ() { session_.start("deform_node", {"--journal", journal_}); }
@@ -84,7 +100,7 @@ class CutSurvivalTest : public ::testing::TestWithParam<std::string> {
 
   ScratchFolder folder_;
   std::string journal_ = folder_ / "cuts.json";
-  SessionOnTrial session_{plate_scene(), all_on(GetParam())};
+  SessionOnTrial session_{prepared(GetParam()), GetParam().vendors};
   Observer observer_{session_.domain(), transport::Vendor::kCyclone};
   CutObserver seen_{session_.domain()};
 };
@@ -110,7 +126,8 @@ TEST_P(CutSurvivalTest, ADeformNodeThatIsKilledWhileItCutsGoesOnWithItsCuts) {
   EXPECT_TRUE(session_["haptic_node"].running());
   const std::vector<msg::ToolForce> felt = observer_.forces();
   EXPECT_GT(felt.size(), 500u);
-  EXPECT_LE(steepest(felt), 1 + 1e-6) << "the hand was struck";
+  for (const std::uint32_t tool : {0U, 1U})
+    EXPECT_LE(steepest(felt, tool), 1 + 1e-6) << "the hand was struck that has tool " << tool;
   observer_.forget();
   EXPECT_TRUE(comes_true([&] { return observer_.forces().size() > 500; })) << "haptic_node fell silent";
   EXPECT_EQ(session_["deform_node"].messages(), "");
@@ -149,8 +166,17 @@ TEST_P(CutSurvivalTest, AHandsNodeAPictureOrADeviceThatIsKilledWhileItCutsLeaves
     EXPECT_TRUE(session_[name].running()) << session_[name].messages();
 }
 
-INSTANTIATE_TEST_SUITE_P(Vendors, CutSurvivalTest, ::testing::Values("fast", "cyclone"),
-                         [](const auto& test) { return test.param; });
+// Two hands at a hybrid organ, one of which holds what the other one cuts.
+const Vendors kMixed{{"haptic_node", "fast"},
+                     {"deform_node", "cyclone"},
+                     {"render_node", "cyclone"},
+                     {"virtual_device", "fast"}};
+
+INSTANTIATE_TEST_SUITE_P(Sessions, CutSurvivalTest,
+                         ::testing::Values(CutTrial{"fast", "plate_cut", all_on("fast")},
+                                           CutTrial{"cyclone", "plate_cut", all_on("cyclone")},
+                                           CutTrial{"hepatectomy", "hepatectomy", kMixed, 2.5}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace omentum::test

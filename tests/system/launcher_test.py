@@ -26,7 +26,7 @@ from unittest import mock
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
 from launcher.errors import Refusal  # noqa: E402
-from launcher import cache, domain, machine, options, organs, processes, report, session  # noqa: E402 (the launcher is no installed package)
+from launcher import cache, domain, machine, options, organs, processes, report, session, video  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
@@ -48,7 +48,8 @@ SHAPE = {
                         "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
                         "real_time_factor": float, "faults": list},
         "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
-                        "unmatched_states": int, "removed_tetrahedra": int, "closed": bool, "faults": list},
+                        "unmatched_states": int, "removed_tetrahedra": int, "closed": bool, "videos": list,
+                        "picture": {"level": str, "asked_fps": float, "reached_fps": float, "changes": int, "share": dict}, "faults": list},
         "virtual_device": {"dds": str, "exit": int, "round_trip_us": TIMES, "sent": int, "lost": int, "energy_j": float,
                            "faults": list},
     },
@@ -345,15 +346,16 @@ class Endings(LauncherTest):
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
 
 
-class Windows(LauncherTest):
+class OnDisplay(LauncherTest):
     """On a display of its own."""
+    SCREEN = "800x600x24"
 
     def setUp(self):
         super().setUp()
         if not shutil.which("Xvfb"):
             self.skipTest("Xvfb is absent")
         reading, writing = os.pipe()
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "800x600x24"],
+        server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", self.SCREEN],
                                   pass_fds=[writing], stderr=subprocess.DEVNULL)
         self.addCleanup(server.wait)
         self.addCleanup(server.terminate)
@@ -366,6 +368,8 @@ class Windows(LauncherTest):
         display.start()
         self.addCleanup(display.stop)
 
+
+class Windows(OnDisplay):
     def test_an_ended_render_node_is_no_closed_window(self):
         process = self.start(HOLD, "--out", self.out)
         nodes = self.nodes_of(process)
@@ -642,6 +646,18 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertNotIn("deform_node", self.ended("deform_node", 0).restarts)
         self.assertNotIn("deform_node", self.ended("deform_node", 2).restarts)
 
+    def test_a_node_that_this_machine_cannot_run_ends_no_session_and_is_not_tried_again(self):
+        file = self.folder / "render_node.json"
+        watching = session.Session.__new__(session.Session)
+        watching.options, watching.restarts, watching.stopping = mock.Mock(restart=True), {}, False
+        node = mock.Mock(exit=processes.MACHINE_LACKS, starts=1, report=file)
+        node.name = "render_node"
+        with mock.patch("builtins.print") as said:
+            self.assertNotEqual(watching.ended(node, elapsed=1.0), processes.REFUSED)
+        self.assertFalse(watching.stopping)
+        self.assertEqual(watching.restarts, {})
+        self.assertIn("the others go on", str(said.call_args_list))
+
     def test_a_session_has_one_journal_of_cuts_for_every_deform_node_and_none_from_before(self):
         def journal():
             made = session.Session.__new__(session.Session)
@@ -766,13 +782,72 @@ time.sleep({PATIENCE_S})"""), 0)
                          ["cut: 1.3 mm from the planned line in the mean, 4.0 mm at most, over 90 mm; "
                           "0.2 of 5.0 cm^3 outside of it; 6.0 s", "hand 0: largest force 1.23 N"])
 
-    def test_a_map_is_asked_of_render_node_alone(self):
+    def nodes_asked(self, *words):
+        """The names of the nodes that a session gives `words`, of its own command line."""
         made = session.Session.__new__(session.Session)
-        made.options = options.parse([str(HOLD), "--headless", "--map", "stress"])
+        made.options = options.parse([str(HOLD), "--headless", *words])
         made.scene, made.headless, made.domain = HOLD, True, mock.Mock(number=1)
         made.folder = tempfile.TemporaryDirectory()
         self.addCleanup(made.folder.cleanup)
-        self.assertEqual([node.name for node in made.make_nodes() if "--map" in node.command], ["render_node"])
+        return [node.name for node in made.make_nodes() if " ".join(words) in " ".join(node.command)]
+
+    def test_a_map_a_video_and_the_panels_size_are_asked_of_render_node_alone(self):
+        for words in (("--map", "stress"), ("--record", "30"), ("--ui-scale", "1.5")):
+            self.assertEqual(self.nodes_asked(*words), ["render_node"], words)
+        self.assertEqual(options.parse([str(HOLD), "--record"]).record, 25)
+        self.assertIsNone(options.parse([str(HOLD)]).record)
+
+    def test_what_an_earlier_session_recorded_goes_and_nothing_else_does(self):
+        for name in ("video/000000.png", "video_2/000001.png", "video_2/mine.png", "videos/000000.png", "video/notes/000000.png"):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).touch()
+        (self.folder / "video.mp4").touch()
+        video.clear(self.folder)
+        left = sorted(str(file.relative_to(self.folder)) for file in self.folder.rglob("*") if file.is_file())
+        self.assertEqual(left, ["video/notes/000000.png", "video_2/mine.png", "videos/000000.png"])
+
+    def record_told(self, found, **fields):
+        """What is said of a video on a machine with or without ffmpeg."""
+        told = {"folder": str(self.folder / "video"), "fps": 25.0, "seconds": 2.0, "pictures": 50, "repeated": 0, "dropped": 0}
+        with mock.patch.object(video.shutil, "which", lambda _: found), mock.patch("builtins.print") as said:
+            video.make({**told, **fields})
+        return "\n".join(str(call.args[0]) for call in said.call_args_list)
+
+    def test_without_ffmpeg_the_command_is_told_and_what_is_missing_too(self):
+        said = self.record_told(None, repeated=7, dropped=3)
+        self.assertIn("-framerate 25 -i", said)
+        self.assertIn("7 of them repeated", said)
+        self.assertIn("3 were dropped", said)
+
+    @unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is absent")
+    def test_a_video_lasts_as_long_as_what_it_shows(self):
+        (self.folder / "video").mkdir()
+        picture = self.folder / "video" / "000000.png"
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-f", "lavfi", "-i", "color=red:size=65x41", "-frames:v", "1", picture],
+                       check=True, stdin=subprocess.DEVNULL)
+        for number in range(1, 50):
+            os.link(picture, self.folder / "video" / f"{number:06}.png")
+        self.assertIn("video.mp4", self.record_told(shutil.which("ffmpeg")))
+        length = subprocess.run(["ffprobe", "-loglevel", "error", "-show_entries", "format=duration", "-of", "csv=p=0",
+                                 self.folder / "video.mp4"], capture_output=True, text=True, check=True).stdout
+        self.assertAlmostEqual(float(length), 2.0, delta=0.05)
+
+
+    def test_a_mouse_is_a_device_of_sessions_with_a_window(self):
+        with mock.patch.dict(os.environ, {"DISPLAY": ":7"}):
+            made = session.Session.__new__(session.Session)
+            made.options = options.parse([str(HOLD), "--device", "mouse"])
+            with self.assertRaisesRegex(Refusal, "needs a window"):
+                options.parse(["--device", "mouse", "--headless"])
+        made.scene, made.headless, made.domain = HOLD, False, mock.Mock(number=1)
+        made.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(made.folder.cleanup)
+        self.assertEqual([node.name for node in made.make_nodes() if "--mouse" in node.command], ["virtual_device"])
+        with mock.patch.dict(os.environ):
+            os.environ.pop("DISPLAY", None)
+            os.environ.pop("WAYLAND_DISPLAY", None)
+            with self.assertRaisesRegex(Refusal, "needs a display"):
+                options.parse(["--device", "mouse"])
 
 
 class Refusals(LauncherTest):
@@ -803,6 +878,8 @@ class Refusals(LauncherTest):
         self.check_refused("--secure", about="--secure")
         self.check_refused("--domain", "500", about="500")
         self.check_refused("--rate-hz", "0", about="--rate-hz")
+        self.check_refused("--record", "0", about="--record")
+        self.check_refused("--ui-scale", "9", about="--ui-scale")
         self.check_refused("--frobnicate", about="--frobnicate")
 
     def test_what_a_node_refuses(self):

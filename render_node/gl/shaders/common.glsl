@@ -1,7 +1,10 @@
 // Shared by all fragment shaders: lights, shadow, the room that wet surfaces mirror, and the film.
-// SOFT_SHADOWS is defined for fine frames (software OpenGL runs both sides of every branch).
+// SOFT_SHADOWS is defined for fine frames (software OpenGL runs both sides of every branch), NO_SHADOWS for coarse ones,
+// PER_VERTEX where a vertex shader computes light.
 uniform vec3 eye;            // in W, m
-uniform vec3 towards_key;    // unit, in W
+uniform vec3 far_key;        // towards the key light, unit, in W
+uniform vec3 lamp;           // of a scope, in W, m
+uniform float lamp_reach;    // where it is as bright as the key light, m; 0: that is far away
 uniform mat4 light_from_W;   // clip coordinates of the shadow map
 uniform sampler2DShadow shadow_map;
 uniform vec2 picture_size;   // pixels
@@ -12,8 +15,24 @@ uniform float unit_length;   // radius of what is looked at, m
 const float pi = 3.14159265;
 
 // Radiance scale of the two lights, chosen so that lit tissue lands in the middle of the film's curve.
-const vec3 key_colour = vec3(3.45, 3.24, 2.97);
+const vec3 key_radiance = vec3(3.45, 3.24, 2.97);
 const vec3 fill_colour = vec3(0.46, 0.49, 0.52);
+
+// A scope's light, of the key light's: it meets all that is seen head-on, so less is enough; at most so much brighter nearby (its
+// camera dims it), and how it falls off towards the rim of its cone. Light from all around is what red tissue sends back.
+const float lamp_share = 0.62, lamp_most = 2.4, lamp_cone = 1.5;
+const vec3 ambient_in_body = vec3(0.62, 0.34, 0.28);
+
+// The key light here: towards it, and its radiance. Every main() that is lit begins with aim_key().
+vec3 towards_key = far_key, key_colour = key_radiance;
+void aim_key(vec3 p_W) {
+  if (lamp_reach == 0.0) return;
+  vec3 to_lamp = lamp - p_W;
+  float away = length(to_lamp);
+  towards_key = to_lamp / away;
+  float nearness = lamp_reach / away;
+  key_colour *= lamp_share * min(nearness * nearness, lamp_most) * pow(max(dot(towards_key, far_key), 0.0), lamp_cone);
+}
 
 // The backdrop: how fast it falls off from behind the organ (per squared height of the picture), its height there, and
 // its colours at the rim and in the middle, on a table and inside a body.
@@ -55,18 +74,25 @@ vec3 backdrop(vec2 pixel) {
   return mix(mix(table_rim, table_middle, fall), mix(cavity_rim, cavity_middle, fall), scope);
 }
 
-// Linear light to display: a filmic curve (Narkowicz 2015, a fit of ACES), the display's gamma (2: a square root is
-// a tenth of a power's cost in software), and half a step of grain against banding.
-vec3 film(vec3 x) {
+// Linear light to display: a filmic curve (Narkowicz 2015, a fit of ACES), and the display's gamma (2: a square root is
+// a tenth of a power's cost in software).
+vec3 developed(vec3 x) {
   x *= exposure;
-  x = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-  return sqrt(x) + (grain(gl_FragCoord.xy) - 0.5) / 255.0;
+  return sqrt(clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0));
 }
+
+#ifndef PER_VERTEX
+// The same with half a step of grain against banding.
+vec3 film(vec3 x) { return developed(x) + (grain(gl_FragCoord.xy) - 0.5) / 255.0; }
 
 // How much of the key light arrives. The point is moved along its normal against self-shadowing.
 float lit(vec3 p_W, vec3 n, float n_dot_l) {
+#ifdef NO_SHADOWS
+  return 1.0;
+#else
   vec3 q = p_W + n * unit_length * mix(lift_grazing, lift_facing, clamp(n_dot_l, 0.0, 1.0));
-  vec3 s = (light_from_W * vec4(q, 1.0)).xyz * 0.5 + 0.5;
+  vec4 in_light = light_from_W * vec4(q, 1.0);
+  vec3 s = in_light.xyz / in_light.w * 0.5 + 0.5;
 #ifdef SOFT_SHADOWS
   // the points of a sunflower disc, turned from pixel to pixel
   float turn = 2.0 * pi * grain(gl_FragCoord.xy);
@@ -83,7 +109,9 @@ float lit(vec3 p_W, vec3 n, float n_dot_l) {
   // the map's edge is never seen: shadows fade out before it
   vec2 off = abs(s.xy - 0.5) * 2.0;
   return mix(arrives, 1.0, smoothstep(shadow_fade, 1.0, max(off.x, off.y)));
+#endif
 }
+#endif
 
 // The room as a smooth surface mirrors it: dark floor, dim walls, a wide soft box around the key light and a strip.
 vec3 room(vec3 direction, float blur) {

@@ -7,6 +7,7 @@ uniform vec3 material_colour;
 out vec4 colour;
 
 void main() {
+  aim_key(p_W);
   float nl = max(dot(n_W, towards_key), 0.0);
   float shade = lit(p_W, vec3(0.0, 0.0, 1.0), nl);
   vec3 light = key_colour * nl * shade * mix(openness, 1.0, 0.4) + vec3(0.62, 0.69, 0.76) * openness;

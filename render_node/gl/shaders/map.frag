@@ -10,6 +10,7 @@ out vec4 colour;
 const float ambient = 0.55, key_share = 0.16, fill_share = 0.7;
 
 void main() {
+  aim_key(p_W);
   vec3 n = normalize(n_W);
   vec3 v = normalize(eye - p_W);
   float place = clamp(share, 0.0, 1.0) * 4.0;

@@ -7,6 +7,7 @@ in vec3 n_W;
 in vec3 rest;
 in float openness;
 in float charring;
+in float pallor;
 uniform sampler3D pattern;   // rgb: gradient (0.5 is none), a: value of a smooth noise
 uniform vec3 material_colour;
 uniform float material_roughness;
@@ -75,6 +76,10 @@ const vec3 artery_tint = vec3(0.25, 0.035, 0.028), vein_tint = vec3(0.090, 0.034
 const float vein_beside = 3.4;  // half widths
 const vec3 film_tint = vec3(0.37, 0.185, 0.130);
 const float fat_reach = 0.2;    // of the way from a branch to the next
+// How much of what lies behind is hidden by film, fat and vessels, seen straight on; along the sheet light goes through more.
+const float film_hides = 0.52, fat_hides = 0.90, vessel_hides = 0.92, along_hides = 0.55;
+// Light from the other side comes through, reddened, most where there is no fat.
+const vec3 through_film = vec3(0.50, 0.33, 0.26), through_fat = vec3(0.20, 0.13, 0.07);
 const float lobe_period = 0.026, lobe_slope = 0.34, lobe_weight = 0.45;
 
 // How far along the gut a place is from the nearest branch, m, and from the next one, as the share of half their distance.
@@ -95,6 +100,10 @@ const float mottle_weight = 1.2, grain_weight = 0.8, contrast = 0.20;
 const float mottle_weight = 1.7, grain_weight = 0.8, contrast = 0.38;
 #endif
 const vec3 blood_tint = vec3(0.78, 0.74, 1.15);
+
+// Without blood light goes farther before it comes out. What a colour lacks of white is absorbed along the way: half the
+// absorption is its square root. So much of that is seen where all blood is gone: the tissue itself stays.
+const float bloodless = 0.8;
 
 const vec3 shade_light = vec3(0.15, 0.04, 0.03);  // of the key light, through the tissue beside a shadow
 
@@ -119,6 +128,7 @@ vec3 wrapped(float n_dot_l) {
 }
 
 void main() {
+  aim_key(p_W);
   vec4 mottle = texture(pattern, rest / mottle_period);
   vec4 fine = texture(pattern, rest / grain_period);
   vec3 v = normalize(eye - p_W);
@@ -156,8 +166,10 @@ void main() {
   float fat = 1.0 - smoothstep(fat_reach, 1.1, off.y + 0.8 * (lobes.a - 0.5));
   albedo = mix(film_tint, albedo, fat);
   float blur = fwidth(bent.x) + 0.0001, beside = off.x - vein_beside * width;
-  albedo = mix(vein_tint, albedo, 0.35 + 0.65 * smoothstep(width, width + blur, abs(beside)));
-  albedo = mix(artery_tint, albedo, 0.25 + 0.75 * smoothstep(width, width + blur, abs(off.x)));
+  float off_vein = smoothstep(width, width + blur, abs(beside)), off_artery = smoothstep(width, width + blur, abs(off.x));
+  albedo = mix(vein_tint, albedo, 0.35 + 0.65 * off_vein);
+  albedo = mix(artery_tint, albedo, 0.25 + 0.75 * off_artery);
+  float hides = mix(vessel_hides, mix(film_hides, fat_hides, fat), min(off_vein, off_artery));
 #endif
 #ifdef BARED
   albedo *= 1.0 + lobule_weight * (lobules.a - 0.5);
@@ -167,6 +179,7 @@ void main() {
   albedo = mix(wall_tint, albedo, smoothstep(-blur, blur, off));
   albedo = mix(lumen_tint, albedo, smoothstep(-blur, blur, off + vessel_wall));
 #endif
+  albedo = mix(albedo, sqrt(albedo), bloodless * pallor);
   float wet = material_roughness * (smoothest + roughened * mottle.a);
   float mirroring = 1.0;
 #ifdef CUT
@@ -181,13 +194,16 @@ void main() {
   float shade = lit(p_W, n0, dot(n0, towards_key));
   vec3 light = key_colour * wrapped(dot(n_soft, towards_key)) * mix(shade_light, vec3(1.0), shade);
   float nv = clamp(dot(n_soft, v), 0.0, 1.0);
+#ifdef SHEET
+  light += key_colour * mix(through_film, through_fat, fat) * shade * max(0.0, -dot(n_soft, towards_key));
+#endif
   float torch = clamp(unit_length * torch_sight / distance(eye, p_W), 0.0, torch_most);
   light += fill_colour * torch * nv;
 
   // ambient: cool from above, warm from the neighbouring tissue below; what a hollow keeps is redder
   float above = n_soft.z * 0.5 + 0.5;
   vec3 open = pow(vec3(openness), hollow_power);
-  light += mix(ambient_below, ambient_above, above) * open;
+  light += mix(ambient_below, ambient_above, above) * open * mix(vec3(1.0), ambient_in_body, scope);
   vec3 body = albedo * light * mix(vec3(1.0), open, hollow_share);
 
   // the film of water: sharp glints of both lights and a mirror of the room, strongest at grazing angles
@@ -198,5 +214,11 @@ void main() {
   vec3 mirror = room(reflect(-v, n), mirror_blur) * (mirror_straight + mirror_grazing * grazing);
   mirror *= openness * openness * mix(mirror_in_shade, 1.0, shade) * mirroring;
 
+#ifdef SHEET
+  // what shines on the film is not less for the film's being thin
+  float shine = clamp(dot(glint + mirror, vec3(0.33)), 0.0, 1.0);
+  colour = vec4(film(body + glint + mirror), max(mix(hides, 1.0, along_hides * (1.0 - nv)), shine));
+#else
   colour = vec4(film(body + glint + mirror), 1.0);
+#endif
 }

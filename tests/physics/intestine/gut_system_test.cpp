@@ -56,6 +56,26 @@ TEST_F(FallenGut, AResetGoesBackToTheStartAndRunsAsThen) {
   EXPECT_EQ(gut.state().x, first);
 }
 
+// Of a search by chance too: what it follows would take many steps to be found again.
+TEST_F(FallenGut, WhatTakesItUpGoesOnAsItDoes) {
+  for (const GutPairMethod method : {GutPairMethod::kComplete, GutPairMethod::kStochastic}) {
+    const auto make = [&] {
+      return GutSystem(test::curtain({4, 60}, 1.5), {.mesentery_stretch_n_m = 300}, {.method = method}, {});
+    };
+    GutSystem gut = make(), other = make();
+    step(gut, 200);
+    other.take_up(gut);
+    step(gut, 5);
+    step(other, 5);
+    ASSERT_GT(gut.report().collisions.contacts, 20);
+    EXPECT_EQ(other.report().collisions.contacts, gut.report().collisions.contacts);
+    double apart_m = 0;
+    for (std::size_t m = 0; m < gut.state().x.size(); ++m)
+      apart_m = std::max(apart_m, (gut.state().x[m] - other.state().x[m]).norm());
+    EXPECT_LT(apart_m, 1e-9);
+  }
+}
+
 TEST_F(FallenGut, StepsAllocateNothing) {
   for (const GutMethod method : {GutMethod::kProjective, GutMethod::kExplicit}) {
     GutSystem gut = fresh({.method = method, .step_s = method == GutMethod::kExplicit ? 2e-5 : 5e-3});
