@@ -18,7 +18,8 @@ namespace {
 using geometry::TetId;
 
 constexpr double kReach_m = 0.02, kMostForce_n = 20;
-constexpr double kRounding = 1e-4;  // of forces that are told in float
+constexpr double kMostWay_m = 2e-3;  // of a tick of 10 ms: 0.2 m/s, a fast hand in a body
+constexpr double kRounding = 1e-4;   // of forces that are told in float
 
 class Trial {
  public:
@@ -62,7 +63,10 @@ class Trial {
   void tick() {
     const CutStroke blade = stroke();
     const bool cuts = any(3) == 0;
-    if (any(60) == 0) model_->reset();
+    if (any(60) == 0) {
+      model_->reset();
+      let_go();  // what was said of the organ before is refused (contact_book.h)
+    }
     if (any(60) == 0) compare_taken_up();
     const ToolLoad load{.tool = 0, .nodes = pressed_, .displacements = places_, .forces = forces_};
     model_->step({.presses = {&load, pressed_.empty() ? 0U : 1U}, .cuts = {&blade, cuts ? 1U : 0U}}, kTick_s);
@@ -95,13 +99,19 @@ class Trial {
     const auto n = static_cast<std::size_t>(any(static_cast<int>(patch_.node_count)));
     const std::size_t rows = 3 * patch_.node_count, first = 3 * n;
     const double yield = patch_.compliance[first * rows - first * (first + 1) / 2 + first];
-    const NodeId node(static_cast<std::size_t>(patch_.nodes[n]));
+    const NodeId node = node_at(patch_.nodes[n]);
     const Vec3 u = patch_.positions[n] - organ_.mesh.positions[node];
-    const double force_n = std::clamp((organ_.depth_m - u.x()) / yield, -kMostForce_n, kMostForce_n);
+    const double way_m = std::clamp(organ_.depth_m - u.x(), -kMostWay_m, kMostWay_m);
+    const double force_n = std::clamp(way_m / yield, -kMostForce_n, kMostForce_n);
     if (organ_.fixed[node] != 0 || any(10) == 0) return let_go();
     pressed_ = {node};
     forces_ = {Vec3(patch_.forces[n] + Vec3(force_n, 0, 0))};
     places_ = {Vec3(u + Vec3(force_n * yield, 0, 0))};
+  }
+  // A patch names nodes by their place in the mesh's file.
+  NodeId node_at(std::uint32_t place) const {
+    const auto& file_node = organ_.mesh.file_node;
+    return NodeId(static_cast<std::size_t>(std::ranges::find(file_node, place) - file_node.begin()));
   }
   void let_go() {
     pressed_.clear();

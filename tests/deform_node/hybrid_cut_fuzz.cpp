@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   const int sequences = argc > 1 ? std::atoi(argv[1]) : 200;
   const int first = argc > 2 ? std::atoi(argv[2]) : 0;
   const auto all = organs();
+  int failed = 0;
   for (int i = 0; i < sequences && !all.empty(); ++i) {
     const std::size_t mesh = static_cast<std::size_t>(i) % all.size();
     const char* law = i / static_cast<int>(all.size()) % 2 == 0 ? "corotational" : "linear";
@@ -59,9 +60,9 @@ int main(int argc, char** argv) {
         deform::try_hybrid_cuts(*all[mesh], law, static_cast<std::uint32_t>(first + i), kTicks);
     if (wrong.empty()) continue;
     std::printf("mesh %zu, %s, seed %d: %s\n", mesh, law, first + i, wrong.c_str());
-    return 1;
+    ++failed;
   }
-  std::printf("%d cut sequences over %zu meshes: finite, bounded, manifold, nothing precomputed gone\n",
-              sequences, all.size());
-  return 0;
+  std::printf("%d of %d cut sequences over %zu meshes: finite, bounded, manifold, nothing precomputed gone\n",
+              sequences - failed, sequences, all.size());
+  return failed == 0 ? 0 : 1;
 }
