@@ -59,8 +59,8 @@ class RenderLoop {
   void run();
   /// After run(): the node's object of report.json, and `closed`: whether a person closed the
   /// window, `deepest_dent_m` (dent.h), `unmatched_states` (inbox.h), `removed_tetrahedra` of the newest
-  /// picture, `picture` (picture_account.h), `videos` (video_recorder.h) and, where the scene names an organ to
-  /// expose, `exposed_share` (exposure_score.h), where it scores its camera `camera` (camera_score.h), and
+  /// picture, `picture` (picture_account.h), `videos` (video_recorder.h) and, where the scene names an organ
+  /// to expose, `exposed_share` (exposure_score.h), where it scores its camera `camera` (camera_score.h), and
   /// where its tools have trocars `trocars` (trocar_watch.h).
   nlohmann::json report() const;
   /// After run(), and after the report: throws std::runtime_error when lines of the log or pictures were

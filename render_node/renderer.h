@@ -70,7 +70,7 @@ struct Material {
   float metalness = 0;
   float roughness = 0.5f;
   Vec3f glow = Vec3f::Zero();  // light that a kSolid gives off by itself
-  float opacity = 1;  // of smoke
+  float opacity = 1;           // of smoke
 };
 
 struct DrawItem {

@@ -28,9 +28,9 @@ struct DynamicsSpec {
   double cut_delay_s = 0.05;
   double cut_rate_per_s = 1000;
   double smallest_piece_m3 = 0;  // loose pieces below this are dropped
-  std::string dynamic_part;    // of a hybrid organ that is built of a mesh, as organ_build --dynamic takes it
+  std::string dynamic_part;  // of a hybrid organ that is built of a mesh, as organ_build --dynamic takes it
   std::string law;           // of a hybrid organ's dynamic part: "linear" or "corotational"; else empty
-  std::string where;           // FILE:LINE of the step or of the organ, for what only its mesh can tell
+  std::string where;         // FILE:LINE of the step or of the organ, for what only its mesh can tell
 };
 
 }  // namespace omentum::scene
