@@ -78,7 +78,10 @@ function(omentum_library name)
   target_compile_features(omentum_${name} PUBLIC cxx_std_20)
   target_compile_options(omentum_${name} PRIVATE ${OMENTUM_WARNINGS})
   target_precompile_headers(omentum_${name} REUSE_FROM ${OMENTUM_PRECOMPILED})
-  omentum_unity(omentum_${name})
+  # what a program takes of a library would drag along what stands beside it, and the libraries that this needs
+  if(OMENTUM_SANITIZE STREQUAL "address")
+    omentum_unity(omentum_${name})
+  endif()
 endfunction()
 
 # omentum_native(sources...): files that hold nothing but numeric kernels on raw pointers. Only

@@ -32,11 +32,11 @@ void require_blas_memory(const char* program, int callers) {
   std::_Exit(kExitRefused);
 }
 
-std::string fast_blas_note() {
+void tell_fast_blas(const char* program) {
   const char* const chose = std::getenv(kChose);
-  if (chose == nullptr) return {};
-  return std::string("OpenBLAS does not know this processor and chose its ") + chose +
-         " kernels: started anew with " + kAsked + "=" + std::getenv(kAsked);
+  if (chose == nullptr) return;
+  std::cerr << program << ": OpenBLAS does not know this processor and chose its " << chose
+            << " kernels: started anew with " << kAsked << "=" << std::getenv(kAsked) << std::endl;
 }
 
 }  // namespace omentum::organ_tools

@@ -1,7 +1,6 @@
 // OpenBLAS with the kernels of the processor at hand.
 #pragma once
 
-#include <string>
 
 namespace omentum::organ_tools {
 
@@ -15,7 +14,8 @@ void start_with_fast_blas(char** argv);
 /// After start_with_fast_blas.
 void require_blas_memory(const char* program, int callers);
 
-/// Says that it happened, in a line; empty when it did not.
-std::string fast_blas_note();
+/// Says that it happened, in a line on stderr; nothing when it did not. To be called once the work is done: a
+/// refusal is one line.
+void tell_fast_blas(const char* program);
 
 }  // namespace omentum::organ_tools

@@ -84,8 +84,6 @@ void build(const organ_tools::BuildCommand& command) {
   if (const std::string warning = physics::blas_warning(); !warning.empty()) warn(warning);
   organ_tools::ProgressLine progress("organ_build");
   const organ::Organ organ = read_organ(command);
-  if (const std::string note = organ_tools::fast_blas_note(); !note.empty())
-    std::cerr << "organ_build: " << note << std::endl;
 
   organ::BuildOptions options;
   options.force = command.force;
@@ -93,6 +91,7 @@ void build(const organ_tools::BuildCommand& command) {
   options.on_progress = [&](const std::string& stage, double fraction) { progress(stage, fraction); };
   options.stopped = organ_tools::interrupted;
   print_summary(organ, organ::build_organ(organ, command.output, options), command.output);
+  organ_tools::tell_fast_blas("organ_build");
 }
 
 }  // namespace

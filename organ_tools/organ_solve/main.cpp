@@ -113,13 +113,12 @@ void solve(const SolveCommand& command) {
   if (!command.imposed.empty())
     imposed = organ_tools::read_imposed(command.imposed, organ, command.numbering);
   const organ_tools::CutOrgan cut = cut_of(command, organ, imposed);
-  if (const std::string note = organ_tools::fast_blas_note(); !note.empty())
-    std::cerr << "organ_solve: " << note << std::endl;
   std::string warning;
   const physics::StaticSolution solution = answer(command, organ, cut, imposed, gravity, warning);
   organ_tools::require_sensible(organ, imposed, solution, command.numbering);
   if (!warning.empty()) std::cerr << "organ_solve: warning: " << warning << std::endl;
   organ_tools::write_solution(command.prefix, organ, imposed, solution, command.numbering);
+  organ_tools::tell_fast_blas("organ_solve");
 }
 
 }  // namespace

@@ -65,14 +65,6 @@ INSTANTIATE_TEST_SUITE_P(Vendors, HapticNodeTest,
                                   (test.param.second == transport::Vendor::kFast ? "ToFast" : "ToCyclone");
                          });
 
-// What no node obeys must not look as if it had been done.
-TEST(SessionProgram, RecordIsRefusedUntilItExists) {
-  test::Process command("omentum_session", {"record"});
-  EXPECT_EQ(command.wait(), 2);
-  EXPECT_TRUE(command.messages().starts_with("omentum_session: ")) << command.messages();
-  EXPECT_NE(command.messages().find("record"), std::string::npos) << command.messages();
-}
-
 TEST(HapticNodeStart, BadInputIsOneLineAndExitCodeTwo) {
   test::expect_bad_starts_refused("haptic_node");
 }
