@@ -6,6 +6,7 @@
 namespace omentum::render {
 namespace {
 
+constexpr const char* kNumbered = "frame_";
 constexpr double kDeeper = 1.05;          // a picture of less is not worth writing
 constexpr double kShallowest_m = 0.0005;  // below half a millimetre nothing would be seen
 constexpr double kIndentPeriod_s = 1;     // reading back and writing costs a frame or two
@@ -21,11 +22,15 @@ bool PictureSchedule::indent_due(double time_s, double dent_m) const {
   return indent_m_ == 0 || time_s - indent_written_s_ >= kIndentPeriod_s;
 }
 
+Quality PictureSchedule::quality(const std::string& name) const {
+  return dear_ && name.starts_with(kNumbered) ? Quality::kPlain : Quality::kFine;
+}
+
 PicturesDue PictureSchedule::due(double time_s, double dent_m) {
   PicturesDue due;
   if (frame_due(time_s)) {
     std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "frame_%04d.png", ++frames_);
+    std::snprintf(name.data(), name.size(), "%s%04d.png", kNumbered, ++frames_);
     due.numbered = name.data();
     next_s_ = time_s + period_s_;
   }

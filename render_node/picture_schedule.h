@@ -1,8 +1,9 @@
 // Which frames become pictures on disk.
 #pragma once
 
+#include "render_node/renderer.h"
+
 #include <string>
-#include <vector>
 
 namespace omentum::render {
 
@@ -21,8 +22,15 @@ class PictureSchedule {
 
   /// `dent_m`: depth of the deepest dent in this frame (dent.h). Times must not decrease.
   PicturesDue due(double time_s, double dent_m);
+  /// What a frame with pictures cost, s.
+  void took(double cost_s) { dear_ = dear_ || cost_s > kDear_s; }
+  /// Of the picture of that name: where fine ones are dear, numbered ones are plain.
+  Quality quality(const std::string& name) const;
 
  private:
+  // A program that draws takes this from the organ, which then falls behind the clock.
+  static constexpr double kDear_s = 0.6;
+
   bool frame_due(double time_s) const;
   bool indent_due(double time_s, double dent_m) const;
 
@@ -31,6 +39,7 @@ class PictureSchedule {
   double next_s_ = 0;
   double indent_m_ = 0;  // in indent.png
   double indent_written_s_ = 0;
+  bool dear_ = false;
 };
 
 }  // namespace omentum::render

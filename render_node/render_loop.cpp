@@ -22,9 +22,8 @@ constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and
                                                   // follow them, within seconds
 constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
 // The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
-constexpr double kDuty = 0.6;
-constexpr double kSettled_s =
-    3;  // the frame rate's control has found its level, and the other nodes are there
+constexpr double kDuty = 0.5;
+constexpr double kSettled_s = 3;  // the frame rate's control has found its level, and the others are there
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
@@ -207,7 +206,8 @@ void RenderLoop::draw(const std::string& picture) {
   seen_ = frame.view;
   const PointerRays& mouse = pointer_->rays();
   if (mouse.drives()) feel_ring_.add(watch_.tools()[mouse.tool()], max_force_n_, frame);
-  frame.quality = picture.empty() ? control_.quality() : Quality::kFine;
+  frame.quality = picture.empty() ? control_.quality() : schedule_.quality(picture);
+  view_.order_translucent(frame);
   renderer_.draw(frame);
   if (!picture.empty()) writer_->write(renderer_.read_back(), picture);
   if (recorder_.due(seconds_since_begin(pace_.now_ns()))) recorder_.take(renderer_.read_back());
@@ -218,8 +218,8 @@ void RenderLoop::finish_frame(std::int64_t begin_ns, bool for_disk) {
   const std::int64_t end_ns = pace_.now_ns();
   account_.finish(end_ns);
   if (log_) log_->push({begin_ns, account_.last_period_ns(), account_.last_compute_ns(), 0});
-  if (!for_disk)
-    control_.record(seconds_since_begin(begin_ns), 1e-9 * static_cast<double>(end_ns - begin_ns));
+  const double cost_s = 1e-9 * static_cast<double>(end_ns - begin_ns);
+  for_disk ? schedule_.took(cost_s) : control_.record(seconds_since_begin(begin_ns), cost_s);
   watch_.shown(*inbox_, end_ns);
   if (end_ns >= next_status_ns_) tell_status(end_ns);
 }

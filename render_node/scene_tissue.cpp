@@ -1,4 +1,5 @@
 // What time, presses and cuts change of what the renderer holds of organs.
+#include "render_node/draw_order.h"
 #include "render_node/scene_view.h"
 
 namespace omentum::render {
@@ -37,12 +38,13 @@ void SceneView::show_cut(DrawnOrgan& organ) {
     organ.blood = renderer_.add_mesh(*blood);
 }
 
-void SceneView::order_translucent(const Vec3f& eye) const {
+void SceneView::order_translucent(const Frame& frame) {
+  if (blended_looks(frame.quality).empty()) return;
   for (const DrawnOrgan& organ : organs_) {
     const std::vector<OrganPart> parts = organ.drawing->parts();
     for (std::size_t p = 0; p < parts.size(); ++p)
       if (parts[p].look == Look::kMesentery)
-        renderer_.update_triangles(organ.parts[p], 0, back_to_front_.order(*parts[p].mesh, eye));
+        renderer_.update_triangles(organ.parts[p], 0, back_to_front_.order(*parts[p].mesh, frame.view.eye));
   }
 }
 

@@ -220,7 +220,6 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.wires = choices.wires;
-  order_translucent(frame.view.eye);
   frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
   for (const DrawnOrgan& organ : organs_) add_organ(organ, choices, frame);
   for (std::size_t t = 0; t < tools.size(); ++t) {

@@ -84,6 +84,9 @@ class SceneView {
   /// `tools`: as many as the scene's, in its order. `panel_share`: of the width, covered on the left.
   Frame frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const;
 
+  /// Before the frame is drawn: what light goes through, the farthest first as it sees it.
+  void order_translucent(const Frame& frame);
+
   /// What a picture of a dent shows: the same scene from nearby, without the panel.
   Frame close_up(const Dent& dent, const ViewChoices& choices, std::span<const ToolNow> tools) const;
 
@@ -133,7 +136,6 @@ class SceneView {
   Outline outline() const;
   void send_vertices(DrawnOrgan& organ);
   void show_cut(DrawnOrgan& organ);
-  void order_translucent(const Vec3f& eye) const;  // what is drawn of it with the next frame
   const PressedSurface* touched_surface(const ToolNow& tool) const;
   Ball shadow_ball() const;  // what the shadow map covers
   Camera camera(const ViewChoices& choices, std::span<const ToolNow> tools) const;
@@ -154,7 +156,7 @@ class SceneView {
   MeshData drape_;  // the ground's
   MeshId ground_{}, arrow_shaft_{}, arrow_head_{}, marker_{}, puff_{};
   Smoke smoke_;
-  mutable BackToFront back_to_front_;  // workspace
+  BackToFront back_to_front_;  // workspace
 };
 
 }  // namespace omentum::render

@@ -49,12 +49,13 @@ TEST(BackToFront, AFrameHasTheMesenteryOfItsOwnView) {
   std::vector<std::unique_ptr<OrganDrawing>> organs;
   organs.push_back(make_tube_drawing(test::gut_shape(30), tissue_material("gut")));
   RecordingRenderer renderer;
-  const SceneView view({}, std::move(organs), renderer);
+  SceneView view({}, std::move(organs), renderer);
   ViewChoices choices;
   choices.orbit = view.first_camera();
   for (const double height : {0.2, -0.3}) {
     choices.orbit.eye.z() += height;
     const Frame frame = view.frame(choices, {}, 0);
+    view.order_translucent(frame);
     const auto sheet = std::ranges::find(frame.items, Look::kMesentery, &DrawItem::look);
     ASSERT_NE(sheet, frame.items.end());
     const MeshData& mesh = renderer.mesh_of(*sheet);

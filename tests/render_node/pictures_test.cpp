@@ -19,6 +19,16 @@ TEST(PictureSchedule, NumbersFramesByPeriod) {
   EXPECT_EQ(schedule.due(9.0, 0).numbered, "frame_0003.png") << "one at a time after a pause";
 }
 
+TEST(PictureSchedule, WhereFinePicturesAreDearNumberedOnesArePlain) {
+  PictureSchedule schedule(2);
+  schedule.took(0.4);
+  EXPECT_EQ(schedule.quality("frame_0001.png"), Quality::kFine);
+  schedule.took(1.2);
+  schedule.took(0.1);
+  EXPECT_EQ(schedule.quality("frame_0002.png"), Quality::kPlain);
+  EXPECT_EQ(schedule.quality("final.png"), Quality::kFine);
+}
+
 TEST(PictureSchedule, DeepestDentIsTakenAgainWhenDeeper) {
   PictureSchedule schedule(0);
   EXPECT_FALSE(schedule.due(0, 0.0001).indent) << "nothing to see";

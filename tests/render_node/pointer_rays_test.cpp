@@ -33,6 +33,7 @@ PointerRays rays_of(const std::vector<std::string>& names) {
     scene::ToolSpec& tool = scene.tools.emplace_back();
     tool.id = static_cast<std::uint32_t>(10 + scene.tools.size());
     tool.name = name;
+    if (name == "endoscope") tool.scope.emplace();
   }
   PointerRays rays(scene);
   rays.drive(true);
