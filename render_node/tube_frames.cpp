@@ -25,8 +25,8 @@ std::size_t stride_of(std::span<const geometry::Vec3> rest, double radius_m) {
   geometry::require(rest.size() >= kFewestPoints, "three masses of an axis");
   const double spacing = length_of(rest) / static_cast<double>(rest.size() - 1);
   const double wanted = spacing > 0 ? std::floor(kClosest * radius_m / spacing) : 1;
-  const auto most = static_cast<double>((rest.size() - 1) / (kFewestPoints - 1));
-  return static_cast<std::size_t>(std::clamp(wanted, 1.0, most));
+  const std::size_t most = (rest.size() - 1) / (kFewestPoints - 1);
+  return static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(most)));
 }
 
 // Of so many masses, the last one always.

@@ -95,7 +95,8 @@ TEST_F(WarpedHybridTest, WhatIsPulledTurnedAndLetGoGainsNoEnergy) {
   double before = 0, most = 0;
   for (int i = 0; i < 500; ++i) {
     if (i % 100 == 50) {
-      ASSERT_TRUE(part.remove({&beam.split.dynamic.tetrahedron[static_cast<std::size_t>(i / 4)], 1}));
+      ASSERT_TRUE(
+          part.remove({&beam.split.dynamic.tetrahedron.at(static_cast<std::size_t>(i / 50 + 12)), 1}));
     }
     before = std::min(before, energy(beam, part, state));  // what is cut takes its energy along
     const Values& external = i < 100 ? pull : nothing;
