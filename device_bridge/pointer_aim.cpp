@@ -10,6 +10,10 @@ namespace {
 constexpr double kUnitSlack = 1e-3;    // of lengths and cosines: rays are computed in single precision
 constexpr double kLeastForward = 0.1;  // cosine of a ray with the middle of the view: 84 degrees
 
+// Beyond these a ray is a fault of whoever sent it, and sums of such numbers are none: nobody looks at an
+// organ from a kilometre away, m, nor turns a wheel by a million steps.
+constexpr double kFarthestEye_m = 1e3, kMostWheel = 1e6;
+
 bool is_unit(const msg::Vec3& v) {
   return std::abs(from_message(v).norm() - 1) < kUnitSlack;  // false for what is not finite
 }
@@ -31,7 +35,9 @@ struct Sight {
 
 bool is_ray(const msg::PointerRay& ray) noexcept {
   if (!is_unit(ray.direction) || !is_unit(ray.right) || !is_unit(ray.up)) return false;
-  if (!from_message(ray.origin).allFinite() || !std::isfinite(ray.wheel)) return false;
+  // false for what is not finite
+  if (!(from_message(ray.origin).norm() <= kFarthestEye_m) || !(std::abs(ray.wheel) <= kMostWheel))
+    return false;
   const Vec3 right = from_message(ray.right), up = from_message(ray.up);
   return std::abs(right.dot(up)) < kUnitSlack &&
          up.cross(right).dot(from_message(ray.direction)) > kLeastForward;

@@ -67,7 +67,7 @@ class PointerAim {
   std::int64_t before_ns_ = 0;
 };
 
-/// Whether every number of it can be used.
+/// Whether every number of it can be used: finite, unit vectors, nothing beyond all meaning.
 bool is_ray(const msg::PointerRay& ray) noexcept;
 
 }  // namespace omentum::device

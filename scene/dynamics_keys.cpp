@@ -7,7 +7,6 @@ namespace {
 
 using enum TomlSection::Need;
 
-// No picture shows steps that are longer, and a hand would feel them.
 // Numbers of a mesh are good to 1e-12; a limit that a breath of load passes would let all tissue go at rest.
 constexpr Range kLimit{.minimum = 1e-3};
 constexpr Range kStress_pa{.minimum = 1};

@@ -9,7 +9,6 @@ namespace {
 
 using enum TomlSection::Need;
 
-// No picture shows steps that are longer, and a hand would feel them.
 // A session's memory and a state's message end somewhere: four metres in masses a millimetre apart.
 constexpr std::uint32_t kMostRows = 16, kMostColumns = 4000;
 // A wall that gives way more than its own thickness under a breath, or no more than bone does.

@@ -2,7 +2,7 @@
 // meanwhile, over three meshes and both laws: minutes, where deform_hybrid_test takes a second.
 //   hybrid_cut_fuzz [SEQUENCES [FIRST_SEED]]     200 from 0 by default; exit code 1: something is wrong
 #include "tests/deform_node/hybrid_cut_trials.h"
-#include "tests/support/meshes.h"
+#include "tests/support/real_mesh.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -36,12 +36,7 @@ std::vector<std::unique_ptr<test::HybridOrgan>> organs() {
   for (const auto& [name, unit_m] : {RealMesh{"tet/sofa_liver2.msh", 0.02},
                                      {"tet/sofa_liver.msh", 0.02},
                                      {"tet/sofaenv_gallbladder.vtk", 0.02}}) {
-    const std::filesystem::path file = test::data_file(name);
-    if (std::filesystem::exists(file)) {
-      all.push_back(halved(geometry::check_mesh(geometry::read_mesh(file), unit_m).mesh));
-    } else {
-      std::printf("%s is absent and left out\n", file.c_str());
-    }
+    if (auto mesh = test::real_mesh(name, unit_m)) all.push_back(halved(std::move(*mesh)));
   }
   return all;
 }

@@ -2,7 +2,7 @@
 // minutes, where deform_static_test takes a second.
 //   static_cut_fuzz [SEQUENCES [FIRST_SEED]]     200 from 0 by default; exit code 1: something is wrong
 #include "tests/deform_node/static_cut_trials.h"
-#include "tests/support/meshes.h"
+#include "tests/support/real_mesh.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -18,12 +18,7 @@ std::vector<deform::HeldOrgan> organs() {
   all.emplace_back(test::make_box_mesh(14, 5, 5, {0.14, 0.05, 0.05}), 0.001);
   for (const char* name : {"tet/sofa_liver2.msh", "tet/sofa_liver.msh"}) {
     constexpr double kUnit_m = 0.02;
-    const std::filesystem::path file = test::data_file(name);
-    if (std::filesystem::exists(file)) {
-      all.emplace_back(geometry::check_mesh(geometry::read_mesh(file), kUnit_m).mesh, 0.02);
-    } else {
-      std::printf("%s is absent and left out\n", file.c_str());
-    }
+    if (auto mesh = test::real_mesh(name, kUnit_m)) all.emplace_back(std::move(*mesh), 0.02);
   }
   return all;
 }

@@ -119,6 +119,29 @@ TEST_F(MouseHandTest, APointerThatIsThrownMovesTheTipAsAHandWould) {
   EXPECT_LT(farthest_step_m_, 1.2 * kFastestGlide_m_s / kMouseRate_hz);
 }
 
+// Of finite numbers too: one after the other may add up to none.
+TEST_F(MouseHandTest, RaysBeyondAllMeaningLeaveTheHandFiniteAndTheMouseInCharge) {
+  make();
+  run(0.2);
+  const msg::PointerRay good = ray_;
+  for (const double huge : {1.7e308, -1.7e308, 1e200, -1e12}) {
+    ray_.wheel = huge;
+    run(0.2);
+    ray_.origin.y = -std::abs(huge);
+    run(0.2);
+    ASSERT_TRUE(now_.position.allFinite() && now_.linear_velocity.allFinite()) << huge;
+  }
+  const std::uint64_t seq = ray_.seq;
+  ray_ = good;
+  ray_.seq = seq;
+  run(3);
+  const Vec3 before = now_.position;
+  ray_.direction = device::to_message(Vec3(Vec3(0.1, 0.48, 0).normalized()));
+  run(3);
+  EXPECT_GT((now_.position - before).norm(), 0.03) << "it still follows";
+  EXPECT_LT(farthest_step_m_, 1.2 * kFastestGlide_m_s / kMouseRate_hz);
+}
+
 TEST_F(MouseHandTest, PullsNoHarderThanItsSpringAndComesBackAtOnce) {
   make();
   run(0.1);

@@ -2,7 +2,7 @@
 // the surface looked at after every change: minutes, where mesh_editor_test takes seconds.
 //   mesh_editor_fuzz [SEQUENCES [FIRST_SEED]]     500 from 0 by default; exit code 1: something is wrong
 #include "tests/geometry/cut_trials.h"
-#include "tests/support/meshes.h"
+#include "tests/support/real_mesh.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -22,12 +22,7 @@ std::vector<Trial> trials() {
   all.push_back({"plate", test::make_box_mesh(7, 7, 1, {0.7, 0.7, 0.1})});
   all.push_back({"bar", test::make_box_mesh(12, 2, 2, {1.2, 0.2, 0.2})});
   for (const char* name : {"tet/sofa_liver.msh", "tet/sofaenv_liver_coarse.vtk"}) {
-    const std::filesystem::path file = test::data_file(name);
-    if (std::filesystem::exists(file)) {
-      all.push_back({name, geometry::check_mesh(geometry::read_mesh(file), 1e-3).mesh});
-    } else {
-      std::printf("%s is absent and left out\n", file.c_str());
-    }
+    if (auto mesh = test::real_mesh(name, 1e-3)) all.push_back({name, std::move(*mesh)});
   }
   return all;
 }
