@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iostream>
 #include <stdexcept>
 
 namespace omentum::render {
@@ -152,8 +152,9 @@ void RenderLoop::frame(bool last) {
   const Input input = pointer_->share(renderer_.begin_frame(), seen_, watch_.tools(), begin_ns);
   closed_ = closed_ || input.close;
   steer(input);
-  obey(actions_of(input.keys, panel_view(begin_ns)));
-  if (!options_.no_panel) obey(lay_out_panel(panel_view(begin_ns)));
+  const PanelView panel = panel_view(begin_ns);
+  obey(actions_of(input.keys, panel));
+  if (!options_.no_panel) obey(lay_out_panel(panel));
   record();
   if (due.indent) take_close_up(*dent);
   draw(due.numbered);
@@ -171,8 +172,7 @@ void RenderLoop::tell_software(double time_s) {
   told_software_ = true;
   const std::string rasterizer = renderer_.software();
   if (rasterizer.empty()) return;
-  std::printf("render_node: %s\n", software_words(rasterizer, control_).c_str());
-  std::fflush(stdout);
+  std::cout << "render_node: " << software_words(rasterizer, control_) << std::endl;
 }
 
 void RenderLoop::measure_exposure() {
