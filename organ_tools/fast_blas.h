@@ -1,7 +1,6 @@
 // OpenBLAS with the kernels of the processor at hand.
 #pragma once
 
-
 namespace omentum::organ_tools {
 
 /// Where OpenBLAS does not know the processor and chose kernels that leave its vector unit idle, starts the
