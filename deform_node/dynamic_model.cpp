@@ -61,8 +61,9 @@ DynamicModel::DynamicModel(DynamicParts parts)
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
       felt_(std::make_unique<Felt>()),
-      meeting_(std::make_unique<BodyMeeting>(mesh_, piece_gravity_ ? parts.body.inertia : inertia_,
-                                             piece_gravity_.has_value())) {
+      meeting_(std::make_unique<BodyMeeting>(
+          mesh_, piece_gravity_ ? PartedTissue::without_supports(parts.body.inertia) : inertia_,
+          piece_gravity_.has_value())) {
   felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
   felt_->ahead.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());

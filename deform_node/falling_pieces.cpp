@@ -1,5 +1,7 @@
 #include "deform_node/falling_pieces.h"
 
+#include "deform_node/parted_tissue.h"
+
 #include <algorithm>
 
 namespace omentum::deform {
@@ -8,7 +10,8 @@ using geometry::TetId;
 
 FallingPieces::FallingPieces(const SteppedBody& body, double step_s)
     : mesh_(body.mesh),
-      warped_(body.mesh, body.material, body.inertia, physics::Corotational(body.mesh, body.material),
+      warped_(body.mesh, body.material, PartedTissue::without_supports(body.inertia),
+              physics::Corotational(body.mesh, body.material),
               {.step_s = step_s, .most_compliance_nodes = BodyStepper::kPatchNodes}),
       has_node_(body.mesh.positions.size()),
       has_tetrahedron_(body.mesh.tetrahedra.size()),

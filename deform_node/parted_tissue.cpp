@@ -18,6 +18,11 @@ physics::Inertia PartedTissue::without_motion(physics::Inertia inertia) {
   return inertia;
 }
 
+physics::Inertia PartedTissue::without_supports(physics::Inertia inertia) {
+  std::ranges::fill(inertia.fixed, std::uint8_t{0});
+  return inertia;
+}
+
 std::span<const TetId> PartedTissue::find(const geometry::MeshEditor& editor) noexcept {
   found_.clear();
   std::ranges::copy_if(unheld_.find(editor), std::back_inserter(found_),
@@ -31,7 +36,7 @@ void PartedTissue::let_go(std::span<const TetId> tetrahedra, physics::Inertia& i
     is_let_go_[t] = true;
     for (const NodeId n : mesh_.tetrahedra[t]) {
       inertia.mass[n] = inertia_.mass[n];
-      inertia.fixed[n] = inertia_.fixed[n];
+      inertia.fixed[n] = 0;
       geometry::Vec3::Map(&v[3 * n]).setZero();
     }
   }

@@ -15,6 +15,10 @@ class PartedTissue {
   /// Of a body that no push moves, nor its speed: what such an organ is before it is cut.
   static physics::Inertia without_motion(physics::Inertia inertia);
 
+  /// Of a body that is let go: a support that holds a piece by a node or an edge alone lets go of it, or it
+  /// would swing on slivers that no step is exact for.
+  static physics::Inertia without_supports(physics::Inertia inertia);
+
   /// All tetrahedra of pieces that nothing holds (physics/unheld_pieces.h) and that were not let go before;
   /// valid until the next call. O(T).
   std::span<const geometry::TetId> find(const geometry::MeshEditor& editor) noexcept;
