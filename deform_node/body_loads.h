@@ -26,6 +26,8 @@ class BodyLoads {
   void put_down() noexcept;
   /// What is left in `editor` after these went, or after all came back.
   void lighten(std::span<const geometry::TetId> gone, const geometry::MeshEditor& editor) noexcept;
+  /// These are pulled by another gravity from now on, until restore().
+  void let_go(std::span<const geometry::TetId> tetrahedra, const Vec3& gravity_m_s2) noexcept;
   void restore() noexcept;
 
   /// Weights and what is carried / with the tools' forces as they act, [3N], N.
@@ -51,7 +53,8 @@ class BodyLoads {
   void forget_presses() noexcept;
 
   const geometry::TetraMesh& mesh_;
-  Vec3 gravity_;
+  Vec3 organ_gravity_;
+  std::vector<Vec3> gravity_;       // [N]
   std::vector<double> quarter_kg_;  // [T], of each tetrahedron's mass
   std::vector<double> carried_kg_;  // [N]
   std::vector<double> uncut_kg_;    // [N]
