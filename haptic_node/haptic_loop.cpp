@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_loop.h"
 
+#include "node_common/link_write.h"
 #include "node_common/node_identity.h"
 #include "runtime/report.h"
 
@@ -249,7 +250,7 @@ void HapticLoop::publish_status() {
                         snapshot.echoes.begin() + static_cast<std::ptrdiff_t>(lines_.size()));
   node::fill_status(snapshot.record, faults_, status_);
   standing_.store(node::standing_of(status_.ticks, status_.rate_hz), std::memory_order_relaxed);
-  status_writer_->write(status_);
+  node::write_as_link(*status_writer_, status_);
 }
 
 nlohmann::json HapticLoop::report() const {
