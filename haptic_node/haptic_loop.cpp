@@ -166,7 +166,7 @@ void HapticLoop::tick(std::int64_t now_ns) noexcept {
   ++ticks_;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     fresh_[i] = lines_[i]->listen(now_ns, inputs_[i]);
-    inputs_[i].engaged &= serves(i);  // a tool that was given up lets go of the tissue
+    if (!serves(i)) inputs_[i].engaged = inputs_[i].silent = inputs_[i].heard_again = false;  // it lets go
   }
   obey();
   state_.now_ns = now_ns;
