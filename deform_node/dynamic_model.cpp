@@ -300,7 +300,10 @@ void DynamicModel::look_ahead() const noexcept {
 }
 
 bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const noexcept {
-  if (!stepper_->is_felt() || !gatherer_->gather(place, editor_, state_.u, patch)) return false;
+  if (!stepper_->is_felt()) return false;
+  PatchPlace around = place;
+  around.held = loads_.held_by(place.tool);
+  if (!gatherer_->gather(around, editor_, state_.u, patch)) return false;
   const std::span<const NodeId> nodes = gatherer_->nodes();
   look_ahead();
   patch.topology_version = version_;
