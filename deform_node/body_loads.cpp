@@ -50,12 +50,19 @@ Vec3 BodyLoads::of_tool(std::uint32_t tool, NodeId n) const noexcept {
   return sum;
 }
 
+std::span<const NodeId> BodyLoads::held_by(std::uint32_t tool) const noexcept {
+  const auto holds = [tool](const HeldPress& held) { return held.tool == tool && held.grasps; };
+  const auto found = std::ranges::find_if(held_, holds);
+  return found == held_.end() ? std::span<const NodeId>() : std::span(found->nodes).first(found->count);
+}
+
 void BodyLoads::press(std::span<const ToolLoad> presses, const MeshEditor& editor) noexcept {
   forget_presses();
   for (const ToolLoad& load : presses) {
     if (held_.size() == kMaxTools) break;
     HeldPress& held = held_.emplace_back();
     held.tool = load.tool;
+    held.grasps = load.grasps;
     held.gain = load.gain;
     held.count = std::min<std::size_t>(load.nodes.size(), kMaxNodesPerTool);
     std::copy_n(load.nodes.begin(), held.count, held.nodes.begin());

@@ -35,11 +35,14 @@ class BodyLoads {
   std::span<const double> external() const noexcept { return external_; }
   /// One tool's share at a node, N.
   Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
+  /// The nodes that a tool's jaws hold.
+  std::span<const NodeId> held_by(std::uint32_t tool) const noexcept;
 
  private:
   /// One tool's, without nodes that nothing is left around.
   struct HeldPress {
     std::uint32_t tool = 0;
+    bool grasps = false;
     double strength = 1, gain = 1;
     std::size_t count = 0;
     std::array<NodeId, kMaxNodesPerTool> nodes;
