@@ -312,8 +312,7 @@ bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const
     patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]) + ahead_s_ * patch.velocities[i];
     patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
   }
-  const std::size_t rows = 3 * nodes.size();
-  const std::span<float> block = std::span(felt_->compliance).first(rows * rows);
+  const std::span<float> block = std::span(felt_->compliance).first(9 * nodes.size() * nodes.size());
   stepper_->compliance(nodes, block);
   return tell_compliance(block, patch);
 }
