@@ -198,7 +198,8 @@ class GlRenderer final : public Renderer {
       program.set("material_roughness", item.material.roughness);
       program.set("material_glow", item.material.glow);
       if (look == Look::kSmoke) program.set("material_opacity", item.material.opacity);
-      mesh(item.mesh).draw();
+      const MeshBuffer& buffer = mesh(item.mesh);
+      means_of(frame.quality).corners_alone ? buffer.draw_corners() : buffer.draw();
     }
   }
 
