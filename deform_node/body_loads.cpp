@@ -10,7 +10,7 @@ using geometry::TetId;
 BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap& material,
                      const Vec3& gravity_m_s2)
     : mesh_(mesh),
-      gravity_(gravity_m_s2),
+      organ_gravity_(gravity_m_s2),
       uncut_kg_(mesh.positions.size()),
       weights_(3 * mesh.positions.size()),
       external_(weights_.size()),
@@ -23,6 +23,7 @@ BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap
                           geometry::signed_volume(x[a], x[b], x[c], x[d]) / 4);
     for (const NodeId n : mesh.tetrahedra[t]) uncut_kg_[n] += quarter_kg_.back();
   }
+  gravity_.resize(mesh.positions.size());
   held_.reserve(kMaxTools);
   presses_.reserve(kMaxTools);
   restore();
@@ -36,7 +37,7 @@ physics::Press BodyLoads::HeldPress::press() const noexcept {
 }
 
 void BodyLoads::weigh(NodeId n) noexcept {
-  const Vec3 weight = carried_kg_[n] * gravity_;
+  const Vec3 weight = carried_kg_[n] * gravity_[n];
   Vec3::Map(&weights_[3 * n]) = weight;
   Vec3::Map(&external_[3 * n]) = weight + pressed_[n];
 }
@@ -49,12 +50,19 @@ Vec3 BodyLoads::of_tool(std::uint32_t tool, NodeId n) const noexcept {
   return sum;
 }
 
+std::span<const NodeId> BodyLoads::held_by(std::uint32_t tool) const noexcept {
+  const auto holds = [tool](const HeldPress& held) { return held.tool == tool && held.grasps; };
+  const auto found = std::ranges::find_if(held_, holds);
+  return found == held_.end() ? std::span<const NodeId>() : std::span(found->nodes).first(found->count);
+}
+
 void BodyLoads::press(std::span<const ToolLoad> presses, const MeshEditor& editor) noexcept {
   forget_presses();
   for (const ToolLoad& load : presses) {
     if (held_.size() == kMaxTools) break;
     HeldPress& held = held_.emplace_back();
     held.tool = load.tool;
+    held.grasps = load.grasps;
     held.gain = load.gain;
     held.count = std::min<std::size_t>(load.nodes.size(), kMaxNodesPerTool);
     std::copy_n(load.nodes.begin(), held.count, held.nodes.begin());
@@ -127,7 +135,17 @@ void BodyLoads::lighten(std::span<const TetId> gone, const MeshEditor& editor) n
   }
 }
 
+void BodyLoads::let_go(std::span<const TetId> tetrahedra, const Vec3& gravity_m_s2) noexcept {
+  for (const TetId t : tetrahedra) {
+    for (const NodeId n : mesh_.tetrahedra[t]) {
+      gravity_[n] = gravity_m_s2;
+      weigh(n);
+    }
+  }
+}
+
 void BodyLoads::restore() noexcept {
+  std::ranges::fill(gravity_, organ_gravity_);
   forget_presses();
   carried_kg_ = uncut_kg_;
   for (std::size_t n = 0; n < uncut_kg_.size(); ++n) weigh(NodeId(n));

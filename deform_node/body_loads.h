@@ -26,6 +26,8 @@ class BodyLoads {
   void put_down() noexcept;
   /// What is left in `editor` after these went, or after all came back.
   void lighten(std::span<const geometry::TetId> gone, const geometry::MeshEditor& editor) noexcept;
+  /// These are pulled by another gravity from now on, until restore().
+  void let_go(std::span<const geometry::TetId> tetrahedra, const Vec3& gravity_m_s2) noexcept;
   void restore() noexcept;
 
   /// Weights and what is carried / with the tools' forces as they act, [3N], N.
@@ -33,11 +35,14 @@ class BodyLoads {
   std::span<const double> external() const noexcept { return external_; }
   /// One tool's share at a node, N.
   Vec3 of_tool(std::uint32_t tool, NodeId n) const noexcept;
+  /// The nodes that a tool's jaws hold.
+  std::span<const NodeId> held_by(std::uint32_t tool) const noexcept;
 
  private:
   /// One tool's, without nodes that nothing is left around.
   struct HeldPress {
     std::uint32_t tool = 0;
+    bool grasps = false;
     double strength = 1, gain = 1;
     std::size_t count = 0;
     std::array<NodeId, kMaxNodesPerTool> nodes;
@@ -51,7 +56,8 @@ class BodyLoads {
   void forget_presses() noexcept;
 
   const geometry::TetraMesh& mesh_;
-  Vec3 gravity_;
+  Vec3 organ_gravity_;
+  std::vector<Vec3> gravity_;       // [N]
   std::vector<double> quarter_kg_;  // [T], of each tetrahedron's mass
   std::vector<double> carried_kg_;  // [N]
   std::vector<double> uncut_kg_;    // [N]

@@ -7,8 +7,8 @@ namespace omentum::deform {
 
 using physics::BodyState;
 
-BodyMeeting::BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia)
-    : spheres_(mesh, inertia),
+BodyMeeting::BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall)
+    : spheres_(mesh, inertia, is_wall),
       ahead_(3 * mesh.positions.size()),
       places_(ahead_.size()),
       impulses_(ahead_.size()),
@@ -57,6 +57,7 @@ void BodyMeeting::act(double seconds, const geometry::MeshEditor& editor, BodyLo
 
 void BodyMeeting::reset() noexcept {
   meets_ = has_met_ = is_ahead_ = false;
+  spheres_.hold_again();
   std::ranges::fill(impulses_, 0.0);
 }
 

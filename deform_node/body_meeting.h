@@ -22,7 +22,8 @@ class BodyMeeting {
   };
 
   /// Both outlive this.
-  BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia);
+  /// `is_wall`: none of it yields before it is let go.
+  BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall = false);
 
   std::size_t most_spheres() const noexcept { return spheres_.most(); }
   /// `external`: forces on all nodes but those of other organs, [3N], N.
@@ -38,6 +39,8 @@ class BodyMeeting {
   }
   /// Before steps that take so long: `loads` carry the pushes.
   void act(double seconds, const geometry::MeshEditor& editor, BodyLoads& loads) noexcept;
+  /// These yield from now on, until a reset.
+  void let_go(std::span<const geometry::TetId> tetrahedra) noexcept { spheres_.let_go(tetrahedra); }
   void reset() noexcept;
 
  private:

@@ -45,7 +45,8 @@ Tie tie_of(const CoverSphere& sphere, const geometry::TetraMesh& mesh, const geo
 
 }  // namespace
 
-BodySpheres::BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia) {
+BodySpheres::BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall)
+    : is_wall_(is_wall), is_let_go_(mesh.tetrahedra.size()) {
   const geometry::Surface surface = geometry::extract_surface(mesh, {});
   const geometry::SphereCover cover = cover_with_spheres(mesh, surface);
   for (const CoverSphere& sphere : cover.spheres) {
@@ -67,6 +68,19 @@ void BodySpheres::part(const geometry::MeshEditor& editor) noexcept {
     if (!editor.is_removed(all_[i].tetrahedron)) left_.push_back(i);
 }
 
+void BodySpheres::let_go(std::span<const geometry::TetId> tetrahedra) noexcept {
+  for (const geometry::TetId t : tetrahedra) is_let_go_[t] = true;
+}
+
+void BodySpheres::hold_again() noexcept {
+  std::fill(is_let_go_.begin(), is_let_go_.end(), false);
+}
+
+double BodySpheres::mass_kg(const Tied& tied) const noexcept {
+  const bool stands = is_wall_ && !is_let_go_[tied.tetrahedron];
+  return stands ? std::numeric_limits<double>::infinity() : tied.mass_kg;
+}
+
 Vec3 BodySpheres::mean(const Tied& tied, std::span<const double> components) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (std::size_t c = 0; c < 4; ++c)
@@ -83,7 +97,7 @@ std::span<const CollisionSphere> BodySpheres::follow(const physics::BodyState& s
     shown_.push_back({.centre = tied.rest + mean(tied, state.u),
                       .velocity = mean(tied, velocities),
                       .radius_m = tied.radius_m,
-                      .mass_kg = tied.mass_kg});
+                      .mass_kg = mass_kg(tied)});
   }
   return shown_;
 }
@@ -92,8 +106,9 @@ void BodySpheres::push(std::span<const OrganContact> contacts, std::span<double>
   for (const OrganContact& contact : contacts) {
     const auto i = static_cast<std::size_t>(contact.sphere);
     const Tied& tied = all_[left_[i]];
-    if (std::isinf(tied.mass_kg)) continue;
-    const Vec3 impulse = tied.mass_kg * answer(contact, shown_[i].velocity);
+    const double mass = mass_kg(tied);
+    if (std::isinf(mass)) continue;
+    const Vec3 impulse = mass * answer(contact, shown_[i].velocity);
     for (std::size_t c = 0; c < 4; ++c)
       Vec3::Map(&impulses[3 * tied.nodes[c]]) += tied.weights[static_cast<Eigen::Index>(c)] * impulse;
   }

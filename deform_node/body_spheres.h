@@ -17,11 +17,14 @@ namespace omentum::deform {
 class BodySpheres {
  public:
   /// Both outlive this.
-  BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia);
+  /// `is_wall`: none yields before its tetrahedron is let go.
+  BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall = false);
 
   std::size_t most() const noexcept { return all_.size(); }
   /// What is left of the mesh from now on.
   void part(const geometry::MeshEditor& editor) noexcept;
+  void let_go(std::span<const geometry::TetId> tetrahedra) noexcept;
+  void hold_again() noexcept;
   /// Where they are, going by these velocities, [3N]; valid until the next call.
   std::span<const CollisionSphere> follow(const physics::BodyState& state,
                                           std::span<const double> velocities) noexcept;
@@ -38,11 +41,16 @@ class BodySpheres {
     double mass_kg;  // that its centre has for a push; infinite: it does not yield
   };
 
+  // What a push meets of it now.
+  double mass_kg(const Tied& tied) const noexcept;
+
   geometry::Vec3 mean(const Tied& tied, std::span<const double> components) const noexcept;
 
   std::vector<Tied> all_;
   std::vector<std::size_t> left_;       // of all_
   std::vector<CollisionSphere> shown_;  // as left_
+  bool is_wall_;
+  std::vector<bool> is_let_go_;  // [T]
 };
 
 }  // namespace omentum::deform

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace omentum::deform {
@@ -14,6 +15,9 @@ struct PatchPlace {
   std::uint32_t tool = 0;
   geometry::Vec3 centre = geometry::Vec3::Zero();  // in W, m
   double radius_m = 0;
+  // What its jaws hold, in the surface's numbers: faces among these belong to the patch wherever they are,
+  // since a hold that the model leaves out is a hold that is lost.
+  std::span<const geometry::NodeId> held{};
 };
 
 /// The nodes of a surface around a tool, how they move, and how they yield to other forces f of that tool;

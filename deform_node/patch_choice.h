@@ -10,26 +10,29 @@
 
 namespace omentum::deform {
 
-/// Picks the faces that come near a place, the nearest first, as long as their nodes fit, and every other
-/// face between those nodes. Takes its memory when it is made; one thread at a time.
+/// Picks the faces that a tool holds, and those that come near its place, the nearest first, as long as their
+/// nodes fit, and every other face between those nodes. Takes its memory when it is made; one thread at a
+/// time.
 class PatchChoice {
  public:
   /// Of a surface with so many nodes and at most so many faces. `most_nodes`: at least three, at most 256
   /// (LocalPatch::triangles has bytes).
   PatchChoice(std::size_t node_count, std::size_t most_faces, std::size_t most_nodes)
-      : most_nodes_(most_nodes), number_of_(node_count, -1) {
+      : most_nodes_(most_nodes), number_of_(node_count, kNone) {
     near_.reserve(most_faces);
     nodes_.reserve(most_nodes);
   }
 
-  /// Writes both counts and the triangles into `patch`, not its nodes; false where no face is within the
-  /// place's radius. `faces`: count(), corners(f), the three NodeIds of a face, and place(n), of a node in W,
-  /// m; is_one(f): false, it is no place to touch.
+  /// Writes both counts and the triangles into `patch`, not its nodes; false where no face is held or
+  /// within the place's radius. `faces`: count(), corners(f), the three NodeIds of a face, and place(n), of a
+  /// node in W, m; is_one(f): false, it is no place to touch.
   template <class Faces>
   bool choose(const PatchPlace& place, const Faces& faces, LocalPatch& patch) noexcept {
-    for (const geometry::NodeId n : nodes_) number_of_[index(n)] = -1;
+    for (const geometry::NodeId n : nodes_) number_of_[index(n)] = kNone;
     nodes_.clear();
+    for (const geometry::NodeId n : place.held) number_of_[index(n)] = kHeld;
     find_near(place, faces);
+    for (const geometry::NodeId n : place.held) number_of_[index(n)] = kNone;
     for (const Near& near : near_)
       if (has_room_for(faces.corners(near.face))) number(faces.corners(near.face));
     patch.node_count = nodes_.size();
@@ -43,6 +46,9 @@ class PatchChoice {
 
  private:
   using Corners = std::array<geometry::NodeId, 3>;
+  // In place of a number in the patch; the second while faces are looked for.
+  static constexpr std::int16_t kNone = -1, kHeld = -2;
+  static constexpr double kBeforeAll = -1;
   struct Near {
     double squared_distance;
     std::size_t face;
@@ -55,6 +61,10 @@ class PatchChoice {
     near_.clear();
     for (std::size_t f = 0; f < faces.count(); ++f) {
       const Corners corners = faces.corners(f);
+      if (is_held(corners)) {
+        if (faces.is_one(f)) near_.push_back({kBeforeAll, f});
+        continue;
+      }
       const geometry::Vec3 &a = faces.place(corners[0]), &b = faces.place(corners[1]),
                            &c = faces.place(corners[2]);
       const geometry::Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
@@ -68,6 +78,10 @@ class PatchChoice {
       if (p.squared_distance != q.squared_distance) return p.squared_distance < q.squared_distance;
       return faces.corners(p.face) < faces.corners(q.face);
     });
+  }
+
+  bool is_held(const Corners& corners) const noexcept {
+    return std::ranges::all_of(corners, [&](geometry::NodeId n) { return number_of_[index(n)] == kHeld; });
   }
 
   bool has_room_for(const Corners& corners) const noexcept {
@@ -94,7 +108,7 @@ class PatchChoice {
 
   std::size_t most_nodes_;
   std::vector<Near> near_;               // capacity most_faces
-  std::vector<std::int16_t> number_of_;  // [nodes], in the patch; -1: not of it
+  std::vector<std::int16_t> number_of_;  // [nodes], in the patch; kNone: not of it
   std::vector<geometry::NodeId> nodes_;  // capacity most_nodes
 };
 

@@ -14,7 +14,8 @@ class PatchGatherer {
   /// `mesh` outlives it. `most_nodes`: as PatchChoice takes them.
   PatchGatherer(const geometry::TetraMesh& mesh, std::size_t most_nodes);
 
-  /// Writes nodes, triangles and both counts into `patch`; false where no face is within the place's radius.
+  /// Writes nodes, triangles and both counts into `patch`; false where no face is held or within the place's
+  /// radius.
   /// `u`: [3N], displacements from rest, m.
   bool gather(const PatchPlace& place, const geometry::MeshEditor& editor, std::span<const double> u,
               LocalPatch& patch) noexcept;

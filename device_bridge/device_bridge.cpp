@@ -1,5 +1,6 @@
 #include "device_bridge/device_bridge.h"
 
+#include "node_common/link_write.h"
 #include "node_common/node_identity.h"
 #include "node_common/rivals.h"
 #include "runtime/report.h"
@@ -124,7 +125,7 @@ void DeviceBridge::publish_status() {
   orders_.tell(status_message_);
   node::fill_status(status_record_.value(), faults_, status_message_);
   status_message_.round_trip_us = node::to_message(answers_.report().to_force);
-  status_writer_->write(status_message_);
+  node::write_as_link(*status_writer_, status_message_);
 }
 
 void DeviceBridge::require_written() {

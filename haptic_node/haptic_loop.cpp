@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_loop.h"
 
+#include "node_common/link_write.h"
 #include "node_common/node_identity.h"
 #include "runtime/report.h"
 
@@ -165,7 +166,7 @@ void HapticLoop::tick(std::int64_t now_ns) noexcept {
   ++ticks_;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     fresh_[i] = lines_[i]->listen(now_ns, inputs_[i]);
-    inputs_[i].engaged &= serves(i);  // a tool that was given up lets go of the tissue
+    if (!serves(i)) inputs_[i].engaged = inputs_[i].silent = inputs_[i].heard_again = false;  // it lets go
   }
   obey();
   state_.now_ns = now_ns;
@@ -249,7 +250,7 @@ void HapticLoop::publish_status() {
                         snapshot.echoes.begin() + static_cast<std::ptrdiff_t>(lines_.size()));
   node::fill_status(snapshot.record, faults_, status_);
   standing_.store(node::standing_of(status_.ticks, status_.rate_hz), std::memory_order_relaxed);
-  status_writer_->write(status_);
+  node::write_as_link(*status_writer_, status_);
 }
 
 nlohmann::json HapticLoop::report() const {

@@ -31,6 +31,10 @@ constexpr double kHair_m = 1e-6;
 // Farther from W's origin than any scene, m: floats there no longer tell a tenth of a millimetre.
 constexpr double kFarthest_m = 1000;
 
+// How far jaws slip along what they hold, m: half of their length. What came back farther away let go
+// meanwhile.
+constexpr double kMostSlip_m = 0.01;
+
 Region path_of(const ToolState& tool) {
   Region region{tool.now[0], tool.now[0]};
   for (const auto* points : {&tool.before, &tool.now}) {
@@ -93,6 +97,45 @@ void appear(ToolState& tool) {
   unknown.adrift = true;
   unknown.ask_in = tool.let_go ? 2 : 1;
   std::ranges::fill(tool.memories, unknown);
+}
+
+// Jaws of which nothing is heard for a moment stand where they were: no way, no work.
+void stand_still(ToolState& tool) {
+  tool.before = tool.now;
+  tool.grip_before = tool.grip;
+  tool.tip_way = Vec3::Zero();
+  tool.let_go = false;
+}
+
+void let_go(HapticState& state, std::int32_t tool) {
+  state.tools[tool].grasps.lost += state.tools[tool].grasping;
+  end_grasp(state, tool);
+  drop_contacts(state, [&](const ToolContact& contact) { return contact.tool == tool; });
+}
+
+// What a hand did while it was not heard moved no tissue, since its force had faded: jaws slip along what
+// they hold by that way, and what they hold feels no step. False: that would be farther than a slip.
+bool slip_by_way(HapticState& state, std::int32_t index) {
+  const ToolState& tool = state.tools[index];
+  const auto way = [&](const ToolContact& c) { return Vec3(tool.now[c.point] - tool.before[c.point]); };
+  const auto holds = [&](const ToolContact& c) { return c.tool == index && c.grasped; };
+  if (std::ranges::any_of(state.active(), [&](const ToolContact& contact) {
+        return holds(contact) && !(way(contact).norm() <= kMostSlip_m);
+      }))
+    return false;
+  for (ToolContact& contact : state.active())
+    if (holds(contact)) contact.offset += way(contact);
+  drop_contacts(state, [&](const ToolContact& c) { return c.tool == index && !c.grasped; });
+  return true;
+}
+
+// A tool that did not come here by moving. `holds_on`: its jaws may hold on to what they held.
+void arrive(HapticState& state, std::int32_t index, bool holds_on) {
+  ToolState& tool = state.tools[index];
+  if (!holds_on || !slip_by_way(state, index)) let_go(state, index);
+  appear(tool);
+  for (const ToolContact& contact : state.active())
+    if (contact.tool == index) tool.memory(contact.body, static_cast<std::size_t>(contact.point)) = {};
 }
 
 // The contact of a tool's point with what it met; deeper than it came in this tick is nobody's press.
@@ -164,19 +207,21 @@ void place_tools(const HapticModel& model, std::span<const ToolInput> inputs, Ha
     const auto index = static_cast<std::int32_t>(i);
     ToolState& tool = state.tools[i];
     const ToolInput& input = inputs[i];
-    const bool engaged = input.engaged && is_sound(input);
+    if (input.silent && tool.engaged && tool.grasping) {
+      stand_still(tool);
+      continue;
+    }
+    const bool holds_on = input.heard_again && tool.engaged && tool.grasping && is_sound(input);
+    const bool engaged = holds_on || (input.engaged && is_sound(input));
     const bool moved_here = engaged && tool.engaged && !input.relocated;
     tool.let_go = !moved_here && state.energies[i].stored_j > 0;
-    if (!moved_here) {
-      end_grasp(state, index);
-      drop_contacts(state, [&](const ToolContact& contact) { return contact.tool == index; });
-    }
+    if (!moved_here && !holds_on) let_go(state, index);
     tool.engaged = engaged;
     if (!engaged) continue;
     const Vec3 tip = tool.frame.p_WT;
     go_to(model.tools[i], input, tool);
     tool.tip_way = moved_here ? Vec3(tool.frame.p_WT - tip) : Vec3::Zero();
-    if (!moved_here) appear(tool);
+    if (!moved_here) arrive(state, index, holds_on);
     if (model.tools[i].grasps) follow_grip(model, state, index, input.grip, bodies);
   }
 }

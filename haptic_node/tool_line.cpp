@@ -95,9 +95,10 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
   }
   const bool fresh = poses_.fetch();
   const HeardPose& heard = poses_.value();
-  const std::int64_t silence = silence_ns(heard);
+  const std::int64_t silence = silence_ns(heard), came_after_ns = heard.arrival_ns - taken_arrival_ns_;
+  const bool same_hand = heard.connection > 0 && heard.connection == connection_;
   // a loop that stood still did not see the silence, but it was one
-  reconnected_ = heard.connection != connection_ || (fresh && heard.arrival_ns - taken_arrival_ns_ > silence);
+  reconnected_ = heard.connection != connection_ || (fresh && came_after_ns > silence);
   way_s_ = 0;
   if (fresh) take(heard);
   const std::int64_t age_ns = now_ns - heard.arrival_ns;
@@ -105,8 +106,15 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
   told_ = heard.connection > 0 && age_ns < kForget_ns;
   if (reconnected_) lead_.restart();
   // a tool that appears lets go first: in the dent of its own last force it would seem to be outside
-  input = {engaged_ && !reconnected_, reconnected_, lead_.ahead(frame_of(heard.pose), fresh),
-           opening_of(heard.pose), max_stiffness_n_m_};
+  const bool silent = same_hand && !engaged_ && age_ns < kHoldSilence_ns;
+  const bool again = same_hand && engaged_ && reconnected_ && came_after_ns < kHoldSilence_ns;
+  input = {.engaged = engaged_ && !reconnected_,
+           .relocated = reconnected_,
+           .silent = silent,
+           .heard_again = again,
+           .frame = lead_.ahead(frame_of(heard.pose), fresh),
+           .grip = opening_of(heard.pose),
+           .max_stiffness_n_m = max_stiffness_n_m_};
   return fresh;
 }
 

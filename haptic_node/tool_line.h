@@ -23,6 +23,10 @@ struct PoseCounts {
 /// All times are CLOCK_MONOTONIC of this process, ns, and are given: tests inject them.
 class ToolLine {
  public:
+  /// Jaws whose poses stay out for less hold on to the tissue, though the hand feels nothing of it: a busy
+  /// machine takes some tens of ms from a device. (deform_node tells no models around a tool that is silent
+  /// for 0.1 s.)
+  static constexpr std::int64_t kHoldSilence_ns = 200'000'000;
   /// After so long a silence a device is told nothing more, ns.
   static constexpr std::int64_t kForget_ns = 1'000'000'000;
 

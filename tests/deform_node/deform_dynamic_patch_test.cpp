@@ -84,6 +84,26 @@ TEST_F(DynamicModelTest, ALocalModelForetellsTheNextStep) {
   }
 }
 
+// The hand is ahead of an organ that fell behind the clock: what its jaws hold is told all the same.
+TEST_F(DynamicModelTest, ALocalModelHasWhatItsToolGraspsHoweverFarItIs) {
+  DynamicModel model(parts());
+  const geometry::MeshEditor editor(mesh_);
+  const auto& nodes = editor.faces().front().nodes;
+  const std::array<Vec3, 3> forces{Vec3(0, 0, 1e-3), Vec3(0, 0, 1e-3), Vec3(0, 0, 1e-3)}, places{};
+  ToolLoad load{.tool = 1, .nodes = nodes, .displacements = places, .forces = forces, .grasps = true};
+  const PatchPlace far{1, mesh_.positions[nodes[0]] + Vec3(0, 0, 0.1), 0.015};
+  LocalPatch patch(BodyStepper::kPatchNodes);
+  model.step({.presses = {&load, 1}, .cuts = {}}, kTick_s);
+  ASSERT_TRUE(model.local_model(far, patch));
+  ASSERT_EQ(patch.node_count, nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    EXPECT_EQ(patch.nodes[i], static_cast<std::uint32_t>(mesh_.file_node[nodes[i]]));
+  EXPECT_FALSE(model.local_model({0, far.centre, far.radius_m}, patch)) << "another tool holds nothing";
+  load.grasps = false;
+  model.step({.presses = {&load, 1}, .cuts = {}}, kTick_s);
+  EXPECT_FALSE(model.local_model(far, patch)) << "what only touches is where the tool is";
+}
+
 TEST_F(DynamicModelTest, ALocalModelIsOfTheCutSurface) {
   DynamicModel model(parts());
   const Vec3 inside(0.05, kThick_m / 2, kThick_m / 2);

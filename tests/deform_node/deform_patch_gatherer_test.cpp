@@ -64,6 +64,17 @@ TEST_F(PatchGathererTest, WhereNotAllFitTheNearestDo) {
     EXPECT_LT((mesh_.positions[gatherer_.nodes()[i]] - top).norm(), 0.035);
 }
 
+TEST_F(PatchGathererTest, WhatIsHeldBelongsToItBeforeWhatIsNearAndFromAnyDistance) {
+  const auto& held = editor_.faces().front().nodes;
+  const Vec3 far = mesh_.positions[held[0]] + Vec3(0.2, 0, 0);
+  for (const auto& [centre, radius_m] : {std::pair{Vec3(0.03, 0.03, 0.03), 1.0}, std::pair{far, 0.015}}) {
+    ASSERT_TRUE(gatherer_.gather({0, centre, radius_m, held}, editor_, u_, patch_));
+    for (std::size_t c = 0; c < held.size(); ++c) EXPECT_EQ(gatherer_.nodes()[c], held[c]);
+  }
+  EXPECT_EQ(patch_.triangle_count, 1u) << "far away it is all there is";
+  EXPECT_FALSE(gatherer_.gather({0, far, 0.015}, editor_, u_, patch_)) << "held by an earlier place only";
+}
+
 TEST_F(PatchGathererTest, ItFollowsDeformationAndCuts) {
   for (std::size_t n = 0; n < mesh_.positions.size(); ++n) u_[3 * n + 2] = 0.1;
   EXPECT_FALSE(gatherer_.gather({0, Vec3(0.03, 0.03, 0.03), 0.01}, editor_, u_, patch_));
