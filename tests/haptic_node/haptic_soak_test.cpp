@@ -41,7 +41,7 @@ class SoakedHand {
     tip_ = measured.position;
     moved_ = true;
     const haptic::ToolFrame frame{measured.position, measured.orientation};
-    return {true, false, frame, 0, info_.max_stiffness_n_m};
+    return {.engaged = true, .frame = frame, .max_stiffness_n_m = info_.max_stiffness_n_m};
   }
   void feel(const haptic::ToolOutput& output) {
     models_j_ += 0.5 * (model_force_ + output.force).dot(way_);
