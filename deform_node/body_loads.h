@@ -10,7 +10,7 @@
 namespace omentum::deform {
 
 /// External forces on all nodes. A node carries the weight of the tissue that is left around it: what burnt
-/// away is gone, though its mass stays for the integrator's sake (physics/dynamics/body_state.h), and a node
+/// away is gone (so is its mass, but for explicit steps: physics/dynamics/body_state.h), and a node
 /// without any carries nothing, whoever presses it. Takes its memory when it is made.
 class BodyLoads {
  public:

@@ -47,6 +47,8 @@ class BodyStepper {
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore(std::span<const geometry::TetId> removed) noexcept = 0;
 
+  /// Whether what is removed takes its mass along (physics::CarriedMass), or leaves it on the nodes.
+  virtual bool sheds_mass() const { return false; }
   /// False: no hand feels it, and compliance() is not asked for.
   virtual bool is_felt() const { return true; }
   /// What a hand feels within so long, s: displacement of `nodes` per force held, [3n x 3n], m/N, symmetric;

@@ -58,6 +58,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       stress_(parts.stress),
       gauge_(std::move(parts.gauge)),
       inertia_(parts.is_static ? without_motion(parts.body.inertia) : parts.body.inertia),
+      carried_(mesh_, material_, inertia_.mass),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3,
                       .uncut_surface = parts.uncut_surface,
                       .kept = parts.precomputed}),
@@ -170,6 +171,7 @@ void DynamicModel::forgo_gone() noexcept {
   status_.removed_tetrahedra = static_cast<std::uint32_t>(editor_.removed_count());
   if (!stepper_->remove(gone_)) status_.diverged = true;
   loads_.lighten(gone_, editor_);
+  if (stepper_->sheds_mass()) carried_.remove(gone_);
   for (const TetId t : gone_)
     for (const NodeId n : mesh_.tetrahedra[t])
       if (editor_.uses(n) == 0) Eigen::Map<Vec3>(state_.v.data() + 3 * n).setZero();
@@ -199,7 +201,8 @@ bool DynamicModel::run(int steps, Step step) noexcept {
     if (!work_j) return false;
     watch_.add_work(*work_j);
   }
-  const double energy_j = stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v);
+  const double energy_j =
+      stepper_->elastic_energy(state_.u) + physics::kinetic_energy(carried_.kg(), state_.v);
   return watch_.accepts(energy_j, steps * stepper_->step_s());
 }
 
@@ -224,6 +227,7 @@ void DynamicModel::reset() noexcept {
   stepper_->restore(gone_);
   editor_.restore();
   loads_.restore();
+  carried_.restore();
   burning_.clear();
   std::ranges::fill(burnt_, std::uint8_t{0});
   watch_.restart(0);

@@ -7,6 +7,7 @@
 #include "deform_node/cut_queue.h"
 #include "deform_node/organ_models.h"
 #include "deform_node/patch_gatherer.h"
+#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/energy_watch.h"
 #include "physics/dynamics/swept_cut.h"
 #include "physics/dynamics/tearing.h"
@@ -79,7 +80,8 @@ class DynamicModel final : public OrganModel {
   const physics::MaterialMap& material_;
   physics::StressLaw stress_;
   std::function<std::unique_ptr<StrainGauge>()> gauge_;
-  physics::Inertia inertia_;
+  physics::Inertia inertia_;      // of the uncut body
+  physics::CarriedMass carried_;  // all of it, where the stepper sheds none
   geometry::MeshEditor editor_;
   BodyLoads loads_;
   physics::BodyState state_, before_;  // now, and when this tick began

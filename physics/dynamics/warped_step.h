@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/dynamics/added_forces.h"
+#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/corotational.h"
 #include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/kept_factor.h"
@@ -73,6 +74,7 @@ class WarpedStep final : public JoinableStep {
 
   const geometry::TetraMesh& mesh_;
   Inertia inertia_;
+  CarriedMass carried_;
   Corotational law_;
   AddedForces added_;
   WarpedOptions options_;
