@@ -132,7 +132,7 @@ class Run {
     return {organ_.rest[node], work_.bodies[haptic::BodyId(0)].place_of(at).normal};
   }
   void put(std::size_t tool, const Vec3& tip, const Vec3& normal) {
-    inputs_[tool] = {true, false, {tip, geometry::rotation_onto(Vec3::UnitZ(), normal)}, 0};
+    inputs_[tool] = {.engaged = true, .frame = {tip, geometry::rotation_onto(Vec3::UnitZ(), normal)}};
   }
   void relocate() {
     for (haptic::ToolInput& input : inputs_) input.relocated = true;

@@ -3,6 +3,7 @@
 
 #include "deform_node/contact_book.h"
 #include "geometry/mesh_editor.h"
+#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/imposed_press.h"
 
 #include <vector>
@@ -10,7 +11,7 @@
 namespace omentum::deform {
 
 /// External forces on all nodes. A node carries the weight of the tissue that is left around it: what burnt
-/// away is gone (so is its mass, but for explicit steps: physics/dynamics/body_state.h), and a node
+/// away is gone (so is its mass, by the same books, but for explicit steps: BodyStepper::mass()), and a node
 /// without any carries nothing, whoever presses it. Takes its memory when it is made.
 class BodyLoads {
  public:
@@ -26,6 +27,8 @@ class BodyLoads {
   void put_down() noexcept;
   /// What is left in `editor` after these went, or after all came back.
   void lighten(std::span<const geometry::TetId> gone, const geometry::MeshEditor& editor) noexcept;
+  /// These are pulled by another gravity from now on, until restore().
+  void let_go(std::span<const geometry::TetId> tetrahedra, const Vec3& gravity_m_s2) noexcept;
   void restore() noexcept;
 
   /// Weights and what is carried / with the tools' forces as they act, [3N], N.
@@ -54,14 +57,14 @@ class BodyLoads {
   void forget_presses() noexcept;
 
   const geometry::TetraMesh& mesh_;
-  Vec3 gravity_;
-  std::vector<double> quarter_kg_;  // [T], of each tetrahedron's mass
-  std::vector<double> carried_kg_;  // [N]
-  std::vector<double> uncut_kg_;    // [N]
-  std::vector<double> weights_;     // [3N]
-  std::vector<double> external_;    // [3N]
-  std::vector<Vec3> pressed_;       // [N], by the tools
-  std::vector<HeldPress> held_;     // capacity kMaxTools
+  Vec3 organ_gravity_;
+  std::vector<Vec3> gravity_;     // [N]
+  physics::CarriedMass tissue_;   // of what is left, however the body is stepped
+  std::vector<bool> is_bare_;     // [N] nothing is left around it
+  std::vector<double> weights_;   // [3N]
+  std::vector<double> external_;  // [3N]
+  std::vector<Vec3> pressed_;     // [N], by the tools
+  std::vector<HeldPress> held_;   // capacity kMaxTools
   std::vector<physics::Press> presses_;
 };
 

@@ -21,7 +21,7 @@ class BodyMeeting {
     std::uint64_t version;
   };
 
-  /// Both outlive this.
+  /// As BodySpheres'.
   BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia);
 
   std::size_t most_spheres() const noexcept { return spheres_.most(); }

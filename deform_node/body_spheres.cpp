@@ -15,14 +15,14 @@ using geometry::Vec3;
 namespace {
 
 double mass_at(const geometry::Tetrahedron& nodes, const Eigen::Vector4d& weights,
-               const physics::Inertia& inertia) {
+               std::span<const double> mass) {
   double yield = 0;  // of the centre to an impulse, 1/kg
   for (std::size_t c = 0; c < 4; ++c) {
     // what is precomputed has no mass, and yields to nobody but its own tools
-    if (inertia.fixed[nodes[c]] != 0 || inertia.mass[nodes[c]] == 0)
-      return std::numeric_limits<double>::infinity();
+    const double kg = mass[static_cast<std::size_t>(nodes[c])];
+    if (kg == 0) return std::numeric_limits<double>::infinity();
     const double weight = weights[static_cast<Eigen::Index>(c)];
-    yield += weight * weight / inertia.mass[nodes[c]];
+    yield += weight * weight / kg;
   }
   return 1 / yield;
 }
@@ -55,16 +55,21 @@ BodySpheres::BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia
                     .weights = weights,
                     .rest = sphere.centre,
                     .radius_m = sphere.radius_m,
-                    .mass_kg = mass_at(nodes, weights, inertia)});
+                    .is_held = std::ranges::any_of(nodes, [&](NodeId n) { return inertia.fixed[n] != 0; }),
+                    .mass_kg = std::numeric_limits<double>::infinity()});
   }
   left_.reserve(all_.size());
   shown_.reserve(all_.size());
 }
 
-void BodySpheres::part(const geometry::MeshEditor& editor) noexcept {
+void BodySpheres::part(const geometry::MeshEditor& editor, std::span<const double> mass) noexcept {
   left_.clear();
-  for (std::size_t i = 0; i < all_.size(); ++i)
-    if (!editor.is_removed(all_[i].tetrahedron)) left_.push_back(i);
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    Tied& tied = all_[i];
+    if (editor.is_removed(tied.tetrahedron)) continue;
+    left_.push_back(i);
+    if (!tied.is_held) tied.mass_kg = mass_at(tied.nodes, tied.weights, mass);
+  }
 }
 
 Vec3 BodySpheres::mean(const Tied& tied, std::span<const double> components) const noexcept {

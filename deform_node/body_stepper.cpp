@@ -36,7 +36,7 @@ class LargeStepper final : public BodyStepper {
       : large_(std::move(large)), imposed_(node_count, kMaxTools) {}
 
   double step_s() const override { return large_->step_s(); }
-  bool sheds_mass() const override { return true; }
+  std::span<const double> mass() const noexcept override { return large_->mass(); }
   Work step(BodyState& state, BodyLoads& loads) noexcept override {
     if (!large_->step(state, loads.weights())) return {};
     loads.act(imposed_.impose(*large_, loads.presses(), state));
@@ -76,6 +76,7 @@ class ExplicitStepper final : public BodyStepper {
         ahead_(physics::state_at_rest(inertia_.mass.size())) {}
 
   double step_s() const override { return step_s_; }
+  std::span<const double> mass() const noexcept override { return inertia_.mass; }
   void prepare() noexcept override { until_felt_s_ = 0; }
   Work step(BodyState& state, BodyLoads& loads) noexcept override {
     follow(state, loads);

@@ -46,9 +46,13 @@ class BodyStepper {
   /// Precondition of both: exactly those are there, or gone. False: the factor is of no use any more.
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore(std::span<const geometry::TetId> removed) noexcept = 0;
+  /// What the next remove() leaves without supports, of a body whose pieces fall (LoosePieces::kFall): it has
+  /// masses from now on.
+  virtual void let_go(std::span<const geometry::TetId> /*tetrahedra*/) noexcept {}
 
-  /// Whether what is removed takes its mass along (physics::CarriedMass), or leaves it on the nodes.
-  virtual bool sheds_mass() const { return false; }
+  /// What each node carries now, [N], kg: of what is left (physics::CarriedMass), or of the uncut body where
+  /// steps are explicit; zero where it moves without. Whoever needs masses has them from here.
+  virtual std::span<const double> mass() const noexcept = 0;
   /// False: no hand feels it, and compliance() is not asked for.
   virtual bool is_felt() const { return true; }
   /// What a hand feels within so long, s: displacement of `nodes` per force held, [3n x 3n], m/N, symmetric;
@@ -72,9 +76,15 @@ std::unique_ptr<BodyStepper> make_large_stepper(std::size_t node_count,
 /// Backward Euler for co-rotational tissue (physics/dynamics/warped_step.h).
 std::unique_ptr<BodyStepper> make_warped_stepper(const SteppedBody& body, double step_s);
 
-/// No masses: equilibrium in every step, under presses that are imposed (physics/static_factor.h). What is
-/// removed leaves nothing that floats.
-std::unique_ptr<BodyStepper> make_static_stepper(const SteppedBody& body, double step_s);
+/// What becomes of that which a cut leaves without supports.
+enum class LoosePieces {
+  kDrop,  // a removal takes it along: nothing is left that floats
+  kFall,  // it moves on by the co-rotational law, once let_go() says so (deform_node/falling_pieces.h)
+};
+
+/// No masses: equilibrium in every step, under presses that are imposed (physics/static_factor.h).
+std::unique_ptr<BodyStepper> make_static_stepper(const SteppedBody& body, double step_s,
+                                                 LoosePieces loose = LoosePieces::kDrop);
 
 /// Explicit steps. Presses are made as strong as would bring the body where hands want it within kFeltStep_s.
 /// Nothing yields within one of them, and none has an equation whose solution would say how: what a hand

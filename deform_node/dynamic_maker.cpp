@@ -73,6 +73,7 @@ DynamicParts parts_of(const node::OrganSource& source, const scene::OrganSpec& s
   parts.stepper = std::move(stepping.stepper);
   parts.energy_margin = stepping.energy_margin;
   parts.is_static = stepping.is_static;
+  if (dynamics.pieces == "fall") parts.piece_gravity_m_s2 = dynamics.piece_gravity_m_s2;
   parts.gravity_m_s2 = dynamics.gravity_m_s2;
   parts.tears = tear_limits_of(organ, spec);
   parts.cut_delay_s = dynamics.cut_delay_s;
@@ -130,9 +131,12 @@ std::unique_ptr<OrganModel> make_corotational(const node::OrganSource& source, c
 
 std::unique_ptr<OrganModel> make_quasi_static_cut(const node::OrganSource& source,
                                                   const scene::OrganSpec& spec) {
-  return make(source, spec, StressLaw::kLinear,
-              [](const SteppedBody& body, const scene::DynamicsSpec&) -> Stepping {
-                return {.stepper = make_static_stepper(body, kImplicitStep_s), .is_static = true};
+  // a piece that turns as it falls has no stress of its turning
+  const bool falls = spec.dynamics->pieces == "fall";
+  return make(source, spec, falls ? StressLaw::kTurned : StressLaw::kLinear,
+              [falls](const SteppedBody& body, const scene::DynamicsSpec&) -> Stepping {
+                const auto loose = falls ? LoosePieces::kFall : LoosePieces::kDrop;
+                return {.stepper = make_static_stepper(body, kImplicitStep_s, loose), .is_static = true};
               });
 }
 

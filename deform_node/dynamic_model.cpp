@@ -1,7 +1,7 @@
 #include "deform_node/dynamic_model.h"
 
+#include "deform_node/patch_compliance.h"
 #include "deform_node/strain_gauges.h"
-#include "node_common/contact_bounds.h"
 #include "node_common/organ_reach.h"
 
 #include <algorithm>
@@ -34,22 +34,6 @@ Vec3 at(const std::vector<double>& components, NodeId n) {
   return Eigen::Map<const Vec3>(components.data() + 3 * n);
 }
 
-// What is held does not yield, and a hand's matrix has to be definite: supports yield a millionth of what
-// else does.
-void stiffen_supports(std::span<float> compliance, std::size_t rows) {
-  float most = 0;
-  for (std::size_t r = 0; r < rows; ++r) most = std::max(most, compliance[r * rows + r]);
-  const float held = most > 0 ? 1e-6F * most : 1e-7F;
-  for (std::size_t r = 0; r < rows; ++r) compliance[r * rows + r] = std::max(compliance[r * rows + r], held);
-}
-
-// Of a body that no push moves, nor its speed.
-physics::Inertia without_motion(physics::Inertia inertia) {
-  std::ranges::fill(inertia.mass, 0.0);
-  std::ranges::fill(inertia.fixed, physics::kPinned);
-  return inertia;
-}
-
 }  // namespace
 
 DynamicModel::DynamicModel(DynamicParts parts)
@@ -57,8 +41,6 @@ DynamicModel::DynamicModel(DynamicParts parts)
       material_(parts.body.material),
       stress_(parts.stress),
       gauge_(std::move(parts.gauge)),
-      inertia_(parts.is_static ? without_motion(parts.body.inertia) : parts.body.inertia),
-      carried_(mesh_, material_, inertia_.mass),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3,
                       .uncut_surface = parts.uncut_surface,
                       .kept = parts.precomputed}),
@@ -71,14 +53,16 @@ DynamicModel::DynamicModel(DynamicParts parts)
       precomputed_(std::move(parts.precomputed)),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
-      unheld_(parts.is_static ? std::make_unique<physics::UnheldPieces>(mesh_, parts.body.inertia.fixed)
-                              : nullptr),
+      parted_(parts.is_static ? std::make_unique<PartedTissue>(mesh_, parts.body.inertia.fixed) : nullptr),
+      piece_gravity_(parts.piece_gravity_m_s2),
       reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
       values_(state_.u.size()),
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
       felt_(std::make_unique<Felt>()),
-      meeting_(std::make_unique<BodyMeeting>(mesh_, inertia_)) {
+      meeting_(std::make_unique<BodyMeeting>(
+          mesh_, parts.is_static ? PartedTissue::met(parts.body.inertia, piece_gravity_.has_value())
+                                 : parts.body.inertia)) {
   felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
   felt_->ahead.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
@@ -154,10 +138,27 @@ std::span<const TetId> DynamicModel::remove(std::span<const TetId> tetrahedra) n
   gone_.clear();
   add_gone(editor_.remove(tetrahedra));
   if (gone_.empty()) return {};
-  if (unheld_) add_gone(editor_.remove(unheld_->find(editor_)));
   ++version_;
-  forgo_gone();
+  part_unheld();
   return gone_;
+}
+
+// By topology, before anything is solved of what is left.
+void DynamicModel::part_unheld() noexcept {
+  const std::span<const TetId> pieces = parted_ ? parted_->find(editor_) : std::span<const TetId>();
+  const bool fall = piece_gravity_ && !pieces.empty();
+  const double held_j = fall ? stepper_->elastic_energy(state_.u) : 0;
+  if (fall) let_go(pieces);
+  if (!fall && !pieces.empty()) add_gone(editor_.remove(pieces));
+  forgo_gone();
+  // the law by which they go on may say more of the same shape: that is no divergence
+  if (fall) watch_.add_work(std::max(0.0, stepper_->elastic_energy(state_.u) - held_j));
+}
+
+void DynamicModel::let_go(std::span<const TetId> pieces) noexcept {
+  stepper_->let_go(pieces);
+  loads_.let_go(pieces, *piece_gravity_);
+  parted_->let_go(pieces, state_.v);
 }
 
 void DynamicModel::add_gone(const geometry::Removal& removal) noexcept {
@@ -171,7 +172,6 @@ void DynamicModel::forgo_gone() noexcept {
   status_.removed_tetrahedra = static_cast<std::uint32_t>(editor_.removed_count());
   if (!stepper_->remove(gone_)) status_.diverged = true;
   loads_.lighten(gone_, editor_);
-  if (stepper_->sheds_mass()) carried_.remove(gone_);
   for (const TetId t : gone_)
     for (const NodeId n : mesh_.tetrahedra[t])
       if (editor_.uses(n) == 0) Eigen::Map<Vec3>(state_.v.data() + 3 * n).setZero();
@@ -202,7 +202,7 @@ bool DynamicModel::run(int steps, Step step) noexcept {
     watch_.add_work(*work_j);
   }
   const double energy_j =
-      stepper_->elastic_energy(state_.u) + physics::kinetic_energy(carried_.kg(), state_.v);
+      stepper_->elastic_energy(state_.u) + physics::kinetic_energy(stepper_->mass(), state_.v);
   return watch_.accepts(energy_j, steps * stepper_->step_s());
 }
 
@@ -227,11 +227,11 @@ void DynamicModel::reset() noexcept {
   stepper_->restore(gone_);
   editor_.restore();
   loads_.restore();
-  carried_.restore();
   burning_.clear();
   std::ranges::fill(burnt_, std::uint8_t{0});
   watch_.restart(0);
   meeting_->reset();
+  if (parted_) parted_->restore();
   std::ranges::fill(state_.u, 0.0);
   std::ranges::fill(state_.v, 0.0);
   ahead_s_ = until_check_s_ = 0;
@@ -246,6 +246,7 @@ void DynamicModel::take_up(std::span<const std::uint8_t> removed_bits,
   editor_.set_removed(removed_bits);
   list_removed();
   put_back_precomputed();
+  if (!gone_.empty() && piece_gravity_) let_go(parted_->find(editor_));
   if (!gone_.empty()) forgo_gone();
   const std::span<const std::uint8_t> removed = editor_.removed_bits();
   for (std::size_t i = 0; i < std::min(burnt_bits.size(), burnt_.size()); ++i)
@@ -266,7 +267,7 @@ std::span<const CollisionSphere> DynamicModel::collidable() const noexcept {
 }
 
 void DynamicModel::respond(std::span<const OrganContact> contacts) noexcept {
-  if (!unheld_) meeting_->respond(contacts, state_, *stepper_, loads_.external());
+  if (!parted_ || parted_->any()) meeting_->respond(contacts, state_, *stepper_, loads_.external());
   felt_->is_foreseen = false;
 }
 
@@ -310,17 +311,9 @@ bool DynamicModel::local_model(const PatchPlace& place, LocalPatch& patch) const
     patch.positions[i] = mesh_.positions[nodes[i]] + at(state_.u, nodes[i]) + ahead_s_ * patch.velocities[i];
     patch.forces[i] = loads_.of_tool(place.tool, nodes[i]);
   }
-  const std::size_t rows = 3 * nodes.size();
-  const std::span<float> block = std::span(felt_->compliance).first(rows * rows);
+  const std::span<float> block = std::span(felt_->compliance).first(9 * nodes.size() * nodes.size());
   stepper_->compliance(nodes, block);
-  stiffen_supports(block, rows);
-  // written so that a NaN is none either
-  if (!std::ranges::all_of(block, [](float c) { return std::abs(c) <= node::kSoftest_m_n; })) return false;
-  float* upper = patch.compliance.data();
-  for (std::size_t r = 0; r < rows; ++r)
-    upper = std::copy(block.begin() + static_cast<std::ptrdiff_t>(r * rows + r),
-                      block.begin() + static_cast<std::ptrdiff_t>((r + 1) * rows), upper);
-  return true;
+  return tell_compliance(block, patch);
 }
 
 }  // namespace omentum::deform

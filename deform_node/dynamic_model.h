@@ -6,13 +6,12 @@
 #include "deform_node/body_stepper.h"
 #include "deform_node/cut_queue.h"
 #include "deform_node/organ_models.h"
+#include "deform_node/parted_tissue.h"
 #include "deform_node/patch_gatherer.h"
-#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/energy_watch.h"
 #include "physics/dynamics/swept_cut.h"
 #include "physics/dynamics/tearing.h"
 #include "physics/nodal_stress.h"
-#include "physics/unheld_pieces.h"
 
 #include <functional>
 
@@ -30,9 +29,11 @@ struct DynamicParts {
   double smallest_piece_m3 = 0;
   std::vector<std::uint8_t> precomputed{};  // [T] other than 0: nothing takes it away; empty: none is
   physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
-  // Always in equilibrium: it weighs nothing that could swing, what supports do not hold is dropped as it is
-  // cut off, and for other organs it is a wall that moves.
+  // Always in equilibrium: it weighs nothing that could swing, and for other organs it is a wall that moves.
+  // What supports do not hold is dropped as it is cut off; or has masses from then on, and this gravity,
+  // where the stepper lets pieces fall.
   bool is_static = false;
+  std::optional<Vec3> piece_gravity_m_s2{};
   std::function<std::unique_ptr<StrainGauge>()> gauge{};  // of another kind than a body's; or empty
 };
 
@@ -66,6 +67,8 @@ class DynamicModel final : public OrganModel {
   /// Those that are there, and what then has to go. Returns them all.
   std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   void add_gone(const geometry::Removal& removal) noexcept;
+  void part_unheld() noexcept;
+  void let_go(std::span<const geometry::TetId> pieces) noexcept;
   /// What the editor took, `gone_`, goes off the body.
   void forgo_gone() noexcept;
   void list_removed() noexcept;
@@ -80,8 +83,6 @@ class DynamicModel final : public OrganModel {
   const physics::MaterialMap& material_;
   physics::StressLaw stress_;
   std::function<std::unique_ptr<StrainGauge>()> gauge_;
-  physics::Inertia inertia_;      // of the uncut body
-  physics::CarriedMass carried_;  // all of it, where the stepper sheds none
   geometry::MeshEditor editor_;
   BodyLoads loads_;
   physics::BodyState state_, before_;  // now, and when this tick began
@@ -91,10 +92,11 @@ class DynamicModel final : public OrganModel {
   std::vector<std::uint8_t> precomputed_;  // [T] or empty
   CutQueue burning_;
   physics::Tearing tearing_;
-  std::unique_ptr<physics::UnheldPieces> unheld_;  // null: what floats falls
-  double reach_m_;                                 // farther nothing falls
-  double ahead_s_ = 0;                             // of the clock's time, not yet stepped
-  double until_check_s_ = 0;                       // of tearing
+  std::unique_ptr<PartedTissue> parted_;  // null: all of it has masses, and what floats falls
+  std::optional<Vec3> piece_gravity_;     // none: what is parted is dropped
+  double reach_m_;                        // farther nothing falls
+  double ahead_s_ = 0;                    // of the clock's time, not yet stepped
+  double until_check_s_ = 0;              // of tearing
   std::uint64_t version_ = 0;
   ModelStatus status_;
   std::vector<geometry::TetId> gone_, fallen_, met_;  // workspace, capacity T

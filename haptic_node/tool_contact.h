@@ -12,8 +12,8 @@ struct ToolInput {
   bool engaged = false;    // a pose is known; else the tool touches nothing
   bool relocated = false;  // it did not come here by moving: contacts are let go, nothing is swept
   bool silent = false;     // not heard of for a moment, and not engaged: jaws that hold go on holding
-  bool heard_again =
-      false;        // relocated after such a moment: jaws that hold are engaged, and slipped by the way
+  // relocated after such a moment: jaws that hold are engaged, and slipped by the way
+  bool heard_again = false;
   ToolFrame frame;  // as measured
   double grip = 0;  // jaw opening, rad
   // the stiffest wall that its device renders, N/m

@@ -35,6 +35,7 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
   positions_ = rest_;
 
   mesh_.triangles = refinement_.triangles();
+  mesh_.split = level_;
   mesh_.vertices.resize(refinement_.vertex_count());
   smooth_normals(triangles_, rest_, normals_);
   rest_normals_ = normals_;

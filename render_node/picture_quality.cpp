@@ -15,7 +15,7 @@ constexpr std::array<QualityMeans, kQualityCount> kMeans{{
     {"flat", 0, 0.5f, Shading::kNoShadows},
     {"draft", 0, 1.0f, Shading::kPerVertex},
     {"sketch", 0, 1.0f / 2, Shading::kPerVertex},
-    {"faint", 0, 1.0f / 3, Shading::kPerVertex},
+    {"faint", 0, 1.0f / 3, Shading::kPerVertex, true},
 }};
 
 }  // namespace

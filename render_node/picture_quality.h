@@ -20,6 +20,7 @@ struct QualityMeans {
   int samples;       // per pixel, for smooth edges; 0: the pixel's middle
   float scale;       // of the picture's sides; below 1 it is stretched
   Shading shading;
+  bool corners_alone = false;  // organs without the triangles that make them round (corner_triangles.h)
 };
 
 const QualityMeans& means_of(Quality quality);

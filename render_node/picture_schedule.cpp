@@ -6,7 +6,7 @@
 namespace omentum::render {
 namespace {
 
-constexpr const char* kNumbered = "frame_";
+constexpr double kPeriod_s = 2;           // off-screen, unless asked otherwise
 constexpr double kDeeper = 1.05;          // a picture of less is not worth writing
 constexpr double kShallowest_m = 0.0005;  // below half a millimetre nothing would be seen
 constexpr double kIndentPeriod_s = 1;     // reading back and writing costs a frame or two
@@ -23,14 +23,14 @@ bool PictureSchedule::indent_due(double time_s, double dent_m) const {
 }
 
 Quality PictureSchedule::quality(const std::string& name) const {
-  return dear_ && name.starts_with(kNumbered) ? Quality::kPlain : Quality::kFine;
+  return dear_ && name != kLastPicture ? Quality::kPlain : Quality::kFine;
 }
 
 PicturesDue PictureSchedule::due(double time_s, double dent_m) {
   PicturesDue due;
   if (frame_due(time_s)) {
     std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "%s%04d.png", kNumbered, ++frames_);
+    std::snprintf(name.data(), name.size(), "frame_%04d.png", ++frames_);
     due.numbered = name.data();
     next_s_ = time_s + period_s_;
   }
@@ -40,6 +40,12 @@ PicturesDue PictureSchedule::due(double time_s, double dent_m) {
     indent_written_s_ = time_s;
   }
   return due;
+}
+
+PictureSchedule schedule_of(double asked_period_s, const Renderer& renderer) {
+  const bool has_window = renderer.has_window();
+  const double period_s = asked_period_s >= 0 ? asked_period_s : has_window ? 0 : kPeriod_s;
+  return PictureSchedule(period_s, has_window && !renderer.software().empty());
 }
 
 }  // namespace omentum::render

@@ -7,24 +7,29 @@
 
 namespace omentum::render {
 
+/// The last picture's file: nothing waits for it any more.
+inline constexpr const char* kLastPicture = "final.png";
+/// The close-up's of the deepest dent.
+inline constexpr const char* kIndentPicture = "indent.png";
+
 /// What should be written of a frame.
 struct PicturesDue {
   std::string numbered;  // frame_0001.png, ... of the ordinary view; empty: none
-  bool indent = false;   // indent.png, the close-up of the deepest dent
+  bool indent = false;   // kIndentPicture, the close-up of the deepest dent
 };
 
 /// A numbered picture every period, and the close-up whenever a dent is deeper than in any picture before. No
 /// clock: times are given. One thread.
 class PictureSchedule {
  public:
-  /// period_s <= 0: no numbered frames.
-  explicit PictureSchedule(double period_s) : period_s_(period_s) {}
+  /// period_s <= 0: no numbered frames. `dear`: fine pictures would be, by what is known before the first.
+  explicit PictureSchedule(double period_s, bool dear = false) : period_s_(period_s), dear_(dear) {}
 
   /// `dent_m`: depth of the deepest dent in this frame (dent.h). Times must not decrease.
   PicturesDue due(double time_s, double dent_m);
   /// What a frame with pictures cost, s.
   void took(double cost_s) { dear_ = dear_ || cost_s > kDear_s; }
-  /// Of the picture of that name: where fine ones are dear, numbered ones are plain.
+  /// Of the picture of that name: where fine ones are dear, all but the last one are plain.
   Quality quality(const std::string& name) const;
 
  private:
@@ -39,7 +44,11 @@ class PictureSchedule {
   double next_s_ = 0;
   double indent_m_ = 0;  // in indent.png
   double indent_written_s_ = 0;
-  bool dear_ = false;
+  bool dear_;
 };
+
+/// `asked_period_s` negative: every 2 s off-screen, none in a window. Where software draws a window, fine
+/// pictures are dear: a person would see it stand still for half a second.
+PictureSchedule schedule_of(double asked_period_s, const Renderer& renderer);
 
 }  // namespace omentum::render

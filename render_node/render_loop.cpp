@@ -17,12 +17,12 @@
 namespace omentum::render {
 namespace {
 
-constexpr double kPicturePeriod_s = 2;            // off-screen, unless asked otherwise
 constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and the ground's shade is seen to
                                                   // follow them, within seconds
 constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
-// The share of the time that drawing may take: the rest of this core belongs to the 1 kHz loops.
-constexpr double kDuty = 0.5;
+// The share of the time that drawing may take. The 1 kHz loops' priority takes the processor from it at any
+// moment; the rest is for what has none.
+constexpr double kDuty = 0.75;
 constexpr double kSettled_s = 3;  // the frame rate's control has found its level, and the others are there
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
@@ -63,11 +63,6 @@ std::optional<std::size_t> organ_to_expose(const scene::Scene& scene) {
   return std::nullopt;
 }
 
-double picture_period_s(const RenderOptions& options, bool has_window) {
-  if (options.picture_period_s >= 0) return options.picture_period_s;
-  return has_window ? 0 : kPicturePeriod_s;
-}
-
 }  // namespace
 
 RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
@@ -95,7 +90,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
       feel_ring_(renderer),
       max_force_n_(loaded.scene.haptics.max_force_n),
       control_(options.fps, kDuty),
-      schedule_(picture_period_s(options, renderer.has_window())),
+      schedule_(schedule_of(options.picture_period_s, renderer)),
       recorder_(options.out.empty() ? "." : options.out, options.record_fps, faults_),
       account_(std::llround(1e9 / options.fps)),
       status_(node::introduce(msg::NODE_RENDER, options.fps)),
@@ -143,7 +138,7 @@ void RenderLoop::frame(bool last) {
   const std::optional<Dent>& dent = watch_.deepest_dent();
   PicturesDue due;
   if (last) {
-    due.numbered = "final.png";
+    due.numbered = kLastPicture;
   } else if (writer_) {
     due = schedule_.due(seconds_since_begin(begin_ns), dent ? dent->depth_m : 0);
   }
@@ -194,8 +189,10 @@ void RenderLoop::record() {
 }
 
 void RenderLoop::take_close_up(const Dent& deepest) {
-  renderer_.draw(view_.close_up(deepest, choices_, watch_.tools()));
-  writer_->write(renderer_.read_back(), "indent.png");
+  Frame frame = view_.close_up(deepest, choices_, watch_.tools());
+  frame.quality = schedule_.quality(kIndentPicture);
+  renderer_.draw(frame);
+  writer_->write(renderer_.read_back(), kIndentPicture);
 }
 
 void RenderLoop::draw(const std::string& picture) {

@@ -44,6 +44,8 @@ using MeshTriangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen fr
 struct MeshData {
   std::vector<Vertex> vertices;
   std::vector<MeshTriangle> triangles;
+  int split =
+      1;  // each run of split^2 triangles was one, split as SurfaceRefinement does (corner_triangles.h)
 };
 
 /// A mesh that a renderer holds.

@@ -25,9 +25,12 @@ double largest_young_pa(const scene::Scene& scene) {
 
 std::vector<scene::Trusted> trusted_of(const scene::Scene& scene) {
   std::vector<scene::Trusted> trusted;
-  for (const scene::OrganSpec& organ : scene.organs)
-    trusted.push_back(
-        std::ranges::find(scene::kOrganModels, organ.model, &scene::OrganModelWord::word)->trusted);
+  for (const scene::OrganSpec& organ : scene.organs) {
+    // what falls goes far, and is not of the law that is linear in displacements
+    const bool falls = organ.dynamics && organ.dynamics->pieces == "fall";
+    const auto model = std::ranges::find(scene::kOrganModels, organ.model, &scene::OrganModelWord::word);
+    trusted.push_back(falls ? scene::Trusted::kSmallStrains : model->trusted);
+  }
   return trusted;
 }
 

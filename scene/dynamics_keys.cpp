@@ -29,6 +29,13 @@ void read_law(TomlSection& s, std::string& law) {
   s.read_word("law", law, kOptional, {"linear", "corotational"});
 }
 
+// An organ in its bed has its weight in its shape, and no gravity of its own; what falls out of it has.
+void read_pieces(TomlSection& s, DynamicsSpec& dynamics) {
+  dynamics.pieces = "drop";
+  s.read_word("pieces", dynamics.pieces, kOptional, {"drop", "fall"});
+  if (dynamics.pieces == "fall") s.read("piece_gravity_m_s2", dynamics.piece_gravity_m_s2, kOptional);
+}
+
 // What has masses swings and tears.
 void read_motion(TomlSection& s, const std::string& model, DynamicsSpec& dynamics) {
   read_integrator(s, model, dynamics.integrator);
@@ -57,7 +64,11 @@ bool has_masses(const std::string& model) {
 
 DynamicsSpec read_dynamics(TomlSection& s, const std::string& model) {
   DynamicsSpec dynamics;
-  if (has_masses(model)) read_motion(s, model, dynamics);
+  if (has_masses(model)) {
+    read_motion(s, model, dynamics);
+  } else {
+    read_pieces(s, dynamics);
+  }
   s.read("gravity_m_s2", dynamics.gravity_m_s2, kOptional);
   s.read("cut_delay_s", dynamics.cut_delay_s, kOptional, kDelay_s);
   s.read("cut_rate_per_s", dynamics.cut_rate_per_s, kOptional, kPositive);

@@ -83,6 +83,8 @@ void add(const DynamicsSpec& dynamics, Table& table) {
   table.add("cut_delay_s", dynamics.cut_delay_s);
   table.add("cut_rate_per_s", dynamics.cut_rate_per_s);
   table.add("smallest_piece_m3", dynamics.smallest_piece_m3);
+  if (!dynamics.pieces.empty()) table.add("pieces", dynamics.pieces);
+  if (dynamics.pieces == "fall") table.add("piece_gravity_m_s2", dynamics.piece_gravity_m_s2);
   if (!dynamics.law.empty()) table.add("law", dynamics.law);
 }
 

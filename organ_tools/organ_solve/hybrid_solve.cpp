@@ -2,9 +2,12 @@
 
 #include "organ/stored_tensors.h"
 #include "organ/tensor_check.h"
+#include "organ_tools/organ_solve/joined_law.h"
 #include "organ_tools/organ_solve/move_to_rest.h"
 #include "physics/direct_solve.h"
+#include "physics/dynamics/corotational.h"
 #include "physics/dynamics/implicit_step.h"
+#include "physics/dynamics/rest_search.h"
 #include "physics/hybrid/condensed_stiffness.h"
 #include "physics/tensor_solve.h"
 
@@ -45,7 +48,7 @@ Contacts contacts_of(const organ::Organ& organ, Imposed imposed, Numbering numbe
 class HybridRest {
  public:
   HybridRest(const organ::Organ& organ, const organ::StoredTensors& tensors, const CutOrgan& cut,
-             Imposed imposed, const std::vector<Vec3>& weights, Contacts contacts)
+             Imposed imposed, const std::vector<Vec3>& weights, Contacts contacts, DynamicLaw law)
       : organ_(organ),
         split_(*organ.split),
         tensors_(tensors),
@@ -53,6 +56,7 @@ class HybridRest {
         imposed_(imposed),
         weights_(weights),
         contacts_(std::move(contacts)),
+        law_(law),
         stiffness_(physics::assemble_stiffness(split_.parts.precomputed.mesh, organ.material)),
         loads_(loads_of_precomputed()),
         sag_(physics::direct_solve(stiffness_, split_.fixed, {}, loads_).displacements) {}
@@ -68,7 +72,32 @@ class HybridRest {
     return displacements;
   }
 
+  // What tissue that is deformed so holds against at each node, [N], N.
+  std::vector<Vec3> holding_forces(const std::vector<Vec3>& displacements) const {
+    if (law_ == DynamicLaw::kLinear)
+      return physics::holding_forces(stiffness_of(organ_, cut_), displacements);
+    std::vector<Vec3> held(displacements.size(), Vec3::Zero());
+    std::vector<Vec3> own;
+    for (const NodeId n : split_.parts.precomputed.node) own.push_back(displacements[n]);
+    const std::vector<Vec3> precomputed = physics::holding_forces(stiffness_, own);
+    for (std::size_t n = 0; n < own.size(); ++n) held[split_.parts.precomputed.node[n]] += precomputed[n];
+    std::vector<double> u;
+    for (const NodeId n : split_.parts.dynamic.node)
+      u.insert(u.end(), displacements[n].begin(), displacements[n].end());
+    std::vector<double> f(u.size());
+    turning_law()->forces(u, f);
+    for (std::size_t n = 0; n < split_.parts.dynamic.node.size(); ++n)
+      held[split_.parts.dynamic.node[n]] -= Vec3(f.data() + 3 * n);
+    return held;
+  }
+
  private:
+  std::unique_ptr<physics::Corotational> turning_law() const {
+    auto law = std::make_unique<physics::Corotational>(split_.parts.dynamic.mesh, organ_.material);
+    for (const TetId t : removed()) law->remove(t);
+    return law;
+  }
+
   // Connection nodes carry theirs as nodes of the dynamic part.
   std::vector<Vec3> loads_of_precomputed() const {
     std::vector<Vec3> loads;
@@ -141,12 +170,17 @@ class HybridRest {
       Vec3::Map(&external[at]) += f_c.segment<3>(static_cast<Eigen::Index>(3 * added.nodes.size()));
       added.nodes.push_back(dynamic.own_node[n]);
     }
-    physics::ImplicitStep stepper(
-        dynamic.mesh, organ_.material, inertia(),
-        {.step_s = kRestStep_s, .most_compliance_nodes = 0, .added = std::move(added)});
+    physics::ImplicitStep stepper(dynamic.mesh, organ_.material, inertia(),
+                                  {.step_s = kRestStep_s, .most_compliance_nodes = 0, .added = added});
     physics::BodyState state = start();
-    const bool rests =
-        stepper.remove(removed()) && run_to_rest([&] { return stepper.step(state, external); }, state);
+    const auto find_rest = [&] {
+      if (law_ == DynamicLaw::kLinear)
+        return run_to_rest([&] { return stepper.step(state, external); }, state);
+      const auto turning = turning_law();
+      JoinedLaw joined(*turning, std::move(added));
+      return physics::search_rest(joined, stepper.factor(), external, state.u);
+    };
+    const bool rests = stepper.remove(removed()) && find_rest();
     if (!rests) throw InputError("--model hybrid: found no rest; expected smaller loads or displacements");
     return state.u;
   }
@@ -177,6 +211,7 @@ class HybridRest {
   Imposed imposed_;
   const std::vector<Vec3>& weights_;  // [N] of what is left
   Contacts contacts_;
+  DynamicLaw law_;
   physics::Stiffness stiffness_;  // of the precomputed part
   std::vector<Vec3> loads_;       // [n] of its own nodes
   std::vector<Vec3> sag_;         // [n] under them, without the dynamic part
@@ -200,14 +235,14 @@ void require_dynamic(const organ::Organ& organ, const std::filesystem::path& fil
 
 physics::StaticSolution solve_hybrid(const organ::Organ& organ, const std::filesystem::path& file,
                                      const CutOrgan& cut, Imposed imposed, const Vec3& gravity,
-                                     Numbering numbering) {
+                                     Numbering numbering, DynamicLaw law) {
   require_dynamic(organ, file, cut, numbering);
   const organ::StoredTensors tensors = organ::map_tensors(file, organ);
   organ::require_whole(tensors, file);
   const std::vector<Vec3> weights = weights_of(organ, cut, gravity);
-  const HybridRest rest(organ, tensors, cut, imposed, weights, contacts_of(organ, imposed, numbering));
+  const HybridRest rest(organ, tensors, cut, imposed, weights, contacts_of(organ, imposed, numbering), law);
   physics::StaticSolution solution{rest.displacements(), {}};
-  const std::vector<Vec3> forces = physics::holding_forces(stiffness_of(organ, cut), solution.displacements);
+  const std::vector<Vec3> forces = rest.holding_forces(solution.displacements);
   for (const physics::ImposedDisplacement& i : imposed)
     solution.holding_forces.emplace_back(forces[i.node] - weights[i.node]);
   return solution;

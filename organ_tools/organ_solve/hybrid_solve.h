@@ -3,19 +3,23 @@
 
 #include "organ_tools/organ_solve/cut_organ.h"
 #include "organ_tools/organ_solve/solve_models.h"
+#include "physics/hybrid/hybrid_step.h"
 
 #include <filesystem>
 
 namespace omentum::organ_tools {
 
+/// By which law the dynamic part is deformed; the precomputed one is linear.
+using physics::DynamicLaw;
+
 /// Where a hybrid organ comes to rest under gravity with the imposed nodes held (Cotin 1998, fig. 5): the
-/// dynamic part steps as move_to_rest() does, with the stored tensors of the precomputed part condensed onto
-/// the connection nodes, where imposed nodes of that part are held too; then the precomputed part follows,
-/// its inner nodes elastically. Answers as solve_directly(). Throws geometry::InputError for an organ without
-/// a dynamic part, where tetrahedra of the precomputed part were taken out, for an imposed node inside the
-/// precomputed part, which has no tensors, and where it finds no rest.
+/// dynamic part moves as move_to_rest() has its law move, with the stored tensors of the precomputed part
+/// condensed onto the connection nodes, where imposed nodes of that part are held too; then the precomputed
+/// part follows, its inner nodes elastically. Answers as solve_directly(). Throws geometry::InputError for an
+/// organ without a dynamic part, where tetrahedra of the precomputed part were taken out, for an imposed node
+/// inside the precomputed part, which has no tensors, and where it finds no rest.
 physics::StaticSolution solve_hybrid(const organ::Organ& organ, const std::filesystem::path& file,
                                      const CutOrgan& cut, Imposed imposed, const geometry::Vec3& gravity,
-                                     Numbering numbering);
+                                     Numbering numbering, DynamicLaw law);
 
 }  // namespace omentum::organ_tools

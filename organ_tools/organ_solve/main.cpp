@@ -21,6 +21,7 @@ struct SolveCommand {
   std::filesystem::path organ;
   std::filesystem::path imposed;
   std::string model = "tensors";
+  std::string law;
   std::string gravity;
   std::filesystem::path removed;
   std::string prefix;
@@ -37,6 +38,8 @@ void add_options(runtime::CommandLine& line, SolveCommand& command) {
               "tensor-mass, corotational, spring-mass, or hybrid (of an organ with a dynamic part)")
       .type_name("MODEL")
       .show_default();
+  line.option("--law", command.law, "of the dynamic part of --model hybrid: linear (default) or corotational")
+      .type_name("LAW");
   line.option("--gravity", command.gravity, "acceleration x,y,z, m/s^2").type_name("X,Y,Z");
   line.option(
           "--remove", command.removed,
@@ -59,6 +62,12 @@ void require_offered(const SolveCommand& command) {
                                ": not part of this version; expected tensors, direct, cut, tensor-mass, "
                                "corotational, spring-mass or hybrid");
   }
+  if (!command.law.empty() && command.model != "hybrid") {
+    throw geometry::InputError("--law " + command.law + ": --model " + command.model +
+                               " has no law to choose; expected --model hybrid");
+  }
+  if (!command.law.empty() && command.law != "linear" && command.law != "corotational")
+    throw geometry::InputError("--law " + command.law + ": expected linear or corotational");
   if (tensors && !command.removed.empty()) {
     throw geometry::InputError("--remove " + command.removed.string() +
                                ": stored tensors are of the uncut organ; expected another --model");
@@ -98,8 +107,11 @@ physics::StaticSolution answer(const SolveCommand& command, const organ::Organ& 
                                const geometry::Vec3& gravity, std::string& warning) {
   if (command.model == "direct") return organ_tools::solve_directly(organ, cut, imposed, gravity);
   if (command.model == "cut") return organ_tools::solve_cut(organ, cut, imposed, gravity);
-  if (command.model == "hybrid")
-    return organ_tools::solve_hybrid(organ, command.organ, cut, imposed, gravity, command.numbering);
+  if (command.model == "hybrid") {
+    const auto law = command.law == "corotational" ? organ_tools::DynamicLaw::kCorotational
+                                                   : organ_tools::DynamicLaw::kLinear;
+    return organ_tools::solve_hybrid(organ, command.organ, cut, imposed, gravity, command.numbering, law);
+  }
   if (command.model != "tensors")
     return organ_tools::move_to_rest(command.model, organ, cut, imposed, gravity);
   return organ_tools::solve_with_tensors(organ, command.organ, imposed, gravity, command.numbering, warning);

@@ -42,6 +42,7 @@ class ImplicitStep final : public JoinableStep {
   /// A law of its own is told by the caller.
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
   void restore() noexcept override;
+  std::span<const double> mass() const noexcept override { return carried_.kg(); }
 
   /// dt^2 A^-1.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;

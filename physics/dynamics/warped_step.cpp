@@ -17,6 +17,9 @@ void add(double scale, std::span<const double> x, std::span<double> y) noexcept 
   for (std::size_t c = 0; c < y.size(); ++c) y[c] += scale * x[c];
 }
 
+// N s: what is less is nothing, before a factor of floats makes it zero and a division by it no number.
+constexpr double kNothing = 1e-30;
+
 // From the identity, what Q^T Q may be: a mean that is further away is none, and its node is not turned.
 constexpr double kNoRotation = 0.1;
 
@@ -149,7 +152,7 @@ void WarpedStep::precondition(std::span<const double> residual, std::span<double
 }
 
 double WarpedStep::enough_of(std::span<const double> right_hand_side) const noexcept {
-  return options_.tolerance * std::sqrt(dot(right_hand_side, right_hand_side));
+  return std::max(kNothing, options_.tolerance * std::sqrt(dot(right_hand_side, right_hand_side)));
 }
 
 // As much of the guess x as is right; what it lacks stays in `lacking`.

@@ -46,6 +46,7 @@ class WarpedStep final : public JoinableStep {
   /// From the law and from the factor.
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
   void restore() noexcept override;
+  std::span<const double> mass() const noexcept override { return carried_.kg(); }
 
   /// Those of the body at rest, turned at each node as of the last step.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;

@@ -28,7 +28,10 @@ class GlfwContext final : public GlContext {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // the scene is drawn into a framebuffer of our own
+    // the scene is drawn into a framebuffer of our own; what a window had beside its colours would be kept
+    // up to date at each pixel
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
     window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
     if (!window_) {
       const std::string reason = last_glfw_error();

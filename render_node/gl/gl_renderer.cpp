@@ -198,7 +198,8 @@ class GlRenderer final : public Renderer {
       program.set("material_roughness", item.material.roughness);
       program.set("material_glow", item.material.glow);
       if (look == Look::kSmoke) program.set("material_opacity", item.material.opacity);
-      mesh(item.mesh).draw();
+      const MeshBuffer& buffer = mesh(item.mesh);
+      means_of(frame.quality).corners_alone ? buffer.draw_corners() : buffer.draw();
     }
   }
 
@@ -230,12 +231,13 @@ class GlRenderer final : public Renderer {
 
   void resolve(const RenderTarget& scene) {
     const auto [width, height] = fitted_;
-    if (scene.size() == fitted_) {
+    if (scene.texture() == 0) {  // several samples per pixel
       glBindFramebuffer(GL_READ_FRAMEBUFFER, scene.framebuffer());
       glBindFramebuffer(GL_DRAW_FRAMEBUFFER, output());
       glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    } else {
+      stretch_.draw(scene, output(), fitted_);
     }
-    if (scene.size() != fitted_) stretch_.draw(scene, output(), fitted_);
     glBindFramebuffer(GL_FRAMEBUFFER, output());
     glViewport(0, 0, width, height);
   }
@@ -252,7 +254,7 @@ class GlRenderer final : public Renderer {
   Program shadow_program_{"shadow", shaders::shadow_vert, "", shaders::shadow_frag};
   std::array<std::optional<Programs>, kShadingCount> programs_;  // made when first needed
   TubePainter tubes_;
-  Stretch stretch_{!software().empty()};
+  Stretch stretch_;
   NoiseTexture pattern_;
   Wires wires_;
   ShadowMap shadow_;

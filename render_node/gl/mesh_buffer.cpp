@@ -1,6 +1,7 @@
 #include "render_node/gl/mesh_buffer.h"
 
 #include "geometry/precondition.h"
+#include "render_node/corner_triangles.h"
 
 #include <epoxy/gl.h>
 
@@ -39,7 +40,9 @@ MeshBuffer::MeshBuffer(MeshBuffer&& other) noexcept
     : array_(std::exchange(other.array_, 0)),
       vertices_(std::exchange(other.vertices_, 0)),
       indices_(std::exchange(other.indices_, 0)),
-      triangle_count_(other.triangle_count_) {}
+      triangle_count_(other.triangle_count_),
+      corner_count_(other.corner_count_),
+      split_(other.split_) {}
 
 MeshBuffer::~MeshBuffer() {
   glDeleteVertexArrays(1, &array_);
@@ -56,8 +59,11 @@ void MeshBuffer::update(std::span<const Vertex> vertices) {
 void MeshBuffer::update(std::size_t first, std::span<const MeshTriangle> triangles) {
   geometry::require(first + triangles.size() <= triangle_count_, "triangles that the mesh has");
   glBindVertexArray(array_);
-  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof(MeshTriangle)),
-                  static_cast<GLsizeiptr>(triangles.size_bytes()), triangles.data());
+  store(first, triangles);
+  if (split_ == 1) return;
+  const auto run = static_cast<std::size_t>(split_ * split_);
+  geometry::require(first % run == 0, "whole runs of triangles");
+  store(triangle_count_ + first / run, corner_triangles(triangles, split_));
 }
 
 void MeshBuffer::replace(const MeshData& mesh) {
@@ -67,15 +73,35 @@ void MeshBuffer::replace(const MeshData& mesh) {
 
 // The array is bound.
 void MeshBuffer::fill(const MeshData& mesh) {
+  split_ = mesh.split;
+  std::vector<MeshTriangle> corners;
+  if (split_ > 1) corners = corner_triangles(mesh.triangles, split_);
   triangle_count_ = mesh.triangles.size();
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangle_count_ * sizeof(MeshTriangle)),
-               mesh.triangles.data(), GL_DYNAMIC_DRAW);
+  corner_count_ = corners.size();
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>((triangle_count_ + corner_count_) * sizeof(MeshTriangle)), nullptr,
+               GL_DYNAMIC_DRAW);
+  store(0, mesh.triangles);
+  store(triangle_count_, corners);
   update(mesh.vertices);
+}
+
+void MeshBuffer::store(std::size_t first, std::span<const MeshTriangle> triangles) {
+  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof(MeshTriangle)),
+                  static_cast<GLsizeiptr>(triangles.size_bytes()), triangles.data());
 }
 
 void MeshBuffer::draw() const {
   glBindVertexArray(array_);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangle_count_), GL_UNSIGNED_INT, nullptr);
+}
+
+void MeshBuffer::draw_corners() const {
+  if (split_ == 1) return draw();
+  const std::size_t offset = triangle_count_ * sizeof(MeshTriangle);
+  glBindVertexArray(array_);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * corner_count_), GL_UNSIGNED_INT,
+                 reinterpret_cast<void*>(offset));  // NOLINT(performance-no-int-to-ptr): OpenGL's way
 }
 
 }  // namespace omentum::render::gl

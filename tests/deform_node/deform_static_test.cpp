@@ -190,5 +190,11 @@ TEST(StaticCuts, RandomSequencesLeaveAWholeModel) {
     EXPECT_EQ(try_static_cuts(organs[seed % organs.size()], seed, 60), "") << "seed " << seed;
 }
 
+TEST(StaticCuts, RandomSequencesWhosePiecesFallDoSoToo) {
+  const HeldOrgan beam(test::make_box_mesh(8, 3, 3, {0.12, 0.04, 0.04}), 0.001);
+  for (std::uint32_t seed = 0; seed < 3; ++seed)
+    EXPECT_EQ(try_falling_cuts(beam, seed, 60), "") << "seed " << seed;
+}
+
 }  // namespace
 }  // namespace omentum::deform

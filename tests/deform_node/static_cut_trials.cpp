@@ -31,6 +31,23 @@ DynamicParts HeldOrgan::parts() const {
           .is_static = true};
 }
 
+DynamicParts falling_parts_of(const HeldOrgan& organ) {
+  DynamicParts parts = organ.parts();
+  parts.stepper = make_static_stepper(parts.body, kTick_s, LoosePieces::kFall);
+  parts.piece_gravity_m_s2 = Vec3(0, 0, -9.81);
+  return parts;
+}
+
+std::string try_falling_cuts(const HeldOrgan& organ, std::uint32_t seed, int ticks) {
+  TriedOrgan tried{.mesh = organ.mesh,
+                   .fixed = organ.fixed,
+                   .make = [&] { return std::make_unique<DynamicModel>(falling_parts_of(organ)); },
+                   .places = {},
+                   .turns = true};
+  for (std::size_t n = 0; n < organ.mesh.positions.size(); ++n) tried.places.emplace_back(n);
+  return try_cuts(tried, seed, ticks);
+}
+
 std::string try_static_cuts(const HeldOrgan& organ, std::uint32_t seed, int ticks) {
   TriedOrgan tried{.mesh = organ.mesh,
                    .fixed = organ.fixed,

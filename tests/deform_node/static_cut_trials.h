@@ -22,7 +22,11 @@ struct HeldOrgan {
   DynamicParts parts() const;
 };
 
-/// A sequence of cut_trials.h, and what is left is held.
+/// The same whose pieces fall.
+DynamicParts falling_parts_of(const HeldOrgan& organ);
+
+/// A sequence of cut_trials.h, and what is left is held; or, of the other, may fall.
+std::string try_falling_cuts(const HeldOrgan& organ, std::uint32_t seed, int ticks);
 std::string try_static_cuts(const HeldOrgan& organ, std::uint32_t seed, int ticks);
 
 }  // namespace omentum::deform

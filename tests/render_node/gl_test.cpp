@@ -225,6 +225,17 @@ TEST_F(Drawing, QualitiesShowTheSame) {
   }
 }
 
+TEST_F(Drawing, TheCoarsestPictureShowsTheSameOrgan) {
+  const auto tissue = [&](Quality quality) {
+    const Picture picture = draw(*renderer_, {{}, {}}, quality);
+    return area_where(picture, [&](int x, int y) { return is_tissue(pixel(picture, x, y)); });
+  };
+  const Area round = tissue(Quality::kDraft), corners = tissue(Quality::kFaint);
+  ASSERT_GT(round.count, 1000);
+  EXPECT_NEAR(corners.count, round.count, 0.04 * round.count);
+  EXPECT_LT((corners.middle - round.middle).norm(), 2) << "pixels";
+}
+
 TEST_F(Drawing, LinesOfTheTrianglesLieOnTheOrganAndLeaveItSeen) {
   const Picture plain = draw();
   choices_.wires = true;

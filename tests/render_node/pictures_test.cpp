@@ -29,6 +29,12 @@ TEST(PictureSchedule, WhereFinePicturesAreDearNumberedOnesArePlain) {
   EXPECT_EQ(schedule.quality("final.png"), Quality::kFine);
 }
 
+TEST(PictureSchedule, WhereAFinePictureWouldStallAWindowOnlyTheLastIsFine) {
+  const PictureSchedule schedule(0, true);
+  EXPECT_EQ(schedule.quality(kIndentPicture), Quality::kPlain);
+  EXPECT_EQ(schedule.quality(kLastPicture), Quality::kFine);
+}
+
 TEST(PictureSchedule, DeepestDentIsTakenAgainWhenDeeper) {
   PictureSchedule schedule(0);
   EXPECT_FALSE(schedule.due(0, 0.0001).indent) << "nothing to see";

@@ -60,6 +60,19 @@ TEST(DynamicsKeys, OneInEquilibriumIsCutButNeitherSwingsNorTears) {
                 HasSubstr(":5: organs[0]." + key.substr(0, key.find(' ')) + ": "));
 }
 
+TEST(DynamicsKeys, OneInEquilibriumSaysWhatBecomesOfItsPieces) {
+  const std::string cut = "model = \"quasi-static-cut\"\n", fall = cut + "pieces = \"fall\"\n";
+  EXPECT_EQ(load_scene(with(cut)).organs[0].dynamics->pieces, "drop");
+  const Scene scene = load_scene(with(fall + "piece_gravity_m_s2 = [0, 0, -2]"));
+  EXPECT_EQ(scene.organs[0].dynamics->pieces, "fall");
+  EXPECT_EQ(scene.organs[0].dynamics->piece_gravity_m_s2, Vec3(0, 0, -2));
+  EXPECT_THAT(scene_values(scene), Contains("organs[0].pieces = fall"));
+  EXPECT_EQ(load_scene(with(fall)).organs[0].dynamics->piece_gravity_m_s2, Vec3(0, 0, -9.81));
+  EXPECT_THAT(message_of(with(cut + "pieces = \"fly\"")), HasSubstr("one of \"drop\", \"fall\""));
+  EXPECT_THAT(message_of(with(cut + "piece_gravity_m_s2 = [0, 0, -2]")), HasSubstr("unknown key"));
+  EXPECT_THAT(message_of(with("model = \"tensor-mass\"\npieces = \"fall\"")), HasSubstr("unknown key"));
+}
+
 TEST(DynamicsKeys, ADynamicModelHasThemAndAPrecomputedOneDoesNot) {
   const auto file = with(
       "model = \"tensor-mass\"\nintegrator = \"rk4\"\nstep_s = 0.001\ngravity_m_s2 = [0, 0, -9.81]\n"

@@ -62,6 +62,18 @@ TEST_F(WarpedStepTest, IsTheLinearStepWhereNothingTurns) {
   EXPECT_LE(norm(sum(a.u, -1, b.u)), 10 * kFloat * norm(b.u));
 }
 
+// As what a last step lacked of a piece that then went: the factor's floats, or its square, are hardly a
+// number.
+TEST_F(WarpedStepTest, AnImpulseThatIsNothingIsOne) {
+  WarpedStep warped = stepper(inertia(Held::kAtOneEnd));
+  for (int power = -165; power < -20; power += 3) {
+    BodyState state = state_at_rest(mesh.positions.size());
+    const Vector push = random_vector(size, std::pow(10.0, power), 3);
+    EXPECT_TRUE(warped.step(state, view(push))) << power;
+    warped.restore();
+  }
+}
+
 TEST_F(WarpedStepTest, ATurnedBodyNeedsNoMoreIterationsThanOneAtRest) {
   WarpedStep warped = stepper(inertia(Held::kNowhere));
   const Vector push = random_vector(size, 1e-3, 3);
