@@ -1,5 +1,7 @@
 #include "deform_node/body_loads.h"
 
+#include "physics/dynamics/body_state.h"
+
 #include <algorithm>
 
 namespace omentum::deform {
@@ -11,18 +13,11 @@ BodyLoads::BodyLoads(const geometry::TetraMesh& mesh, const physics::MaterialMap
                      const Vec3& gravity_m_s2)
     : mesh_(mesh),
       organ_gravity_(gravity_m_s2),
-      uncut_kg_(mesh.positions.size()),
+      tissue_(mesh, material, physics::lumped_masses(mesh, material)),
+      is_bare_(mesh.positions.size()),
       weights_(3 * mesh.positions.size()),
       external_(weights_.size()),
       pressed_(mesh.positions.size(), Vec3::Zero()) {
-  quarter_kg_.reserve(mesh.tetrahedra.size());
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    const auto& x = mesh.positions;
-    quarter_kg_.push_back(material.of(mesh, TetId(t)).density_kg_m3 *
-                          geometry::signed_volume(x[a], x[b], x[c], x[d]) / 4);
-    for (const NodeId n : mesh.tetrahedra[t]) uncut_kg_[n] += quarter_kg_.back();
-  }
   gravity_.resize(mesh.positions.size());
   held_.reserve(kMaxTools);
   presses_.reserve(kMaxTools);
@@ -37,7 +32,7 @@ physics::Press BodyLoads::HeldPress::press() const noexcept {
 }
 
 void BodyLoads::weigh(NodeId n) noexcept {
-  const Vec3 weight = carried_kg_[n] * gravity_[n];
+  const Vec3 weight = is_bare_[n] ? Vec3::Zero().eval() : Vec3(tissue_.kg()[n] * gravity_[n]);
   Vec3::Map(&weights_[3 * n]) = weight;
   Vec3::Map(&external_[3 * n]) = weight + pressed_[n];
 }
@@ -95,7 +90,7 @@ void BodyLoads::carry(std::span<const double> forces, const MeshEditor& editor) 
 }
 
 void BodyLoads::put_down() noexcept {
-  for (std::size_t n = 0; n < carried_kg_.size(); ++n) weigh(NodeId(n));
+  for (std::size_t n = 0; n < gravity_.size(); ++n) weigh(NodeId(n));
 }
 
 void BodyLoads::forget_presses() noexcept {
@@ -121,11 +116,11 @@ void BodyLoads::keep_attached(HeldPress& held, const MeshEditor& editor) noexcep
 }
 
 void BodyLoads::lighten(std::span<const TetId> gone, const MeshEditor& editor) noexcept {
+  tissue_.remove(gone);
   for (const TetId t : gone) {
     for (const NodeId n : mesh_.tetrahedra[t]) {
-      // nothing, not what rounding leaves of it
-      carried_kg_[n] = editor.uses(n) == 0 ? 0 : carried_kg_[n] - quarter_kg_[t];
-      if (editor.uses(n) == 0) pressed_[n].setZero();
+      is_bare_[n] = editor.uses(n) == 0;
+      if (is_bare_[n]) pressed_[n].setZero();
       weigh(n);
     }
   }
@@ -147,8 +142,9 @@ void BodyLoads::let_go(std::span<const TetId> tetrahedra, const Vec3& gravity_m_
 void BodyLoads::restore() noexcept {
   std::ranges::fill(gravity_, organ_gravity_);
   forget_presses();
-  carried_kg_ = uncut_kg_;
-  for (std::size_t n = 0; n < uncut_kg_.size(); ++n) weigh(NodeId(n));
+  tissue_.restore();
+  std::fill(is_bare_.begin(), is_bare_.end(), false);
+  put_down();
 }
 
 }  // namespace omentum::deform

@@ -3,6 +3,7 @@
 
 #include "deform_node/contact_book.h"
 #include "geometry/mesh_editor.h"
+#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/imposed_press.h"
 
 #include <vector>
@@ -10,7 +11,7 @@
 namespace omentum::deform {
 
 /// External forces on all nodes. A node carries the weight of the tissue that is left around it: what burnt
-/// away is gone, though its mass stays for the integrator's sake (physics/dynamics/body_state.h), and a node
+/// away is gone (so is its mass, by the same books, but for explicit steps: BodyStepper::mass()), and a node
 /// without any carries nothing, whoever presses it. Takes its memory when it is made.
 class BodyLoads {
  public:
@@ -57,14 +58,13 @@ class BodyLoads {
 
   const geometry::TetraMesh& mesh_;
   Vec3 organ_gravity_;
-  std::vector<Vec3> gravity_;       // [N]
-  std::vector<double> quarter_kg_;  // [T], of each tetrahedron's mass
-  std::vector<double> carried_kg_;  // [N]
-  std::vector<double> uncut_kg_;    // [N]
-  std::vector<double> weights_;     // [3N]
-  std::vector<double> external_;    // [3N]
-  std::vector<Vec3> pressed_;       // [N], by the tools
-  std::vector<HeldPress> held_;     // capacity kMaxTools
+  std::vector<Vec3> gravity_;     // [N]
+  physics::CarriedMass tissue_;   // of what is left, however the body is stepped
+  std::vector<bool> is_bare_;     // [N] nothing is left around it
+  std::vector<double> weights_;   // [3N]
+  std::vector<double> external_;  // [3N]
+  std::vector<Vec3> pressed_;     // [N], by the tools
+  std::vector<HeldPress> held_;   // capacity kMaxTools
   std::vector<physics::Press> presses_;
 };
 

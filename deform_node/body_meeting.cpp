@@ -7,8 +7,8 @@ namespace omentum::deform {
 
 using physics::BodyState;
 
-BodyMeeting::BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall)
-    : spheres_(mesh, inertia, is_wall),
+BodyMeeting::BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia)
+    : spheres_(mesh, inertia),
       ahead_(3 * mesh.positions.size()),
       places_(ahead_.size()),
       impulses_(ahead_.size()),
@@ -17,7 +17,7 @@ BodyMeeting::BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia
 std::span<const CollisionSphere> BodyMeeting::collidable(const Cut& cut, const BodyState& state,
                                                          BodyStepper& stepper,
                                                          std::span<const double> external) noexcept {
-  if (version_ != cut.version) spheres_.part(cut.editor);
+  if (version_ != cut.version) spheres_.part(cut.editor, stepper.mass());
   version_ = cut.version;
   // who met nobody lately saves the solve
   if (!meets_ && !has_met_) return spheres_.follow(state, state.v);
@@ -57,7 +57,7 @@ void BodyMeeting::act(double seconds, const geometry::MeshEditor& editor, BodyLo
 
 void BodyMeeting::reset() noexcept {
   meets_ = has_met_ = is_ahead_ = false;
-  spheres_.hold_again();
+  version_.reset();  // what comes next may be of the same number
   std::ranges::fill(impulses_, 0.0);
 }
 

@@ -21,9 +21,8 @@ class BodyMeeting {
     std::uint64_t version;
   };
 
-  /// Both outlive this.
-  /// `is_wall`: none of it yields before it is let go.
-  BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall = false);
+  /// As BodySpheres'.
+  BodyMeeting(const geometry::TetraMesh& mesh, const physics::Inertia& inertia);
 
   std::size_t most_spheres() const noexcept { return spheres_.most(); }
   /// `external`: forces on all nodes but those of other organs, [3N], N.
@@ -39,8 +38,6 @@ class BodyMeeting {
   }
   /// Before steps that take so long: `loads` carry the pushes.
   void act(double seconds, const geometry::MeshEditor& editor, BodyLoads& loads) noexcept;
-  /// These yield from now on, until a reset.
-  void let_go(std::span<const geometry::TetId> tetrahedra) noexcept { spheres_.let_go(tetrahedra); }
   void reset() noexcept;
 
  private:

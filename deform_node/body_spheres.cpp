@@ -15,14 +15,14 @@ using geometry::Vec3;
 namespace {
 
 double mass_at(const geometry::Tetrahedron& nodes, const Eigen::Vector4d& weights,
-               const physics::Inertia& inertia) {
+               std::span<const double> mass) {
   double yield = 0;  // of the centre to an impulse, 1/kg
   for (std::size_t c = 0; c < 4; ++c) {
     // what is precomputed has no mass, and yields to nobody but its own tools
-    if (inertia.fixed[nodes[c]] != 0 || inertia.mass[nodes[c]] == 0)
-      return std::numeric_limits<double>::infinity();
+    const double kg = mass[static_cast<std::size_t>(nodes[c])];
+    if (kg == 0) return std::numeric_limits<double>::infinity();
     const double weight = weights[static_cast<Eigen::Index>(c)];
-    yield += weight * weight / inertia.mass[nodes[c]];
+    yield += weight * weight / kg;
   }
   return 1 / yield;
 }
@@ -45,8 +45,7 @@ Tie tie_of(const CoverSphere& sphere, const geometry::TetraMesh& mesh, const geo
 
 }  // namespace
 
-BodySpheres::BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall)
-    : is_wall_(is_wall), is_let_go_(mesh.tetrahedra.size()) {
+BodySpheres::BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia) {
   const geometry::Surface surface = geometry::extract_surface(mesh, {});
   const geometry::SphereCover cover = cover_with_spheres(mesh, surface);
   for (const CoverSphere& sphere : cover.spheres) {
@@ -56,29 +55,21 @@ BodySpheres::BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia
                     .weights = weights,
                     .rest = sphere.centre,
                     .radius_m = sphere.radius_m,
-                    .mass_kg = mass_at(nodes, weights, inertia)});
+                    .is_held = std::ranges::any_of(nodes, [&](NodeId n) { return inertia.fixed[n] != 0; }),
+                    .mass_kg = std::numeric_limits<double>::infinity()});
   }
   left_.reserve(all_.size());
   shown_.reserve(all_.size());
 }
 
-void BodySpheres::part(const geometry::MeshEditor& editor) noexcept {
+void BodySpheres::part(const geometry::MeshEditor& editor, std::span<const double> mass) noexcept {
   left_.clear();
-  for (std::size_t i = 0; i < all_.size(); ++i)
-    if (!editor.is_removed(all_[i].tetrahedron)) left_.push_back(i);
-}
-
-void BodySpheres::let_go(std::span<const geometry::TetId> tetrahedra) noexcept {
-  for (const geometry::TetId t : tetrahedra) is_let_go_[t] = true;
-}
-
-void BodySpheres::hold_again() noexcept {
-  std::fill(is_let_go_.begin(), is_let_go_.end(), false);
-}
-
-double BodySpheres::mass_kg(const Tied& tied) const noexcept {
-  const bool stands = is_wall_ && !is_let_go_[tied.tetrahedron];
-  return stands ? std::numeric_limits<double>::infinity() : tied.mass_kg;
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    Tied& tied = all_[i];
+    if (editor.is_removed(tied.tetrahedron)) continue;
+    left_.push_back(i);
+    if (!tied.is_held) tied.mass_kg = mass_at(tied.nodes, tied.weights, mass);
+  }
 }
 
 Vec3 BodySpheres::mean(const Tied& tied, std::span<const double> components) const noexcept {
@@ -97,7 +88,7 @@ std::span<const CollisionSphere> BodySpheres::follow(const physics::BodyState& s
     shown_.push_back({.centre = tied.rest + mean(tied, state.u),
                       .velocity = mean(tied, velocities),
                       .radius_m = tied.radius_m,
-                      .mass_kg = mass_kg(tied)});
+                      .mass_kg = tied.mass_kg});
   }
   return shown_;
 }
@@ -106,9 +97,8 @@ void BodySpheres::push(std::span<const OrganContact> contacts, std::span<double>
   for (const OrganContact& contact : contacts) {
     const auto i = static_cast<std::size_t>(contact.sphere);
     const Tied& tied = all_[left_[i]];
-    const double mass = mass_kg(tied);
-    if (std::isinf(mass)) continue;
-    const Vec3 impulse = mass * answer(contact, shown_[i].velocity);
+    if (std::isinf(tied.mass_kg)) continue;
+    const Vec3 impulse = tied.mass_kg * answer(contact, shown_[i].velocity);
     for (std::size_t c = 0; c < 4; ++c)
       Vec3::Map(&impulses[3 * tied.nodes[c]]) += tied.weights[static_cast<Eigen::Index>(c)] * impulse;
   }

@@ -16,15 +16,13 @@ namespace omentum::deform {
 /// held node does not yield. Takes its memory when it is made; one thread.
 class BodySpheres {
  public:
-  /// Both outlive this.
-  /// `is_wall`: none yields before its tetrahedron is let go.
-  BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia, bool is_wall = false);
+  /// `inertia`: of the uncut body, where nodes without a mass never have one. `mesh` outlives this.
+  BodySpheres(const geometry::TetraMesh& mesh, const physics::Inertia& inertia);
 
   std::size_t most() const noexcept { return all_.size(); }
-  /// What is left of the mesh from now on.
-  void part(const geometry::MeshEditor& editor) noexcept;
-  void let_go(std::span<const geometry::TetId> tetrahedra) noexcept;
-  void hold_again() noexcept;
+  /// What is left of the mesh from now on, and what each node carries of it, [N], kg; those of a node that
+  /// carries nothing do not yield.
+  void part(const geometry::MeshEditor& editor, std::span<const double> mass) noexcept;
   /// Where they are, going by these velocities, [3N]; valid until the next call.
   std::span<const CollisionSphere> follow(const physics::BodyState& state,
                                           std::span<const double> velocities) noexcept;
@@ -38,19 +36,15 @@ class BodySpheres {
     Eigen::Vector4d weights;
     geometry::Vec3 rest;  // its centre, m
     double radius_m;
+    bool is_held;    // one of its nodes is
     double mass_kg;  // that its centre has for a push; infinite: it does not yield
   };
-
-  // What a push meets of it now.
-  double mass_kg(const Tied& tied) const noexcept;
 
   geometry::Vec3 mean(const Tied& tied, std::span<const double> components) const noexcept;
 
   std::vector<Tied> all_;
   std::vector<std::size_t> left_;       // of all_
   std::vector<CollisionSphere> shown_;  // as left_
-  bool is_wall_;
-  std::vector<bool> is_let_go_;  // [T]
 };
 
 }  // namespace omentum::deform

@@ -36,6 +36,7 @@ class LargeStepper final : public BodyStepper {
       : large_(std::move(large)), imposed_(node_count, kMaxTools) {}
 
   double step_s() const override { return large_->step_s(); }
+  std::span<const double> mass() const noexcept override { return large_->mass(); }
   Work step(BodyState& state, BodyLoads& loads) noexcept override {
     if (!large_->step(state, loads.weights())) return {};
     loads.act(imposed_.impose(*large_, loads.presses(), state));
@@ -70,11 +71,12 @@ class ExplicitStepper final : public BodyStepper {
         step_s_(step_s),
         is_felt_(is_felt),
         felt_(body.mesh, body.material, inertia_,
-              {.step_s = kFeltStep_s, .most_compliance_nodes = kPatchNodes}),
+              {.step_s = kFeltStep_s, .most_compliance_nodes = kPatchNodes, .sheds_mass = false}),
         imposed_(inertia_.mass.size(), kMaxTools),
         ahead_(physics::state_at_rest(inertia_.mass.size())) {}
 
   double step_s() const override { return step_s_; }
+  std::span<const double> mass() const noexcept override { return inertia_.mass; }
   void prepare() noexcept override { until_felt_s_ = 0; }
   Work step(BodyState& state, BodyLoads& loads) noexcept override {
     follow(state, loads);

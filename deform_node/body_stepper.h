@@ -50,6 +50,9 @@ class BodyStepper {
   /// masses from now on.
   virtual void let_go(std::span<const geometry::TetId> /*tetrahedra*/) noexcept {}
 
+  /// What each node carries now, [N], kg: of what is left (physics::CarriedMass), or of the uncut body where
+  /// steps are explicit; zero where it moves without. Whoever needs masses has them from here.
+  virtual std::span<const double> mass() const noexcept = 0;
   /// False: no hand feels it, and compliance() is not asked for.
   virtual bool is_felt() const { return true; }
   /// What a hand feels within so long, s: displacement of `nodes` per force held, [3n x 3n], m/N, symmetric;

@@ -41,7 +41,6 @@ DynamicModel::DynamicModel(DynamicParts parts)
       material_(parts.body.material),
       stress_(parts.stress),
       gauge_(std::move(parts.gauge)),
-      inertia_(parts.is_static ? PartedTissue::without_motion(parts.body.inertia) : parts.body.inertia),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3,
                       .uncut_surface = parts.uncut_surface,
                       .kept = parts.precomputed}),
@@ -54,7 +53,7 @@ DynamicModel::DynamicModel(DynamicParts parts)
       precomputed_(std::move(parts.precomputed)),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
-      parted_(parts.is_static ? std::make_unique<PartedTissue>(mesh_, parts.body.inertia) : nullptr),
+      parted_(parts.is_static ? std::make_unique<PartedTissue>(mesh_, parts.body.inertia.fixed) : nullptr),
       piece_gravity_(parts.piece_gravity_m_s2),
       reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
@@ -62,8 +61,8 @@ DynamicModel::DynamicModel(DynamicParts parts)
       gatherer_(std::make_unique<PatchGatherer>(mesh_, kPatchNodes)),
       felt_(std::make_unique<Felt>()),
       meeting_(std::make_unique<BodyMeeting>(
-          mesh_, piece_gravity_ ? PartedTissue::without_supports(parts.body.inertia) : inertia_,
-          piece_gravity_.has_value())) {
+          mesh_, parts.is_static ? PartedTissue::met(parts.body.inertia, piece_gravity_.has_value())
+                                 : parts.body.inertia)) {
   felt_->compliance.resize(9 * kPatchNodes * kPatchNodes);
   felt_->ahead.resize(state_.u.size());
   gone_.reserve(mesh_.tetrahedra.size());
@@ -159,8 +158,7 @@ void DynamicModel::part_unheld() noexcept {
 void DynamicModel::let_go(std::span<const TetId> pieces) noexcept {
   stepper_->let_go(pieces);
   loads_.let_go(pieces, *piece_gravity_);
-  meeting_->let_go(pieces);
-  parted_->let_go(pieces, inertia_, state_.v);
+  parted_->let_go(pieces, state_.v);
 }
 
 void DynamicModel::add_gone(const geometry::Removal& removal) noexcept {
@@ -203,7 +201,8 @@ bool DynamicModel::run(int steps, Step step) noexcept {
     if (!work_j) return false;
     watch_.add_work(*work_j);
   }
-  const double energy_j = stepper_->elastic_energy(state_.u) + kinetic_energy(inertia_, state_.v);
+  const double energy_j =
+      stepper_->elastic_energy(state_.u) + physics::kinetic_energy(stepper_->mass(), state_.v);
   return watch_.accepts(energy_j, steps * stepper_->step_s());
 }
 
@@ -232,7 +231,7 @@ void DynamicModel::reset() noexcept {
   std::ranges::fill(burnt_, std::uint8_t{0});
   watch_.restart(0);
   meeting_->reset();
-  if (parted_) parted_->restore(inertia_);
+  if (parted_) parted_->restore();
   std::ranges::fill(state_.u, 0.0);
   std::ranges::fill(state_.v, 0.0);
   ahead_s_ = until_check_s_ = 0;

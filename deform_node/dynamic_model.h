@@ -83,7 +83,6 @@ class DynamicModel final : public OrganModel {
   const physics::MaterialMap& material_;
   physics::StressLaw stress_;
   std::function<std::unique_ptr<StrainGauge>()> gauge_;
-  physics::Inertia inertia_;
   geometry::MeshEditor editor_;
   BodyLoads loads_;
   physics::BodyState state_, before_;  // now, and when this tick began

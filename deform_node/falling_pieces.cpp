@@ -90,6 +90,11 @@ void FallingPieces::leave_out(std::span<const double> from, std::span<double> to
   for (std::size_t c = 0; c < to.size(); ++c) to[c] = has_node_[c / 3] ? 0 : from[c];
 }
 
+void FallingPieces::put_mass(std::span<double> mass) const noexcept {
+  for (std::size_t n = 0; n < mass.size(); ++n)
+    if (has_node_[n]) mass[n] = warped_.mass()[n];
+}
+
 void FallingPieces::keep(std::span<const double> from, std::span<double> to) const noexcept {
   for (std::size_t c = 0; c < to.size(); ++c) to[c] = has_node_[c / 3] ? from[c] : 0;
 }

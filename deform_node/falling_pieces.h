@@ -43,6 +43,8 @@ class FallingPieces {
   /// Copies what is of pieces, or what is not and zero elsewhere.
   void put(std::span<const double> from, std::span<double> to) const noexcept;
   void leave_out(std::span<const double> from, std::span<double> to) const noexcept;
+  /// What the nodes of pieces carry now, [N], kg; others are left as they are.
+  void put_mass(std::span<double> mass) const noexcept;
 
  private:
   void keep(std::span<const double> from, std::span<double> to) const noexcept;

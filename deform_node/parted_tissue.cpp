@@ -1,18 +1,20 @@
 #include "deform_node/parted_tissue.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace omentum::deform {
 
 using geometry::NodeId;
 using geometry::TetId;
 
-PartedTissue::PartedTissue(const geometry::TetraMesh& mesh, const physics::Inertia& inertia)
-    : mesh_(mesh), inertia_(inertia), unheld_(mesh, inertia.fixed), is_let_go_(mesh.tetrahedra.size()) {
+PartedTissue::PartedTissue(const geometry::TetraMesh& mesh, const physics::FixedComponents& fixed)
+    : mesh_(mesh), unheld_(mesh, fixed), is_let_go_(mesh.tetrahedra.size()) {
   found_.reserve(mesh.tetrahedra.size());
 }
 
-physics::Inertia PartedTissue::without_motion(physics::Inertia inertia) {
+physics::Inertia PartedTissue::met(physics::Inertia inertia, bool fall) {
+  if (fall) return without_supports(std::move(inertia));
   std::ranges::fill(inertia.mass, 0.0);
   std::ranges::fill(inertia.fixed, physics::kPinned);
   return inertia;
@@ -30,25 +32,17 @@ std::span<const TetId> PartedTissue::find(const geometry::MeshEditor& editor) no
   return found_;
 }
 
-void PartedTissue::let_go(std::span<const TetId> tetrahedra, physics::Inertia& inertia,
-                          std::span<double> v) noexcept {
+void PartedTissue::let_go(std::span<const TetId> tetrahedra, std::span<double> v) noexcept {
   for (const TetId t : tetrahedra) {
     is_let_go_[t] = true;
-    for (const NodeId n : mesh_.tetrahedra[t]) {
-      inertia.mass[n] = inertia_.mass[n];
-      inertia.fixed[n] = 0;
-      geometry::Vec3::Map(&v[3 * n]).setZero();
-    }
+    for (const NodeId n : mesh_.tetrahedra[t]) geometry::Vec3::Map(&v[3 * n]).setZero();
   }
   any_ = any_ || !tetrahedra.empty();
 }
 
-void PartedTissue::restore(physics::Inertia& inertia) noexcept {
-  if (!any_) return;
+void PartedTissue::restore() noexcept {
   any_ = false;
   std::fill(is_let_go_.begin(), is_let_go_.end(), false);
-  std::ranges::fill(inertia.mass, 0.0);
-  std::ranges::fill(inertia.fixed, physics::kPinned);
 }
 
 }  // namespace omentum::deform

@@ -9,11 +9,11 @@ namespace omentum::deform {
 /// Books of an organ in equilibrium that is cut. Takes its memory when it is made; one thread.
 class PartedTissue {
  public:
-  /// `mesh` outlives it; `inertia`: of the organ if it had masses.
-  PartedTissue(const geometry::TetraMesh& mesh, const physics::Inertia& inertia);
+  /// `mesh` outlives it; `fixed`: its supports, [N].
+  PartedTissue(const geometry::TetraMesh& mesh, const physics::FixedComponents& fixed);
 
-  /// Of a body that no push moves, nor its speed: what such an organ is before it is cut.
-  static physics::Inertia without_motion(physics::Inertia inertia);
+  /// Of what other organs meet of such an organ: a wall that moves, but for pieces where these `fall`.
+  static physics::Inertia met(physics::Inertia inertia, bool fall);
 
   /// Of a body that is let go: a support that holds a piece by a node or an edge alone lets go of it, or it
   /// would swing on slivers that no step is exact for.
@@ -22,16 +22,14 @@ class PartedTissue {
   /// All tetrahedra of pieces that nothing holds (physics/unheld_pieces.h) and that were not let go before;
   /// valid until the next call. O(T).
   std::span<const geometry::TetId> find(const geometry::MeshEditor& editor) noexcept;
-  /// They have masses: `inertia` says so of their nodes, and `v`, [3N], that they are at rest: from one
-  /// equilibrium to the next is no motion.
-  void let_go(std::span<const geometry::TetId> tetrahedra, physics::Inertia& inertia,
-              std::span<double> v) noexcept;
-  void restore(physics::Inertia& inertia) noexcept;
+  /// They have masses (BodyStepper::let_go); `v`, [3N], says that they are at rest: from one equilibrium to
+  /// the next is no motion.
+  void let_go(std::span<const geometry::TetId> tetrahedra, std::span<double> v) noexcept;
+  void restore() noexcept;
   bool any() const noexcept { return any_; }
 
  private:
   const geometry::TetraMesh& mesh_;
-  physics::Inertia inertia_;
   physics::UnheldPieces unheld_;
   std::vector<bool> is_let_go_;         // [T]
   std::vector<geometry::TetId> found_;  // capacity T

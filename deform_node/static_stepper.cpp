@@ -27,12 +27,14 @@ class StaticStepper final : public BodyStepper, private physics::Yielding {
         imposed_(body.mesh.positions.size(), kMaxTools),
         before_(3 * body.mesh.positions.size()),
         forces_(before_.size()),
-        held_(before_.size()) {
+        held_(before_.size()),
+        mass_(body.mesh.positions.size()) {
     taken_.reserve(body.mesh.tetrahedra.size());
     let_go_.reserve(body.mesh.tetrahedra.size());
   }
 
   double step_s() const override { return step_s_; }
+  std::span<const double> mass() const noexcept override { return mass_; }
 
   std::optional<double> step(BodyState& state, BodyLoads& loads) noexcept override {
     std::ranges::copy(state.u, before_.begin());
@@ -70,10 +72,12 @@ class StaticStepper final : public BodyStepper, private physics::Yielding {
     let_go_.clear();
     std::ranges::copy_if(tetrahedra, std::back_inserter(taken_), [&](TetId t) { return !falling_->has(t); });
     const bool falls_soundly = falling_->remove(tetrahedra);
+    falling_->put_mass(mass_);
     return factor_.remove(taken_) && falls_soundly;
   }
   void restore(std::span<const TetId> /*removed*/) noexcept override {
     factor_.restore();
+    std::ranges::fill(mass_, 0.0);
     let_go_.clear();
     if (falling_) falling_->restore();
   }
@@ -118,6 +122,7 @@ class StaticStepper final : public BodyStepper, private physics::Yielding {
   double step_s_;
   physics::ImposedPress imposed_;
   std::vector<double> before_, forces_, held_;  // [3N]
+  std::vector<double> mass_;                    // [N], zero where nothing falls
   std::vector<TetId> taken_, let_go_;           // capacity T
 };
 

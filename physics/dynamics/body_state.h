@@ -17,9 +17,10 @@ struct BodyState {
 
 BodyState state_at_rest(std::size_t node_count);
 
-/// The terms of M a = f(u) - D v + f_ext that never change, cuts included: the mass of what is removed stays
-/// on its nodes. Damping is Rayleigh's, D = a M + b K: the share of critical
-/// damping of a mode of angular frequency w is a / (2 w) + b w / 2.
+/// The terms of M a = f(u) - D v + f_ext of the uncut body (what cuts leave of the mass: carried_mass.h;
+/// under explicit schemes all of it stays on the nodes, or a step that was stable need not be). Damping is
+/// Rayleigh's, D = a M + b K: the share of critical damping of a mode of angular frequency w is a / (2 w) + b
+/// w / 2.
 struct Inertia {
   std::vector<double> mass;        // [N], kg, above zero
   FixedComponents fixed;           // [N]
@@ -31,6 +32,9 @@ struct Inertia {
 std::vector<double> lumped_masses(const geometry::TetraMesh& mesh, const MaterialMap& material);
 
 /// v^T M v / 2, J.
-double kinetic_energy(const Inertia& inertia, std::span<const double> v) noexcept;
+double kinetic_energy(std::span<const double> mass, std::span<const double> v) noexcept;
+inline double kinetic_energy(const Inertia& inertia, std::span<const double> v) noexcept {
+  return kinetic_energy(inertia.mass, v);
+}
 
 }  // namespace omentum::physics

@@ -8,6 +8,8 @@ namespace omentum::physics {
 ImplicitStep::ImplicitStep(const geometry::TetraMesh& mesh, const MaterialMap& material,
                            const Inertia& inertia, const ImplicitOptions& options)
     : inertia_(inertia),
+      carried_(mesh, material, inertia.mass),
+      sheds_mass_(options.sheds_mass),
       step_s_(options.step_s),
       factor_(mesh, material, inertia.fixed, inertia.mass, weights_of(inertia, options.step_s),
               options.most_compliance_nodes, options.added),
@@ -62,7 +64,7 @@ void ImplicitStep::find_own_forces() noexcept {
 
 void ImplicitStep::find_impulse(const BodyState& state, std::span<const double> external) noexcept {
   for (std::size_t c = 0; c < impulse_.size(); ++c) {
-    const double drag = inertia_.mass_damping_per_s * inertia_.mass[c / 3] * state.v[c];
+    const double drag = inertia_.mass_damping_per_s * carried_.kg()[c / 3] * state.v[c];
     impulse_[c] = lacking_[c] + step_s_ * (external[c] + forces_[c] - drag);
   }
 }
@@ -85,11 +87,15 @@ bool ImplicitStep::finish(BodyState& state, std::span<const double> external) no
 }
 
 bool ImplicitStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
-  return factor_.remove(tetrahedra);
+  const bool definite = factor_.remove(tetrahedra);
+  if (!sheds_mass_) return definite;
+  carried_.remove(tetrahedra);
+  return factor_.take_mass(carried_.lightened(), carried_.lost_kg()) && definite;
 }
 
 void ImplicitStep::restore() noexcept {
   factor_.restore();
+  carried_.restore();
   std::ranges::fill(lacking_, 0.0);
 }
 

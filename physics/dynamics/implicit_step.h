@@ -1,6 +1,7 @@
 // Backward Euler on a kept factor: steps as large as one likes, at the price of one solve.
 #pragma once
 
+#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/force_law.h"
 #include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/kept_factor.h"
@@ -11,6 +12,7 @@ struct ImplicitOptions {
   double step_s = 0;               // dt, above zero
   int most_compliance_nodes = 24;  // of one call of compliance()
   AddedStiffness added{};          // a part of K beside the mesh's
+  bool sheds_mass = true;          // what is removed takes its mass along
 };
 
 /// M (v' - v) = dt (f_ext + f(u') - D v'), u' = u + dt v', D = a M + b K, linearized about the rest shape:
@@ -40,6 +42,7 @@ class ImplicitStep final : public JoinableStep {
   /// A law of its own is told by the caller.
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
   void restore() noexcept override;
+  std::span<const double> mass() const noexcept override { return carried_.kg(); }
 
   /// dt^2 A^-1.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
@@ -66,6 +69,8 @@ class ImplicitStep final : public JoinableStep {
   bool finish(BodyState& state, std::span<const double> external) noexcept;
 
   Inertia inertia_;
+  CarriedMass carried_;
+  bool sheds_mass_;
   double step_s_;
   KeptFactor factor_;
   std::vector<double> ahead_, forces_, impulse_, change_;  // [3N]

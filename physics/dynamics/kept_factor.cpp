@@ -138,27 +138,43 @@ bool KeptFactor::apply(std::span<const RankSix> roots) noexcept {
 }
 
 // Of two nodes at most.
-RankSix KeptFactor::root_of_masses(std::span<const geometry::NodeId> nodes, double mass) const noexcept {
-  RankSix root{.position = {}, .w = {}, .is_added = true};
+RankSix KeptFactor::root_of_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg,
+                                   bool is_added) const noexcept {
+  RankSix root{.position = {}, .w = {}, .is_added = is_added};
   root.position.fill(-1);
   for (std::size_t i = 0; i < 3 * nodes.size(); ++i) {
     root.position[i] = position_[3 * nodes[i / 3] + static_cast<std::int32_t>(i % 3)];
-    root.w[i][i] = std::sqrt(weights_.mass * mass);
+    root.w[i][i] = std::sqrt(weights_.mass * kg[i / 3]);
   }
   return root;
 }
 
 bool KeptFactor::add_mass(std::span<const geometry::NodeId> nodes, double mass) noexcept {
+  const std::array<double, 2> of_pair{mass, mass};
+  for (const geometry::NodeId n : nodes) mass_[n] += mass;
+  return change_masses(nodes.size(), [&](std::size_t from, std::size_t count) {
+    return root_of_masses(nodes.subspan(from, count), of_pair, true);
+  });
+}
+
+bool KeptFactor::take_mass(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept {
+  for (std::size_t i = 0; i < nodes.size(); ++i) mass_[nodes[i]] -= kg[i];
+  return change_masses(nodes.size(), [&](std::size_t from, std::size_t count) {
+    return root_of_masses(nodes.subspan(from, count), kg.subspan(from, count), false);
+  });
+}
+
+template <class RootOfPair>
+bool KeptFactor::change_masses(std::size_t nodes, RootOfPair&& root_of_pair) noexcept {
   bool definite = true;
   known_blocks_.forget();
-  for (const geometry::NodeId n : nodes) mass_[n] += mass;
-  while (!nodes.empty()) {
-    std::array<RankSix, FactorDowndate::kMost> roots;
+  std::array<RankSix, FactorDowndate::kMost> roots;
+  for (std::size_t next = 0; next < nodes;) {
     std::size_t count = 0;
-    for (; count < roots.size() && !nodes.empty(); ++count) {
-      const auto pair = nodes.first(std::min<std::size_t>(nodes.size(), 2));
-      roots[count] = root_of_masses(pair, mass);
-      nodes = nodes.subspan(pair.size());
+    for (; count < roots.size() && next < nodes; ++count) {
+      const std::size_t pair = std::min<std::size_t>(nodes - next, 2);
+      roots[count] = root_of_pair(next, pair);
+      next += pair;
     }
     definite &= apply({roots.data(), count});
   }

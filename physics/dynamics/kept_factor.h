@@ -25,8 +25,9 @@ inline SystemWeights weights_of(const Inertia& inertia, double dt) {
 
 /// A = m M + k K over the free degrees of freedom, factorized once: L D L^T by CHOLMOD, in panels of its own
 /// (factor_panels.h) that are solved with in float and downdated in double. A tetrahedron's stiffness has
-/// rank six; its mass stays on the nodes, so that A stays positive definite even where a node loses its last
-/// one. Vectors are [3N], x y z of each node in the mesh's order; held components of results are zero.
+/// rank six; its mass stays on the nodes until take_mass(), so that A stays positive definite even where a
+/// node loses its last one. Vectors are [3N], x y z of each node in the mesh's order; held components of
+/// results are zero.
 ///
 /// All memory is taken at construction; one thread at a time.
 class KeptFactor {
@@ -43,6 +44,8 @@ class KeptFactor {
   /// Puts more mass on nodes, kg each, positive; on the factor too. Precondition: nodes differ. False as
   /// remove().
   [[nodiscard]] bool add_mass(std::span<const geometry::NodeId> nodes, double mass) noexcept;
+  /// Takes mass off nodes that differ, kg[i] off nodes[i], less than each has. False as remove().
+  [[nodiscard]] bool take_mass(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept;
   /// As constructed.
   void restore() noexcept;
 
@@ -78,7 +81,10 @@ class KeptFactor {
              const SystemWeights& weights, int most_compliance_nodes, const Assembled& assembled);
   void subtract_element(geometry::TetId t) noexcept;
   RankSix root_of(geometry::TetId t) const noexcept;
-  RankSix root_of_masses(std::span<const geometry::NodeId> nodes, double mass) const noexcept;
+  RankSix root_of_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg,
+                         bool is_added) const noexcept;
+  template <class RootOfPair>
+  bool change_masses(std::size_t nodes, RootOfPair&& root_of_pair) noexcept;
   bool apply(std::span<const RankSix> roots) noexcept;
   void mark_ways(std::span<const geometry::NodeId> nodes) noexcept;
   void clear_columns(std::size_t width) noexcept;

@@ -26,6 +26,8 @@ class LargeStep : public Yielding {
   /// Tetrahedra go, and all come back (KeptFactor::remove and restore).
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore() noexcept = 0;
+  /// What each node carries now, [N], kg; zero where the step moves it without a mass.
+  virtual std::span<const double> mass() const noexcept = 0;
 
   /// Displacement of `nodes` at the end of a step per force held over it, [3n x 3n], m/N, symmetric.
   virtual void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept = 0;

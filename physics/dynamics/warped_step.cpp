@@ -37,6 +37,7 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
                        Corotational law, const WarpedOptions& options)
     : mesh_(mesh),
       inertia_(inertia),
+      carried_(mesh, material, inertia.mass),
       law_(std::move(law)),
       added_(options.added),
       options_(options),
@@ -102,7 +103,7 @@ void WarpedStep::find_forces(std::span<const double> v) noexcept {
   law_.product(v, product_);
   added_.add_product(1, v, product_);
   for (std::size_t c = 0; c < forces_.size(); ++c) {
-    forces_[c] -= inertia_.mass_damping_per_s * inertia_.mass[c / 3] * v[c] +
+    forces_[c] -= inertia_.mass_damping_per_s * carried_.kg()[c / 3] * v[c] +
                   inertia_.stiffness_damping_s * product_[c];
   }
 }
@@ -137,7 +138,7 @@ void WarpedStep::multiply(std::span<const double> x, std::span<double> y) noexce
   const SystemWeights& weights = factor_.weights();
   for (std::size_t c = 0; c < y.size(); ++c) {
     const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
-    y[c] = held ? 0.0 : weights.mass * inertia_.mass[c / 3] * x[c] + weights.stiffness * y[c];
+    y[c] = held ? 0.0 : weights.mass * carried_.kg()[c / 3] * x[c] + weights.stiffness * y[c];
   }
 }
 
@@ -189,6 +190,9 @@ bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
     law_.remove(t);
     left_[static_cast<std::size_t>(t)] = 0;
   }
+  // the factor, which only says where to look for a solution, keeps the mass: that is a removal less for each
+  // node
+  carried_.remove(tetrahedra);
   return factor_.remove(tetrahedra);
 }
 
@@ -200,6 +204,7 @@ void WarpedStep::restore() noexcept {
   std::ranges::fill(left_, 1);
   for (auto* kept : {&residual_, &change_, &foreseen_}) std::ranges::fill(*kept, 0.0);
   factor_.restore();
+  carried_.restore();
 }
 
 void WarpedStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {

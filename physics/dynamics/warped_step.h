@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/dynamics/added_forces.h"
+#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/corotational.h"
 #include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/kept_factor.h"
@@ -45,6 +46,7 @@ class WarpedStep final : public JoinableStep {
   /// From the law and from the factor.
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
   void restore() noexcept override;
+  std::span<const double> mass() const noexcept override { return carried_.kg(); }
 
   /// Those of the body at rest, turned at each node as of the last step.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
@@ -73,6 +75,7 @@ class WarpedStep final : public JoinableStep {
 
   const geometry::TetraMesh& mesh_;
   Inertia inertia_;
+  CarriedMass carried_;
   Corotational law_;
   AddedForces added_;
   WarpedOptions options_;

@@ -83,6 +83,7 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
       viscosity_s_(body.inertia.stiffness_damping_s),
       part_(body.compliance, connection_on_surface(body), sag_of(body)),
       dynamic_(dynamic_step_of(body, {connection_, part_.stiffness()}, step_s, most_compliance_nodes)),
+      mass_(own_node_.size()),
       own_(state_at_rest(node_.size())),
       own_external_(own_.u.size()),
       own_yield_(own_.u.size()),
@@ -92,6 +93,7 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
       w_(3 * static_cast<std::size_t>(part_.mobile_count())),
       known_(most_compliance_nodes) {
   weights_ = std::move(body.weights);
+  find_mass();
   removed_.reserve(body.split.dynamic.tetrahedron.size());
   for (std::int32_t s = 0; s < part_.mobile_count(); ++s) {
     const NodeId n = body.split.precomputed.node[body.surface.node[static_cast<std::size_t>(s)]];
@@ -117,6 +119,10 @@ void HybridStep::gather(std::span<const double> whole, std::span<double> own) co
 void HybridStep::scatter(std::span<const double> own, std::span<double> whole) const noexcept {
   for (std::size_t d = 0; d < node_.size(); ++d)
     std::copy_n(own.data() + 3 * d, 3, whole.data() + at(node_[d]));
+}
+
+void HybridStep::find_mass() noexcept {
+  for (std::size_t d = 0; d < node_.size(); ++d) mass_[node_[d]] = dynamic_->mass()[d];
 }
 
 // On the precomputed part's own surface, beside what always acts.
@@ -224,12 +230,15 @@ bool HybridStep::remove(std::span<const TetId> tetrahedra) noexcept {
   removed_.clear();
   for (const TetId t : tetrahedra)
     if (own_tetrahedron_[t].valid()) removed_.push_back(own_tetrahedron_[t]);
-  return dynamic_->remove(removed_);
+  const bool sound = dynamic_->remove(removed_);
+  find_mass();
+  return sound;
 }
 
 void HybridStep::restore() noexcept {
   known_.forget();
   dynamic_->restore();
+  find_mass();
 }
 
 // Each touched node's displacement by those of dynamic nodes, and these nodes: connection nodes first.

@@ -53,6 +53,8 @@ class HybridStep final : public LargeStep {
 
   [[nodiscard]] bool remove(std::span<const geometry::TetId> tetrahedra) noexcept override;
   void restore() noexcept override;
+  /// Zero at the precomputed part's own nodes.
+  std::span<const double> mass() const noexcept override { return mass_; }
 
   /// Of both parts together: a tool may lie on the border.
   void compliance(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept override;
@@ -70,6 +72,7 @@ class HybridStep final : public LargeStep {
   void condense(std::span<const double> forces, Sag sag) noexcept;
   void gather(std::span<const double> whole, std::span<double> own) const noexcept;
   void scatter(std::span<const double> own, std::span<double> whole) const noexcept;
+  void find_mass() noexcept;
   void lead(std::span<const double> u, std::span<const double> v) noexcept;
   void find_rows(std::span<const geometry::NodeId> nodes) noexcept;
   void add_yield_held(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept;
@@ -84,6 +87,7 @@ class HybridStep final : public LargeStep {
   double viscosity_s_;                            // b
   PrecomputedPart part_;
   std::unique_ptr<JoinableStep> dynamic_;
+  std::vector<double> mass_;          // [N], kg
   BodyState own_;                     // of the dynamic part
   std::vector<double> own_external_;  // [3d], N
   std::vector<double> own_yield_;     // [3d], m

@@ -7,9 +7,11 @@ namespace {
 /// One whose whole steps make energy of nothing, and whose shorter ones do so on demand.
 class Exploding final : public BodyStepper {
  public:
-  explicit Exploding(bool also_shorter) : also_shorter_(also_shorter) {}
+  Exploding(std::vector<double> mass, bool also_shorter)
+      : mass_(std::move(mass)), also_shorter_(also_shorter) {}
 
   double step_s() const override { return kTick_s; }
+  std::span<const double> mass() const noexcept override { return mass_; }
   std::optional<double> step(physics::BodyState& state, BodyLoads&) noexcept override {
     state.v.back() = 1e3;
     return 0;
@@ -25,12 +27,13 @@ class Exploding final : public BodyStepper {
   void yield_to(std::span<const double>, std::span<double>) noexcept override {}
 
  private:
+  std::vector<double> mass_;
   bool also_shorter_;
 };
 
 TEST_F(DynamicModelTest, AStepThatWouldDivergeIsTakenAgainInShorterOnesAndSaid) {
   DynamicParts exploding = parts();
-  exploding.stepper = std::make_unique<Exploding>(false);
+  exploding.stepper = std::make_unique<Exploding>(exploding.body.inertia.mass, false);
   DynamicModel model(std::move(exploding));
   model.step({}, kTick_s);
   EXPECT_FALSE(model.status().diverged);
@@ -39,7 +42,7 @@ TEST_F(DynamicModelTest, AStepThatWouldDivergeIsTakenAgainInShorterOnesAndSaid) 
 
 TEST_F(DynamicModelTest, WhatDivergesInShorterStepsTooSaysSoUntilItIsReset) {
   DynamicParts exploding = parts();
-  exploding.stepper = std::make_unique<Exploding>(true);
+  exploding.stepper = std::make_unique<Exploding>(exploding.body.inertia.mass, true);
   DynamicModel model(std::move(exploding));
   model.step({}, kTick_s);
   EXPECT_TRUE(model.status().diverged);

@@ -34,8 +34,8 @@ BodyState struck(const HeldBody& body) {
   return state;
 }
 
-double energy(ImplicitStep& stepper, const HeldBody& body, const BodyState& state) {
-  return stepper.elastic_energy(state.u) + kinetic_energy(body.inertia, state.v);
+double energy(ImplicitStep& stepper, const CarriedMass& carried, const BodyState& state) {
+  return stepper.elastic_energy(state.u) + kinetic_energy(carried.kg(), state.v);
 }
 
 TEST(ImplicitStepTest, RestEqualsTheDirectSolveAlsoOfACutBody) {
@@ -66,18 +66,20 @@ TEST(ImplicitStepTest, EnergyNeverGrowsByMoreThanTheWorkCutsIncluded) {
   const std::vector<TetId> order = body.any_order();
   for (const double dt : {1e-4, 5e-3, 0.2}) {
     ImplicitStep stepper(body.mesh, test::kTissue, body.inertia, {.step_s = dt});
+    CarriedMass carried(body.mesh, test::kTissue, body.inertia.mass);
     BodyState state = struck(body);
     const Values weight = weight_of(body.inertia);
-    double before = energy(stepper, body, state);
+    double before = energy(stepper, carried, state);
     const double scale = before;
     for (std::size_t i = 0; i < 400; ++i) {
       if (i % 2 == 0) {
         ASSERT_TRUE(stepper.remove({&order[i], 1}));
+        carried.remove({&order[i], 1});
       }
       const Values u = state.u;
       ASSERT_TRUE(stepper.step(state, weight));
       const double work = test::dot(weight, test::sum(state.u, -1, u));
-      const double after = energy(stepper, body, state);
+      const double after = energy(stepper, carried, state);
       // a step's equation is met to what float keeps
       ASSERT_LE(after, before + work + 1e-6 * scale) << "dt " << dt << ", step " << i;
       before = after;
@@ -89,15 +91,17 @@ TEST(ImplicitStepTest, WithoutForcesEnergyOnlyFallsForAMinute) {
   const HeldBody body = test::held_box();
   const std::vector<TetId> order = body.any_order();
   ImplicitStep stepper(body.mesh, test::kTissue, body.inertia, {.step_s = 5e-3});
+  CarriedMass carried(body.mesh, test::kTissue, body.inertia.mass);
   BodyState state = struck(body);
   const Values nothing(body.components());
-  double before = energy(stepper, body, state);
+  double before = energy(stepper, carried, state);
   for (std::size_t i = 0; i < 12000; ++i) {
     if (i % 100 == 50) {
       ASSERT_TRUE(stepper.remove({&order[i / 100], 1}));
+      carried.remove({&order[i / 100], 1});
     }
     ASSERT_TRUE(stepper.step(state, nothing));
-    const double after = energy(stepper, body, state);
+    const double after = energy(stepper, carried, state);
     ASSERT_LE(after, before * (1 + 1e-9) + kNothing_j) << i;
     before = after;
   }
@@ -157,7 +161,8 @@ TEST(ImplicitStepTest, TheTensorMassLawMovesItLikeItsOwnStiffness) {
     law.remove(order[i]);
     ASSERT_TRUE(own.step(a, weight) && other.step(b, law, weight));
   }
-  EXPECT_LE(test::norm(test::sum(a.u, -1, b.u)), 1e-9 * test::norm(a.u));
+  // rounding of the two laws' forces moves a node most that is left with a thousandth of its mass
+  EXPECT_LE(test::norm(test::sum(a.u, -1, b.u)), 3e-9 * test::norm(a.u));
 }
 
 TEST(ImplicitStepTest, WhatIsNotFiniteIsSaid) {

@@ -196,6 +196,28 @@ TEST(KeptFactorTest, MassThatIsAddedIsAsIfItHadBeenThere) {
   EXPECT_EQ(x, y);
 }
 
+TEST(KeptFactorTest, MassThatIsTakenIsAsIfItHadNeverBeenThere) {
+  const HeldBody body = test::held_box();
+  HeldBody lighter = body;
+  const std::vector<NodeId> nodes{NodeId(5), NodeId(100), NodeId(41)};
+  std::vector<double> taken_kg;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    taken_kg.push_back((0.3 + 0.3 * static_cast<double>(i)) * body.inertia.mass[nodes[i]]);
+    lighter.inertia.mass[nodes[i]] -= taken_kg.back();
+  }
+  KeptFactor factor = kept(body), expected = kept(lighter);
+  ASSERT_TRUE(factor.take_mass(nodes, taken_kg));
+  const Values b = free_load(body, 5);
+  Values x(b.size()), y(b.size());
+  factor.solve(b, x);
+  expected.solve(b, y);
+  EXPECT_LE(difference(x, y), kRefined);
+  factor.restore();
+  factor.solve(b, x);
+  kept(body).solve(b, y);
+  EXPECT_EQ(x, y);
+}
+
 TEST(KeptFactorTest, WhatWouldFloatWithoutMassIsSaid) {
   const HeldBody body = test::held_box();
   KeptFactor factor = kept(body, {0, 1});
