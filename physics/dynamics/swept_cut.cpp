@@ -36,7 +36,7 @@ Interval project(const std::array<Vec3, n>& points, const Vec3& axis) {
   return shadow;
 }
 
-struct Pair {
+struct Separation {
   std::array<Vec3, 3> triangle;
   std::array<Vec3, 4> tetrahedron;
   double size;  // of both, m
@@ -49,22 +49,22 @@ struct Pair {
 };
 
 // Seen from the tetrahedron's first corner, so that rounding is that of the pair, not of its place in W.
-Pair pair_up(const std::array<Vec3, 3>& triangle, const std::array<Vec3, 4>& tetrahedron) {
-  Pair pair{triangle, tetrahedron, 0};
+Separation pair_up(const std::array<Vec3, 3>& triangle, const std::array<Vec3, 4>& tetrahedron) {
+  Separation pair{triangle, tetrahedron, 0};
   const Vec3& origin = tetrahedron[0];
   for (Vec3& p : pair.triangle) pair.size = std::max(pair.size, (p -= origin).lpNorm<Eigen::Infinity>());
   for (Vec3& p : pair.tetrahedron) pair.size = std::max(pair.size, (p -= origin).lpNorm<Eigen::Infinity>());
   return pair;
 }
 
-bool faces_separate(const Pair& pair) {
+bool faces_separate(const Separation& pair) {
   const auto& [t, x, size] = pair;
   for (const auto& [a, b, c] : kFaces)
     if (pair.separated_along((x[b] - x[a]).cross(x[c] - x[a]))) return true;
   return pair.separated_along((t[1] - t[0]).cross(t[2] - t[0]));
 }
 
-bool edges_separate(const Pair& pair) {
+bool edges_separate(const Separation& pair) {
   const auto& [t, x, size] = pair;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 along = t[(i + 1) % 3] - t[i];
@@ -77,7 +77,7 @@ bool edges_separate(const Pair& pair) {
 }  // namespace
 
 bool meets(const std::array<Vec3, 3>& triangle, const std::array<Vec3, 4>& tetrahedron) {
-  const Pair pair = pair_up(triangle, tetrahedron);
+  const Separation pair = pair_up(triangle, tetrahedron);
   return !faces_separate(pair) && !edges_separate(pair);
 }
 
