@@ -109,6 +109,18 @@ TEST_F(SkinnedTube, HasTheColoursOfItsMap) {
   EXPECT_GT(seen_difference(drawn, skinned({}, Look::kMap, true)), kSeen) << "its folds are another map";
 }
 
+TEST_F(SkinnedTube, PalesAsItsMeshDoes) {
+  const Picture red = skinned({});
+  const SkinFrame& pressed = tube_.frames()[tube_.frames().size() / 2];
+  const Vec3f place = pressed.origin + tube_.radius_m() * Vec3f::UnitZ();
+  ASSERT_TRUE(tube_.live(std::vector{Press{place, Vec3f::UnitZ(), 3}}, 1));
+  const Picture pale = skinned({});
+  const MeshData mesh =
+      skinned_tube(tube_.frames(), tube_.radius_m(), make_tube_cylinder(TubeResolution{}.n));
+  EXPECT_LT(seen_difference(pale, meshed(mesh)), kSameToRounding);
+  EXPECT_GT(seen_difference(pale, red), kSameToRounding) << "it is seen";
+}
+
 TEST_F(SkinnedTube, OfFewerThanTwoFramesIsNothing) {
   const Picture nothing = draw(scene_);
   Frame frame = scene_;
