@@ -100,6 +100,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   to_expose_ = organ_to_expose(loaded.scene);
   scored_from_s_ = loaded.scene.score.from_s;
   if (loaded.scene.score.camera) exercise_.emplace(loaded.scene, view_);
+  view_.surround(load_scenery(loaded.scene.scenery));
   choices_.orbit = view_.first_camera();
   choices_.folds = options.folds;
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";

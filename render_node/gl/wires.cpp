@@ -11,7 +11,7 @@ namespace {
 constexpr float kSlope = -1.0f, kBias = -2.0f;
 
 bool is_organ(Look look) {
-  return look != Look::kSolid && look != Look::kGround && look != Look::kSignal;
+  return look != Look::kSolid && look != Look::kWall && look != Look::kGround && look != Look::kSignal;
 }
 
 }  // namespace
