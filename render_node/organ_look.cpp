@@ -17,7 +17,7 @@ const Material kMesentery{{0.50f, 0.335f, 0.155f}, 0.0f, 0.26f};
 const Material kColon{{0.33f, 0.150f, 0.105f}, 0.0f, 0.26f};
 // Peritoneum over muscle: pale pink, moist. And fat under it.
 const Material kCavityWall{{0.385f, 0.168f, 0.125f}, 0.0f, 0.34f};
-const Material kOmentum{{0.40f, 0.245f, 0.090f}, 0.0f, 0.29f};
+const Material kOmentum{{0.315f, 0.195f, 0.072f}, 0.0f, 0.29f};
 // Without the capsule's veil: the deeper, duller red of parenchyma full of blood, wet with it; the mucosa of
 // a sac, yellow with bile; and that of a bowel, a moist salmon.
 const Material kLiverBared{{0.088f, 0.0105f, 0.0085f}, 0.0f, 0.30f};

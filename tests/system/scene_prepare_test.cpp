@@ -116,7 +116,8 @@ TEST(OwnOrganTest, SceneryHasTheFilesThatWereMadeOfIt) {
                                    "-o",      fitted,    "--keep-points"};
     for (const std::string& file : files) words.insert(words.end(), {"--scenery", file});
     Process process("scene_prepare", words);
-    return std::pair(process.wait(), process.messages());
+    const int code = process.wait();
+    return std::pair(code, process.messages());
   };
   ASSERT_EQ(prepare({made}).first, 0);
   const std::vector<scene::ScenerySpec> scenery = scene::load_scene(fitted).scenery;

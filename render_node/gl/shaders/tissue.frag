@@ -63,7 +63,7 @@ float off_vessel(vec2 p) {
 // Fine vessels under the serosa, where a slow noise of this period crosses its middle; their half width, m, their tint,
 // and how strongly they show.
 #ifdef WALL
-const float web_period = 0.52, web_width = 0.0006, web_share = 0.45;
+const float web_period = 0.52, web_width = 0.0006, web_share = 0.28;
 #else
 const float web_period = 0.17, web_width = 0.0003, web_share = 0.4;
 #endif
