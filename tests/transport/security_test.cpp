@@ -56,16 +56,16 @@ struct Sides {
 class Security : public testing::TestWithParam<Sides> {
  protected:
   BusOptions device(const std::string& keystore = kOurs) const {
-    return {.vendor = GetParam().device, .domain = domain, .name = kDevice, .keystore = keystore};
+    return {.vendor = GetParam().device, .domain = domain_, .name = kDevice, .keystore = keystore};
   }
   std::unique_ptr<PeerProcess> peer(const std::string& what, const std::string& keystore = kOurs) const {
-    return std::make_unique<PeerProcess>(what, GetParam().device, domain, Profile::kLoopback,
+    return std::make_unique<PeerProcess>(what, GetParam().device, domain_, Profile::kLoopback,
                                          test::PeerLife{.keystore = keystore, .role = kDevice});
   }
 
-  const int domain = test::domain_of_test();
-  PeerProcess node{
-      "answers", GetParam().node, domain, Profile::kLoopback, {.keystore = kOurs, .role = "haptic_node"}};
+  const int domain_ = test::domain_of_test();
+  PeerProcess node_{
+      "answers", GetParam().node, domain_, Profile::kLoopback, {.keystore = kOurs, .role = "haptic_node"}};
 };
 
 TEST_P(Security, OnlyPosesOfADeviceWithKeysAreAnswered) {
@@ -110,9 +110,9 @@ std::string refusal_of(Action&& action) {
 class EachVendorSecured : public testing::TestWithParam<Vendor> {
  protected:
   BusOptions role(const std::string& name, const std::string& keystore = kOurs) const {
-    return {.vendor = GetParam(), .domain = domain, .name = name, .keystore = keystore};
+    return {.vendor = GetParam(), .domain = domain_, .name = name, .keystore = keystore};
   }
-  const int domain = test::domain_of_test();
+  const int domain_ = test::domain_of_test();
 };
 
 TEST_P(EachVendorSecured, ARenderNodeMovesNoToolAndTellsNoForce) {
@@ -169,7 +169,7 @@ TEST_P(EachVendorSecured, AKeyStoreThatCannotBeUsedIsRefusedByItsFile) {
 // To a hand it is silence, which ends: Cyclone DDS takes no notice, Fast DDS 2.9.1 forgets the participant
 // and finds it again. Between the two the handshake is not done again; docs/security.md says so.
 TEST_P(EachVendorSecured, OutsidersGoodbyesEndNoSession) {
-  const PeerProcess node("answers", GetParam(), domain, Profile::kLoopback,
+  const PeerProcess node("answers", GetParam(), domain_, Profile::kLoopback,
                          {.keystore = kOurs, .role = "haptic_node"});
   Hand hand(role(kDevice));
   const auto answered = [&](int often) {
@@ -180,7 +180,7 @@ TEST_P(EachVendorSecured, OutsidersGoodbyesEndNoSession) {
     });
   };
   ASSERT_TRUE(answered(50));
-  test::Outsider outsider(domain);
+  test::Outsider outsider(domain_);
   const auto found = outsider.listen(std::chrono::milliseconds(2 * kAnnouncementPeriod_ms));
   ASSERT_EQ(found.size(), 2U);
   for (int repeated = 0; repeated < 3; ++repeated)
