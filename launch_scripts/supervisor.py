@@ -4,7 +4,7 @@ import os
 import signal
 import sys
 
-from launcher import options, organs
+from launcher import keystore, options, organs
 from launcher.errors import Refusal
 from launcher.session import Session
 
@@ -31,6 +31,9 @@ def run(arguments):
     if chosen.prepare_only:
         print(f"run: {scene}")
         return 0
+    if chosen.keystore == options.OWN_KEYSTORE and not chosen.keystore.exists():
+        print("run: making keys for --secure", flush=True)
+        keystore.make(chosen.keystore)
     session = Session(chosen, scene, name)
 
     def end(number, _):

@@ -33,9 +33,6 @@ class VendorBus final : public Bus {
 }  // namespace
 
 std::unique_ptr<Bus> Bus::open(const BusOptions& options) {
-  if (!options.keystore.empty())
-    throw std::runtime_error("key store '" + options.keystore +
-                             "': secured topics are not part of this version");
   if (options.domain < 0 || options.domain > kMaxDomain)
     throw std::runtime_error("DDS domain " + std::to_string(options.domain) + ": expected 0 to " +
                              std::to_string(kMaxDomain));

@@ -9,6 +9,7 @@ from .errors import Refusal
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 DEFAULT_SCENE = REPOSITORY / "scenes" / "liver.toml"
+OWN_KEYSTORE = REPOSITORY / "build" / "keystore"
 VENDORS = ("fast", "cyclone")
 # short name on the command line -> process
 NODES = {"haptic": "haptic_node", "deform": "deform_node", "render": "render_node", "device": "virtual_device"}
@@ -32,6 +33,7 @@ class Options:
     domain: int = None
     log: bool = False
     profile: str = "loopback"
+    keystore: pathlib.Path = None  # of a secured session
     split: str = None
     map: str = None
     record: float = None  # pictures of a second of video
@@ -90,7 +92,9 @@ def build_parser():
     add("--ui-scale", type=float, metavar="SCALE", help="of the window's panel, 0.5 to 4 (default: as monitor and window ask for)")
     add("--paused", action="store_true", help="start paused")
     add("--restart", action="store_true", help="start a node again when it crashed")
-    add("--secure", action="store_true", help="secured topics (not part of this version)")
+    add("--secure", action="store_true", help="encrypted topics, and only who has keys joins (docs/security.md)")
+    add("--keystore", metavar="KEYSTORE", help="of launch_scripts/make_keystore, for --secure (default: build/keystore, made "
+        "when it is not there)")
     add("--prepare", action="store_true", help="make the organ file and DIR/scene.toml, and end")
     add("--check", action="store_true", help=argparse.SUPPRESS)
     return parser
@@ -99,8 +103,6 @@ def build_parser():
 def parse(arguments):
     """Raises Refusal."""
     given = build_parser().parse_args(arguments)
-    if given.secure:
-        raise Refusal("--secure is not part of this version; run without it")
     options = Options(
         scene=find_scene(given.scene), seconds=given.seconds, out=pathlib.Path(given.out), dds=parse_dds(given.dds),
         scale=given.scale, fixed=given.fixed, rate_hz=given.rate_hz, headless=given.headless, domain=given.domain,
@@ -108,6 +110,7 @@ def parse(arguments):
         ui_scale=given.ui_scale, paused=given.paused, restart=given.restart,
         check_only=given.check, prepare_only=given.prepare)
     options.device, options.trace = parse_device(given.device)
+    options.keystore = parse_keystore(given.secure, given.keystore)
     options.organ = existing(given.organ, "--organ") if given.organ else None
     if os.environ.get("OMENTUM_BIN"):
         options.programs = pathlib.Path(os.environ["OMENTUM_BIN"])
@@ -129,6 +132,15 @@ def existing(given, what):
     if not path.is_file():
         raise Refusal(f"{what}: {given}: no such file")
     return path.resolve()
+
+
+def parse_keystore(secure, given):
+    """None: unsecured. One that is named is there already: a wrong name must not end in new keys that nobody else has."""
+    if given and not secure:
+        raise Refusal("--keystore is for --secure, which is missing")
+    if given and not pathlib.Path(given).is_dir():
+        raise Refusal(f"--keystore: {given}: no such folder; launch_scripts/make_keystore {given} makes it")
+    return pathlib.Path(given).resolve() if given else OWN_KEYSTORE if secure else None
 
 
 def parse_dds(text):

@@ -45,7 +45,7 @@ class Session:
             print("run: no display: writing pictures instead (--headless)", flush=True)
         self.nodes = self.make_nodes()
         self.messenger = Messenger(options.programs / "omentum_session", [
-            "--dds", options.dds["haptic_node"], "--domain", str(self.domain.number), "--profile", options.profile])
+            "--dds", options.dds["haptic_node"], *self.place()])
 
     def stop(self):
         self.stopping = True
@@ -79,11 +79,15 @@ class Session:
 
     def command(self, name):
         command = [str(self.options.programs / name), "--scene", str(self.scene), "--dds", self.options.dds[name],
-                   "--domain", str(self.domain.number), "--profile", self.options.profile,
-                   "--report", str(self.report_file(name))]
+                   *self.place(), "--report", str(self.report_file(name))]
         if self.options.log:
             command += ["--log", str(self.options.out.resolve() / f"{name}.csv")]
         return command
+
+    def place(self):
+        """Where programs meet, as options of each of them."""
+        keys = ["--secure", str(self.options.keystore)] if self.options.keystore else []
+        return ["--domain", str(self.domain.number), "--profile", self.options.profile, *keys]
 
     def report_file(self, name):
         return pathlib.Path(self.folder.name) / f"{name}.json"
@@ -97,7 +101,8 @@ class Session:
 
     def announce(self):
         vendors = sorted(set(self.options.dds[node.name] for node in self.nodes))
-        print(f"run: {self.name}; DDS domain {self.domain.number}, {' and '.join(vendors)}", flush=True)
+        secured = ", secured" if self.options.keystore else ""
+        print(f"run: {self.name}; DDS domain {self.domain.number}, {' and '.join(vendors)}{secured}", flush=True)
         if self.options.split:
             sides = {}
             for node in self.nodes:

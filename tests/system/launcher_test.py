@@ -26,7 +26,7 @@ from unittest import mock
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
 from launcher.errors import Refusal  # noqa: E402
-from launcher import cache, domain, machine, options, organs, processes, report, session, video  # noqa: E402 (the launcher is no installed package)
+from launcher import cache, domain, keystore, machine, options, organs, processes, report, session, video  # noqa: E402 (the launcher is no installed package)
 
 RUN = REPOSITORY / "launch_scripts" / "run"
 HOLD = REPOSITORY / "tests" / "system" / "hold.toml"
@@ -133,11 +133,15 @@ class LauncherTest(unittest.TestCase):
 
 
 class Sessions(LauncherTest):
+    def keys(self):
+        keystore.make(self.folder / "keys")
+        return self.folder / "keys"
+
     # each vendor alone: tests/system/session_test.cpp, and Endings.test_sessions_in_a_row_end_well
     def test_each_node_on_the_vendor_that_it_was_given(self):
         vendors = dict(haptic_node="fast", deform_node="cyclone", render_node="fast", virtual_device="cyclone")
         done = self.run_it(HOLD, "--headless", "--seconds", "8", "--out", self.out,
-                           "--dds", "haptic=fast,deform=cyclone,render=fast,device=cyclone")
+                           "--dds", "haptic=fast,deform=cyclone,render=fast,device=cyclone", "--secure", "--keystore", self.keys())
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         report = self.report()
         self.check_shape(report, SHAPE)
@@ -875,7 +879,8 @@ class Refusals(LauncherTest):
         self.check_refused("--device", "broom", about="broom")
         self.check_refused("--device", "mouse", about="mouse")
         self.check_refused("--device", "trace:missing.csv", about="missing.csv")
-        self.check_refused("--secure", about="--secure")
+        self.check_refused("--keystore", "keys", about="--secure")
+        self.check_refused("--secure", "--keystore", "missing", about="make_keystore missing")
         self.check_refused("--domain", "500", about="500")
         self.check_refused("--rate-hz", "0", about="--rate-hz")
         self.check_refused("--record", "0", about="--record")

@@ -1,6 +1,8 @@
 // The other process of the contract tests: sends what the first argument names until its standard input ends,
 // and prints a line once its writers exist.
-//   transport_peer <known|durable|organ|blocks|contacts|poses|answers> <fast|cyclone> <domain> <loopback|lan>
+//   transport_peer <known|durable|organ|blocks|contacts|poses|answers|hand> <fast|cyclone> <domain>
+//   <loopback|lan>
+//                  [KEYSTORE ROLE]
 #include "tests/transport/fill.h"
 #include "transport/topics.h"
 
@@ -8,6 +10,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <iostream>
@@ -114,13 +117,27 @@ void send_answers(Bus& bus) {
   });
 }
 
+// moves a tool until its standard input ends; whether it was answered at least as often as it must be
+bool move_a_hand(Bus& bus) {
+  constexpr int kEnough = 50;
+  std::atomic<int> answers{0};
+  const auto poses = bus.writer<msg::ToolPose>();
+  const auto forces = bus.reader<msg::ToolForce>([&](const msg::ToolForce&) { ++answers; });
+  msg::ToolPose pose;
+  until_input_ends(std::chrono::milliseconds(5), [&] {
+    ++pose.seq;
+    poses->write(pose);
+  });
+  return answers >= kEnough;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::cerr << "usage: transport_peer <known|durable|organ|blocks|contacts|poses|answers> <fast|cyclone> "
-                 "<domain> "
-                 "<loopback|lan>\n";
+  if (argc != 5 && argc != 7) {
+    std::cerr
+        << "usage: transport_peer <known|durable|organ|blocks|contacts|poses|answers|hand> <fast|cyclone> "
+           "<domain> <loopback|lan> [KEYSTORE ROLE]\n";
     return 2;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left behind by a test that was killed
@@ -128,7 +145,8 @@ int main(int argc, char** argv) {
   const auto bus = Bus::open({.vendor = transport::parse_vendor(argv[2]),
                               .domain = std::stoi(argv[3]),
                               .profile = transport::parse_profile(argv[4]),
-                              .name = what});
+                              .name = argc == 7 ? argv[6] : what,
+                              .keystore = argc == 7 ? argv[5] : ""});
   if (what == "known") send_known(msg::AllTopics{}, *bus);
   if (what == "durable")
     send_durable(msg::TopicList<msg::DeviceInfo, msg::Topology, msg::SceneInfo, msg::NodeStatus>{}, *bus);
@@ -137,5 +155,6 @@ int main(int argc, char** argv) {
   if (what == "contacts") send_contacts(*bus);
   if (what == "poses") send_poses(*bus);
   if (what == "answers") send_answers(*bus);
+  if (what == "hand") return move_a_hand(*bus) ? 0 : 1;
   return 0;
 }

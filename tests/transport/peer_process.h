@@ -49,6 +49,7 @@ struct PeerLife {
   uid_t user = geteuid();                  // root may start another user's
   bool has_own_shared_memory = false;      // as in a container; see SharedMemoryFolder
   std::filesystem::path messages_to = {};  // a file for its stderr
+  std::string keystore = {}, role = {};    // of a secured one
 };
 
 /// The peer (peer.cpp), from the moment its writers exist until this object's end.
@@ -66,8 +67,9 @@ class PeerProcess {
       dup2(to_peer[0], STDIN_FILENO);
       dup2(from_peer[1], STDOUT_FILENO);
       if (!begin(life)) _exit(127);
+      // an empty keystore ends the arguments: unsecured
       execl(program.c_str(), program.c_str(), what.c_str(), word(vendor), number.c_str(), word(profile),
-            nullptr);
+            life.keystore.empty() ? nullptr : life.keystore.c_str(), life.role.c_str(), nullptr);
       _exit(127);
     }
     close(to_peer[0]);

@@ -18,6 +18,7 @@ namespace {
 struct OpenDomain {
   dds_entity_t entity = 0;
   Profile profile = Profile::kLoopback;
+  std::string identity;
   int users = 0;
 };
 
@@ -67,6 +68,18 @@ std::string discovery(const std::vector<std::string>& peers) {
   return element("Discovery", text);
 }
 
+std::string identity_of(const BusOptions& options) {
+  return options.keystore.empty() ? "nobody" : options.name + " of " + options.keystore;
+}
+
+// whoever joins an open domain does it as the first one did
+void require_alike(const OpenDomain& open, const BusOptions& options) {
+  const std::string place = "Cyclone DDS: this process already uses domain " + std::to_string(options.domain);
+  if (open.profile != options.profile) throw std::runtime_error(place + " with the other profile");
+  if (open.identity != identity_of(options))
+    throw std::runtime_error(place + " as " + open.identity + ", and cannot be " + identity_of(options));
+}
+
 }  // namespace
 
 std::string configuration(Profile profile, const std::vector<std::string>& peers) {
@@ -77,25 +90,24 @@ std::string configuration(Profile profile, const std::vector<std::string>& peers
                                    element("Internal", buffers) + "</Domain>");
 }
 
-Domain::Domain(int id, Profile profile) : id_(id) {
+Domain::Domain(const BusOptions& options) : id_(options.domain) {
   tell_complaints_once();
   OpenDomains& domains = open_domains();
   const std::lock_guard lock(domains.mutex);
-  const auto found = domains.by_id.find(id);
+  const auto found = domains.by_id.find(id_);
   if (found != domains.by_id.end()) {
-    if (found->second.profile != profile)
-      throw std::runtime_error("Cyclone DDS: this process already uses domain " + std::to_string(id) +
-                               " with the other profile");
+    require_alike(found->second, options);
     ++found->second.users;
     return;
   }
-  const std::string text = configuration(
-      profile, profile == Profile::kLan ? peers_from_environment() : std::vector<std::string>{});
-  const dds_entity_t entity = dds_create_domain(static_cast<dds_domainid_t>(id), text.c_str());
+  const std::string text =
+      configuration(options.profile,
+                    options.profile == Profile::kLan ? peers_from_environment() : std::vector<std::string>{});
+  const dds_entity_t entity = dds_create_domain(static_cast<dds_domainid_t>(id_), text.c_str());
   if (entity < 0)
-    throw std::runtime_error("Cyclone DDS refused domain " + std::to_string(id) + ": " +
+    throw std::runtime_error("Cyclone DDS refused domain " + std::to_string(id_) + ": " +
                              dds_strretcode(entity));
-  domains.by_id[id] = {entity, profile, 1};
+  domains.by_id[id_] = {entity, options.profile, identity_of(options), 1};
 }
 
 Domain::~Domain() {

@@ -12,11 +12,13 @@ namespace omentum::transport::cyclone {
 std::string configuration(Profile profile, const std::vector<std::string>& peers);
 
 /// Holds a domain with our configuration open. Cyclone has one configuration per domain and process, so that
-/// the domain is shared by all participants that the process opens in it and closed with the last.
+/// the domain is shared by all participants that the process opens in it and closed with the last. It also
+/// has one identity there: what the first secured participant may do, Cyclone 0.10 would let all others do.
 class Domain {
  public:
-  /// Throws std::runtime_error: Cyclone refused, or the process uses the domain with another profile.
-  Domain(int id, Profile profile);
+  /// Throws std::runtime_error: Cyclone refused, or the process uses the domain with another profile or as
+  /// another role of a key store.
+  explicit Domain(const BusOptions& options);
   ~Domain();
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;

@@ -1,14 +1,41 @@
 #include "transport/cyclone/entities.h"
 
+#include "transport/keystore.h"
+
+#include <dds/security/dds_security_api_defs.h>
+
 #include <stdexcept>
 
 namespace omentum::transport::cyclone {
 
 namespace {
 
+void secure(dds_qos_t* qos, const Credentials& credentials) {
+  const auto set_file = [&](const char* name, const std::filesystem::path& file) {
+    dds_qset_prop(qos, name, ("file:" + file.string()).c_str());
+  };
+  dds_qset_prop(qos, DDS_SEC_PROP_AUTH_LIBRARY_PATH, "dds_security_auth");
+  dds_qset_prop(qos, DDS_SEC_PROP_AUTH_LIBRARY_INIT, "init_authentication");
+  dds_qset_prop(qos, DDS_SEC_PROP_AUTH_LIBRARY_FINALIZE, "finalize_authentication");
+  dds_qset_prop(qos, DDS_SEC_PROP_ACCESS_LIBRARY_PATH, "dds_security_ac");
+  dds_qset_prop(qos, DDS_SEC_PROP_ACCESS_LIBRARY_INIT, "init_access_control");
+  dds_qset_prop(qos, DDS_SEC_PROP_ACCESS_LIBRARY_FINALIZE, "finalize_access_control");
+  dds_qset_prop(qos, DDS_SEC_PROP_CRYPTO_LIBRARY_PATH, "dds_security_crypto");
+  dds_qset_prop(qos, DDS_SEC_PROP_CRYPTO_LIBRARY_INIT, "init_crypto");
+  dds_qset_prop(qos, DDS_SEC_PROP_CRYPTO_LIBRARY_FINALIZE, "finalize_crypto");
+  set_file(DDS_SEC_PROP_AUTH_IDENTITY_CA, credentials.identity_authority);
+  set_file(DDS_SEC_PROP_AUTH_IDENTITY_CERT, credentials.certificate);
+  set_file(DDS_SEC_PROP_AUTH_PRIV_KEY, credentials.key);
+  set_file(DDS_SEC_PROP_ACCESS_PERMISSIONS_CA, credentials.permissions_authority);
+  set_file(DDS_SEC_PROP_ACCESS_GOVERNANCE, credentials.governance);
+  set_file(DDS_SEC_PROP_ACCESS_PERMISSIONS, credentials.permissions);
+}
+
 dds_entity_t create_participant(const BusOptions& options) {
   const Qos qos(dds_create_qos(), dds_delete_qos);
   dds_qset_entity_name(qos.get(), options.name.c_str());
+  if (!options.keystore.empty())
+    secure(qos.get(), find_credentials(options.keystore, Vendor::kCyclone, options.name));
   return checked(dds_create_participant(static_cast<dds_domainid_t>(options.domain), qos.get(), nullptr),
                  "a participant in domain " + std::to_string(options.domain));
 }
@@ -19,8 +46,7 @@ dds_duration_t duration(std::chrono::milliseconds time) {
 
 }  // namespace
 
-Entities::Entities(const BusOptions& options)
-    : domain(options.domain, options.profile), participant(create_participant(options)) {}
+Entities::Entities(const BusOptions& options) : domain(options), participant(create_participant(options)) {}
 
 Entities::~Entities() {
   dds_delete(participant);

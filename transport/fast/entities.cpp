@@ -2,6 +2,7 @@
 
 #include "transport/complaints.h"
 #include "transport/fast/complaints.h"
+#include "transport/keystore.h"
 #include "transport/settings.h"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -10,6 +11,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
@@ -41,11 +43,18 @@ Duration_t duration(std::chrono::milliseconds time) {
   return duration(static_cast<int>(time.count()));
 }
 
-void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool shares_memory) {
+// A handshake is one message of Fast DDS: with a certificate and the permissions some 4.5 kB, which IP
+// splits.
+std::size_t largest_datagram(Profile profile, bool secured) {
+  constexpr std::size_t kHandshakeBytes = 8192;
+  return secured ? std::max(kHandshakeBytes, max_message_bytes(profile)) : max_message_bytes(profile);
+}
+
+void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool secured, bool shares_memory) {
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
-  udp->maxMessageSize = static_cast<std::uint32_t>(max_message_bytes(profile));
+  udp->maxMessageSize = static_cast<std::uint32_t>(largest_datagram(profile, secured));
   udp->maxInitialPeersRange = kPeerParticipants;
   if (profile == Profile::kLoopback) udp->interfaceWhiteList = {"127.0.0.1"};
   qos.transport().use_builtin_transports = false;
@@ -73,6 +82,23 @@ void add_peers(dds::DomainParticipantQos& qos, const std::vector<std::string>& p
   }
 }
 
+void secure(dds::DomainParticipantQos& qos, const Credentials& credentials) {
+  auto& properties = qos.properties().properties();
+  const auto set = [&](const char* name, const std::string& value) { properties.emplace_back(name, value); };
+  const auto set_file = [&](const char* name, const std::filesystem::path& file) {
+    set(name, "file://" + file.string());
+  };
+  set("dds.sec.auth.plugin", "builtin.PKI-DH");
+  set_file("dds.sec.auth.builtin.PKI-DH.identity_ca", credentials.identity_authority);
+  set_file("dds.sec.auth.builtin.PKI-DH.identity_certificate", credentials.certificate);
+  set_file("dds.sec.auth.builtin.PKI-DH.private_key", credentials.key);
+  set("dds.sec.access.plugin", "builtin.Access-Permissions");
+  set_file("dds.sec.access.builtin.Access-Permissions.permissions_ca", credentials.permissions_authority);
+  set_file("dds.sec.access.builtin.Access-Permissions.governance", credentials.governance);
+  set_file("dds.sec.access.builtin.Access-Permissions.permissions", credentials.permissions);
+  set("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
 dds::DomainParticipantQos participant_qos(const BusOptions& options, bool shares_memory) {
   dds::DomainParticipantQos qos;
   qos.name(options.name);
@@ -80,12 +106,13 @@ dds::DomainParticipantQos participant_qos(const BusOptions& options, bool shares
   discovery.leaseDuration = duration(kFastLease_ms);
   discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriod_ms);
   discovery.initial_announcements.count = kFirstAnnouncements;
-  set_transports(qos, options.profile, shares_memory);
+  set_transports(qos, options.profile, !options.keystore.empty(), shares_memory);
   if (shares_memory) {
     const std::string mark = SharedMemory().mark();  // see Neighbours
     qos.user_data().data_vec({mark.begin(), mark.end()});
   }
   if (options.profile == Profile::kLan) add_peers(qos, peers_from_environment());
+  if (!options.keystore.empty()) secure(qos, find_credentials(options.keystore, Vendor::kFast, options.name));
   return qos;
 }
 
