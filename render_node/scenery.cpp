@@ -16,7 +16,7 @@ constexpr float kFurrow_m = 0.03f;          // what shades a furrow between two 
 constexpr std::size_t kShadeSamples = 600;  // of the organs: with 3,000 vertices some 10 ms at start
 
 // A ridge as sharp as a rib's is as pale as this; a bend that is less sharp by so much is not.
-constexpr float kRidgePallor = 0.45f;
+constexpr float kRidgePallor = 0.6f;
 constexpr float kPlain_per_m = 4, kSharp_per_m = 30;
 
 // How much a surface bends away from its normal at each vertex, 1/m: above 0 on a ridge, below in a furrow.

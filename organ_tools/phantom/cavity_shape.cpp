@@ -13,7 +13,7 @@ const Ellipsoid kWall{{0, -0.18, -0.01}, {0.27, 0.285, 0.195}};
 
 // A rib follows the wall in a plane that falls forwards by this much; it is round, and so much of it stands
 // out.
-constexpr double kRibFall = 0.45, kRibRadius = 0.009, kRibStandsOut = 0.004;
+constexpr double kRibFall = 0.45, kRibRadius = 0.009, kRibStandsOut = 0.006;
 constexpr std::array kRibs{0.080, 0.042, 0.004, -0.034, -0.072};  // of the planes, where z is 0: y
 constexpr double kPeritoneum = 0.007;                             // how smoothly the wall goes over a rib
 
@@ -25,6 +25,9 @@ constexpr double kArchFrom = 0.03;                     // z: only the front has 
 constexpr double kOmentumLevel = -0.079, kFall = 0.07, kBottom = -0.125;
 constexpr double kLobe = 0.0045, kLobeWidth = 0.07, kEdge = 0.005;
 constexpr double kIntoWall = 0.003;  // no gap is seen between both
+
+// The room ends below the omentum's top: nothing farther down is seen.
+constexpr double kFloor = kBottom + 0.007;
 
 // Of a round ridge along the wall, in the surface on which `off` is zero. `wall`: the distance to the bare
 // wall.
@@ -59,11 +62,11 @@ double omentum_top(double x, double y) {
 
 double cavity_distance(const Vec3& p) {
   const double wall = ellipsoid_distance(kWall, p);
-  return blended_max(wall, -ribs(wall, p), kPeritoneum);
+  return std::max(blended_max(wall, -ribs(wall, p), kPeritoneum), kFloor - p.z());
 }
 
 ImplicitShape cavity() {
-  return {"cavity", cavity_distance, {{-0.28, -0.475, -0.215}, {0.28, 0.115, 0.195}}};
+  return {"cavity", cavity_distance, {{-0.28, -0.475, -0.13}, {0.28, 0.115, 0.195}}};
 }
 
 double omentum_distance(const Vec3& p) {

@@ -54,9 +54,8 @@ int main(int argc, char** argv) {
   std::string part = "liver", size;
   std::filesystem::path mesh_file, labels_file;
   line.option("--part", part,
-              "liver, gallbladder (700-1,000 nodes), colon (1,400-1,900), cavity (2,500-6,000), omentum "
-              "(2,000-5,000), "
-              "plate (700-820) or cylinder (238-262)")
+              "liver, gallbladder (700-1,000 nodes), colon (1,400-1,900), cavity (1,200-3,000), "
+              "omentum (800-2,500), plate (700-820) or cylinder (238-262)")
       .one_of({"liver", "gallbladder", "colon", "cavity", "omentum", "plate", "cylinder"})
       .show_default();
   line.option("--size", size, "of the liver: paper (the default: 1,500-1,800 nodes) or fine (above 16,000)")

@@ -98,11 +98,11 @@ MeshSize colon_size() {
 }
 
 MeshSize cavity_size() {
-  return {2500, 6000, 5000, 40000, 0.028, 4, 0.04, false};
+  return {1200, 3000, 3000, 20000, 0.032, 4, 0.035, false};
 }
 
 MeshSize omentum_size() {
-  return {2000, 5000, 5000, 30000, 0.014, 2, 0.12, false};
+  return {800, 2500, 2000, 15000, 0.032, 2, 0.07, false};
 }
 
 MeshSize plate_size() {

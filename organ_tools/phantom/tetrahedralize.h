@@ -29,7 +29,7 @@ MeshSize gallbladder_size();
 MeshSize colon_size();
 /// The cavity's: long edges where the wall is plain, short ones over ribs, few nodes inside.
 MeshSize cavity_size();
-/// The omentum's: edges of a fifth of a lobe.
+/// The omentum's: short edges over its lobes, long ones below them.
 MeshSize omentum_size();
 /// The plate's: about 759 nodes and 2,212 tetrahedra (Cotin 1998, fig. 2).
 MeshSize plate_size();
