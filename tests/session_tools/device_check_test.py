@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""device_check against bridges that are processes: those that do what they owe, and one that is killed.
+
+Usage: device_check_test.py PROGRAMS      the folder of device_check, virtual_device and cyclone_bridge
+"""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
+
+from launcher.domain import Domain  # noqa: E402 (the launcher is no installed package)
+
+PROGRAMS = pathlib.Path(sys.argv[1])
+
+
+class Check:
+    """A bridge and the check beside it, in a domain of their own."""
+
+    def __init__(self, vendor, bridge, how_it_ends=signal.SIGTERM):
+        self.how_it_ends, self.domain = how_it_ends, Domain()
+        number = str(self.domain.number)
+        self.folder = tempfile.TemporaryDirectory()
+        self.file = pathlib.Path(self.folder.name) / "verdicts.json"
+        self.check = subprocess.Popen(
+            [PROGRAMS / "device_check", "--dds", vendor, "--domain", number, "--listen", "1", "--report", self.file],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.bridge = subprocess.Popen([PROGRAMS / bridge[0], *[word.replace("DOMAIN", number) for word in bridge[1:]]],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def finish(self):
+        """The exit code, and outcome -> requirements."""
+        told = ""
+        for line in self.check.stdout:
+            told += line
+            if "now end the bridge" in line:
+                self.bridge.send_signal(self.how_it_ends)
+        self.check.stdout.close()
+        code = self.check.wait()
+        self.bridge.kill()
+        self.bridge.wait()
+        found = {}
+        for one in json.loads(self.file.read_text())["requirements"]:
+            found.setdefault(one["outcome"], []).append(one["requirement"])
+        self.folder.cleanup()
+        self.domain.release()
+        return code, found, told
+
+
+class DeviceCheck(unittest.TestCase):
+    def test_what_it_says_of_three_bridges(self):
+        in_c = ["cyclone_bridge", "DOMAIN"]
+        hands = ["virtual_device", "--scene", str(REPOSITORY / "scenes" / "liver.toml"), "--dds", "fast", "--domain", "DOMAIN"]
+        good = {"in C": Check("cyclone", in_c), "ours": Check("fast", hands)}
+        killed = Check("cyclone", in_c, signal.SIGKILL)
+        with ThreadPoolExecutor() as pool:
+            last = pool.submit(killed.finish)
+            for name, (code, found, told) in zip(good, pool.map(Check.finish, good.values())):
+                self.assertEqual((code, found.get("FAIL")), (0, None), f"{name}: {told}")
+                self.assertGreaterEqual(len(found["pass"]), 12, told)
+        code, found, told = last.result()
+        self.assertEqual((code, found.get("FAIL")), (1, ["it leaves cleanly"]), told)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
