@@ -109,6 +109,25 @@ TEST_F(SkinnedTube, HasTheColoursOfItsMap) {
   EXPECT_GT(seen_difference(drawn, skinned({}, Look::kMap, true)), kSeen) << "its folds are another map";
 }
 
+TEST_F(SkinnedTube, PalesAsItsMeshDoes) {
+  const Picture red = skinned({});
+  std::vector<Press> presses;  // from above, all along it
+  for (const SkinFrame& frame : tube_.frames())
+    presses.push_back({frame.origin + tube_.radius_m() * Vec3f::UnitZ(), Vec3f::UnitZ(), 1});
+  ASSERT_TRUE(tube_.live(presses, 1));
+  const Picture pale = skinned({});
+  const MeshData mesh =
+      skinned_tube(tube_.frames(), tube_.radius_m(), make_tube_cylinder(TubeResolution{}.n));
+  EXPECT_LT(seen_difference(pale, meshed(mesh)), kSameToRounding);
+  EXPECT_GT(seen_difference(pale, red), 5 * kSameToRounding) << "it is seen";
+}
+
+TEST_F(SkinnedTube, ItsTrianglesAreShownAsLines) {
+  const Picture plain = skinned({});
+  scene_.wires = true;
+  EXPECT_GT(seen_difference(plain, skinned({})), kSeen);
+}
+
 TEST_F(SkinnedTube, OfFewerThanTwoFramesIsNothing) {
   const Picture nothing = draw(scene_);
   Frame frame = scene_;
