@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """device_check against bridges that are processes: those that do what they owe, and one that is killed.
 
-Usage: device_check_test.py PROGRAMS      the folder of device_check, virtual_device and cyclone_bridge
+Usage: device_check_test.py PROGRAMS      the folder of device_check, virtual_device and the examples
 """
 import json
 import pathlib
@@ -54,10 +54,10 @@ class Check:
 
 
 class DeviceCheck(unittest.TestCase):
-    def test_what_it_says_of_three_bridges(self):
-        in_c = ["cyclone_bridge", "DOMAIN"]
+    def test_what_it_says_of_bridges_that_are_right_and_of_one_that_is_killed(self):
+        in_c, in_cpp = ["cyclone_bridge", "DOMAIN"], ["fast_bridge", "DOMAIN"]
         hands = ["virtual_device", "--scene", str(REPOSITORY / "scenes" / "liver.toml"), "--dds", "fast", "--domain", "DOMAIN"]
-        good = {"in C": Check("cyclone", in_c), "ours": Check("fast", hands)}
+        good = {"in C": Check("cyclone", in_c), "in C++": Check("fast", in_cpp), "ours": Check("fast", hands)}
         killed = Check("cyclone", in_c, signal.SIGKILL)
         with ThreadPoolExecutor() as pool:
             last = pool.submit(killed.finish)
