@@ -20,6 +20,10 @@ from launcher.domain import Domain  # noqa: E402 (the launcher is no installed p
 PROGRAMS = pathlib.Path(sys.argv[1])
 
 
+# what a busy machine can spoil; bridge_trial_test judges these by a clock of its own
+TIMED = {"poses come evenly", "answers are exerted", "without answers it lets go, and poses go on"}
+
+
 class Check:
     """A bridge and the check beside it, in a domain of their own."""
 
@@ -35,22 +39,21 @@ class Check:
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def finish(self):
-        """The exit code, and outcome -> requirements."""
+        """Which requirements passed and which failed, and all that was said."""
         told = ""
         for line in self.check.stdout:
             told += line
             if "now end the bridge" in line:
                 self.bridge.send_signal(self.how_it_ends)
         self.check.stdout.close()
-        code = self.check.wait()
+        self.check.wait()
         self.bridge.kill()
         self.bridge.wait()
-        found = {}
-        for one in json.loads(self.file.read_text())["requirements"]:
-            found.setdefault(one["outcome"], []).append(one["requirement"])
+        verdicts = json.loads(self.file.read_text())["requirements"]
+        passed, failed = ({one["requirement"] for one in verdicts if one["outcome"] == word} - TIMED for word in ("pass", "FAIL"))
         self.folder.cleanup()
         self.domain.release()
-        return code, found, told
+        return passed, failed, told
 
 
 class DeviceCheck(unittest.TestCase):
@@ -61,11 +64,11 @@ class DeviceCheck(unittest.TestCase):
         killed = Check("cyclone", in_c, signal.SIGKILL)
         with ThreadPoolExecutor() as pool:
             last = pool.submit(killed.finish)
-            for name, (code, found, told) in zip(good, pool.map(Check.finish, good.values())):
-                self.assertEqual((code, found.get("FAIL")), (0, None), f"{name}: {told}")
-                self.assertGreaterEqual(len(found["pass"]), 12, told)
-        code, found, told = last.result()
-        self.assertEqual((code, found.get("FAIL")), (1, ["it leaves cleanly"]), told)
+            for name, (passed, failed, told) in zip(good, pool.map(Check.finish, good.values())):
+                self.assertEqual(failed, set(), f"{name}: {told}")
+                self.assertGreaterEqual(len(passed), 9, told)
+        _, failed, told = last.result()
+        self.assertEqual(failed, {"it leaves cleanly"}, told)
 
 
 if __name__ == "__main__":
