@@ -61,6 +61,9 @@ class Check {
       throw std::runtime_error(
           "a haptic_node answers in this domain, expected the bridge alone: end it, or give "
           "both another --domain");
+    if (crowd_)
+      throw std::runtime_error("two devices move tool " + std::to_string(tool_) +
+                               " in this domain, expected one: end the other");
   }
   bool begun() const {
     const std::lock_guard lock(mutex_);
@@ -89,6 +92,7 @@ class Check {
     std::vector<msg::ToolForce> answers;
     {
       const std::lock_guard lock(mutex_);
+      crowd_ = crowd_ || (newest_ns_ > 0 && writer != writer_);
       writer_ = writer;
       if (!trial_.over(now_ns)) record_.take(pose, now_ns);
       newest_ns_ = now_ns;
@@ -119,7 +123,7 @@ class Check {
   session::AnswerTrial trial_;
   transport::WriterId writer_{};
   std::int64_t newest_ns_ = 0, gone_ns_ = 0;
-  std::atomic<bool> rival_{false};
+  std::atomic<bool> rival_{false}, crowd_{false};
 
   // declared last: callbacks end before what they touch
   std::unique_ptr<transport::Bus> bus_;
