@@ -81,12 +81,17 @@ SceneryPiece load_piece(const scene::ScenerySpec& spec) {
 
 std::vector<SceneryPiece> load_scenery(std::span<const scene::ScenerySpec> scenery) {
   std::vector<SceneryPiece> pieces;
-  for (const scene::ScenerySpec& spec : scenery) {
-    if (!spec.file.empty()) {
-      pieces.push_back(load_piece(spec));
-    } else {
-      std::cerr << "render_node: scenery " << spec.mesh
-                << " has no file: left out (launch_scripts/run makes it)\n";
+  for (std::size_t i = 0; i < scenery.size(); ++i) {
+    const std::string name = "scenery[" + std::to_string(i) + "]";
+    if (scenery[i].file.empty()) {
+      std::cerr << "render_node: " << name << ", " << scenery[i].mesh
+                << ", has no file: left out (launch_scripts/run makes it)\n";
+      continue;
+    }
+    try {
+      pieces.push_back(load_piece(scenery[i]));
+    } catch (const geometry::InputError& error) {
+      throw geometry::InputError(name + ": " + error.what());
     }
   }
   return pieces;

@@ -44,8 +44,7 @@ TEST(SceneryPiece, AWallIsPaleOverARidgeAlone) {
   float on_ridge = 0, off_ridge = 0;
   for (const Vertex& v : ball_scenery("wall", kRoom_m, 0.012).mesh.vertices) {
     float& most = std::abs(v.position.z()) < 0.005f ? on_ridge : off_ridge;
-    if (std::abs(v.position.z()) < 0.005f || std::abs(v.position.z()) > 0.1f)
-      most = std::max(most, v.pallor);
+    if (std::abs(v.position.z()) < 0.005f || std::abs(v.position.z()) > 0.1f) most = std::max(most, v.pallor);
   }
   EXPECT_GT(on_ridge, 0.1f);
   EXPECT_EQ(off_ridge, 0);
@@ -105,7 +104,7 @@ TEST(Scenery, WhatNobodyMadeIsLeftOutAndABadFileIsNamed) {
     load_scenery(std::vector{scene::ScenerySpec{.mesh = file.string(), .file = file}});
     FAIL() << "accepted";
   } catch (const geometry::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("no_scenery.msh"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("scenery[0]: " + file.string()), 0u) << error.what();
   }
 }
 
