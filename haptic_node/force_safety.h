@@ -105,8 +105,14 @@ class ForceSafety {
   void charge(const ActingForce::Work& given, const SafetyInput& input) noexcept;
   void fade_to(const SafetyInput& input, std::uint32_t& state) noexcept;
   Wrench filter(const SafetyInput& input, std::uint32_t& state) noexcept;
-  void limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept;
-  void damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) noexcept;
+  /// How far the model's force fell at once in this tick, to which share, and what it changed by before, N.
+  struct Fall {
+    double share = 1, change_n = 0;
+  };
+  void limit(const SafetyInput& input, double slew_s, Wrench& wrench, std::uint32_t& state) const noexcept;
+  Vec3 wanted_damper(const SafetyInput& input) const noexcept;
+  void damp(const SafetyInput& input, const Vec3& damper, const Fall& fall, Wrench& wrench,
+            std::uint32_t& state) noexcept;
   void let_go() noexcept;
   double max_force_n() const noexcept { return std::min(device_.max_force_n, limits_.max_force_n); }
   double max_torque_nm() const noexcept { return std::min(device_.max_torque_nm, limits_.max_torque_nm); }
