@@ -156,8 +156,9 @@ Wrench ForceSafety::filter(const SafetyInput& input, std::uint32_t& state) noexc
   if (state & (msg::FORCE_STALE | msg::FORCE_PAUSED))
     clamp_wrench(wrench, gain_ * max_force_n(), gain_ * max_torque_nm());
   // last of all: what falls by this falls at once
-  share_ = tank().share(node::work_ahead_j(wrench.force, wrench.torque, motion_,
-                                           kHorizonIntervals * interval_s(input), wrench.grip_torque));
+  ahead_j_ = node::work_ahead_j(wrench.force, wrench.torque, motion_, kHorizonIntervals * interval_s(input),
+                                wrench.grip_torque);
+  share_ = tank().share(ahead_j_);
   if (share_ < 1) state |= msg::FORCE_PASSIVITY;
   wrench.force *= share_;
   wrench.torque *= share_;
