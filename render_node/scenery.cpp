@@ -1,5 +1,6 @@
 #include "render_node/scenery.h"
 
+#include "geometry/mesh_io/stl.h"
 #include "geometry/surface.h"
 #include "render_node/organ_drawing.h"
 #include "render_node/solids.h"
@@ -65,6 +66,11 @@ MeshData shaded(std::span<const geometry::Vec3> places, std::span<const geometry
 }
 
 SceneryPiece load_piece(const scene::ScenerySpec& spec) {
+  if (geometry::is_stl(spec.file)) {
+    geometry::TriangleSurface surface = geometry::read_stl(spec.file);
+    for (geometry::Vec3& p : surface.positions) p *= spec.metres_per_unit;
+    return make_scenery(surface.positions, std::move(surface.triangles), spec.look);
+  }
   const geometry::TetraMesh mesh =
       geometry::check_mesh(geometry::read_mesh(spec.file), spec.metres_per_unit).mesh;
   const geometry::Surface surface = geometry::extract_surface(mesh, {});

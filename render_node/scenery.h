@@ -21,7 +21,7 @@ struct SceneryPiece {
 
 /// Of a scene's [[scenery]]. What is only a word, in a scene that nobody prepared, is left out, which is said
 /// on standard error: a session without scenery is none the worse. Throws geometry::InputError naming file
-/// and place for a mesh that cannot be read or is not valid.
+/// and place for an STL surface or a mesh that cannot be read or is not valid.
 std::vector<SceneryPiece> load_scenery(std::span<const scene::ScenerySpec> scenery);
 
 /// A surface as that look has it: of a "wall" the inside alone is seen, paler where it goes over a ridge,
