@@ -61,7 +61,9 @@ double slid_of(const ContactEnergy& tool, const ContactWork& work, double taken_
 
 // beta'.
 double leaving_of(const ContactEnergy& tool, const ContactWork& work) {
-  const double left = std::exp(-std::abs(work.put_in_j) / work.stored_j);
+  // where less is covered than is held, it is settled before that is given
+  const double held_j = std::max(std::min(work.stored_j, work.covered_j), kNoEnergy_j);
+  const double left = std::exp(-std::abs(work.put_in_j) / (work.put_in_j > 0 ? work.stored_j : held_j));
   return work.put_in_j > 0 ? tool.leaving * left : 1 - (1 - tool.leaving) * left;
 }
 
@@ -71,7 +73,8 @@ double share_of(const ContactEnergy& tool, const ContactWork& work, double most)
   const double owed = 1 - paid / std::max(tool.slid, kMissed);
   const double s = std::clamp((owed - kMissed) / (kOwed - kMissed), 0.0, 1.0);
   const double settled = 1 - (1 - tool.leaving) * (1 - s * s * (3 - 2 * s));
-  return std::clamp(tool.slid + settled * (paid - tool.slid), 0.0, most);
+  const double given_back = std::min(paid, work.covered_j / work.stored_j);
+  return std::clamp(tool.slid + settled * (given_back - tool.slid), 0.0, most);
 }
 
 // Who touches holds no more than was brought, whatever the model makes of it in one tick: two tools deep in

@@ -4,6 +4,7 @@
 #include "geometry/types.h"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 namespace omentum::haptic {
@@ -33,7 +34,9 @@ struct ContactWork {
   double exchanged_j = 0;  // the same as hands feel it; none in sum where the tissue does not move by itself
   double own_j = 0;        // what tissue that moves by itself gave it ...
   double changed_j = 0;    // ... and of that on its way from one model to the next
-  double sliding = 0;      // s: how far its points' ways were slides and not presses, 0 to 1
+  // what may be given to the hand from now on, whatever the account says
+  double covered_j = std::numeric_limits<double>::infinity();
+  double sliding = 0;        // s: how far its points' ways were slides and not presses, 0 to 1
   Vec3 push = Vec3::Zero();  // on the tissue, N
   Vec3 way = Vec3::Zero();   // of the tip, m
 };
@@ -78,11 +81,13 @@ inline constexpr double kNoEnergy_j = 1e-12;
 /// On the way in (beta = 0) nothing else is done: who presses feels the model's own force. On the way out
 /// beta goes to one, by e-folds of the energy that is given back, and with it kappa to A / E: so a closed
 /// path has no net energy, and the force reaches zero where the model's does. It goes there at once where the
-/// hand got back more than meshes miss. (With kappa = A / E on the way in as well, each per cent by which a
-/// mesh misses E = work compounds over the decades that E goes through: by 14 % to either side on a coarse
-/// liver, and by who came first where two hands press.) On the wire the tissue bears what the hand feels: its
-/// dent is kappa times as deep as the tool is in it, as if kappa's difference from one were a spring between
-/// the two.
+/// hand got back more than meshes miss. Where less than A is covered (ContactWork::covered_j), kappa E goes
+/// to that instead, and by e-folds of it: tissue that moves by itself, and is told of late, fills A with
+/// energy that no hand brought. (With kappa = A / E on the way in as well, each per cent by which a mesh
+/// misses E = work compounds over the decades that E goes through: by 14 % to either side on a coarse liver,
+/// and by who came first where two hands press.) On the wire the tissue bears what the hand feels: its dent
+/// is kappa times as deep as the tool is in it, as if kappa's difference from one were a spring between the
+/// two.
 ///
 /// A place that differs for good (stiffer near a support) is paid for along the way: a force against the
 /// heading, (1 - kappa) E / kForget_m, brings kappa_s back to one; its work is in the account.

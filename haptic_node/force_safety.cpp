@@ -39,6 +39,10 @@ bool approach(T& target, const T& from, double limit) {
   return true;
 }
 
+bool is_in_air(const SafetyInput& input) {
+  return input.model.force.isZero(0) && input.model.torque.isZero(0);
+}
+
 }  // namespace
 
 bool clamp_wrench(Wrench& wrench, double max_force_n, double max_torque_nm) noexcept {
@@ -141,43 +145,63 @@ void ForceSafety::fade_to(const SafetyInput& input, std::uint32_t& state) noexce
   }
 }
 
+// Both parts share one slew. The damper has it first: the tank does not cover what it does.
 Wrench ForceSafety::filter(const SafetyInput& input, std::uint32_t& state) noexcept {
+  const Vec3 damper = wanted_damper(input);
+  const double taken_s = std::min((damper - damping_).norm() / limits_.max_slew_n_s, slew_s(input));
   Wrench wrench{gain_ * input.model.force, gain_ * input.model.torque, gain_ * input.model.grip_torque};
-  limit(input, wrench, state);
+  limit(input, slew_s(input) - taken_s, wrench, state);
+  const Vec3 slewed = wrench.force;
+  // the decay binds what leaves, the slew limit included
+  if (state & (msg::FORCE_STALE | msg::FORCE_PAUSED))
+    clamp_wrench(wrench, gain_ * max_force_n(), gain_ * max_torque_nm());
   // last of all: what falls by this falls at once
-  share_ = tank().share(node::work_ahead_j(wrench.force, wrench.torque, motion_,
-                                           kHorizonIntervals * interval_s(input), wrench.grip_torque));
+  ahead_j_ = node::work_ahead_j(wrench.force, wrench.torque, motion_, kHorizonIntervals * interval_s(input),
+                                wrench.grip_torque);
+  share_ = tank().share(ahead_j_);
   if (share_ < 1) state |= msg::FORCE_PASSIVITY;
   wrench.force *= share_;
   wrench.torque *= share_;
   wrench.grip_torque *= share_;
-  model_ = wrench;
-  damp(input, wrench, state);
+  const double fallen = slewed.isZero(0) ? 1 : wrench.force.norm() / slewed.norm();
+  damp(input, damper, {fallen, (slewed - model_.force).norm()}, wrench, state);
   return wrench;
 }
 
-void ForceSafety::limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept {
+void ForceSafety::limit(const SafetyInput& input, double slew_s, Wrench& wrench,
+                        std::uint32_t& state) const noexcept {
   drop_unactuated(wrench, device_.actuated_axes, input.orientation);
   if (clamp_wrench(wrench, max_force_n(), max_torque_nm())) state |= msg::FORCE_CLAMPED;
   // a stall is no reason to step: it counts for one period
-  if (slew_wrench(wrench, model_, limits_, slew_s(input))) state |= msg::FORCE_SLEW;
-  // the decay binds what leaves, the slew limit included
-  if (state & (msg::FORCE_STALE | msg::FORCE_PAUSED))
-    clamp_wrench(wrench, gain_ * max_force_n(), gain_ * max_torque_nm());
+  if (slew_wrench(wrench, model_, limits_, slew_s)) state |= msg::FORCE_SLEW;
 }
 
 // A debt is taken out of the hand's own motion where there is tissue; in the air nothing may be felt.
-void ForceSafety::damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) noexcept {
-  const bool in_air = input.model.force.isZero(0) && input.model.torque.isZero(0);
-  const double gain = in_air ? 0 : gain_;
-  Wrench damper{gain * tank().damping(motion_, interval_s(input)), Vec3::Zero()};
+Vec3 ForceSafety::wanted_damper(const SafetyInput& input) const noexcept {
+  Wrench damper{is_in_air(input) ? Vec3::Zero() : Vec3(gain_ * tank().damping(motion_, interval_s(input))),
+                Vec3::Zero()};
   drop_unactuated(damper, device_.actuated_axes, input.orientation);
-  slew_wrench(damper, {damping_, Vec3::Zero()}, limits_, slew_s(input));
-  damping_ = gain > 0 ? damper.force : Vec3::Zero();
-  if (damping_.isZero(0)) return;
-  state |= msg::FORCE_PASSIVITY;
+  approach(damper.force, damping_, limits_.max_slew_n_s * slew_s(input));
+  return damper.force;
+}
+
+// With m and d, what left in the last tick, and the model's part fallen to s (m + change), m + d falls to its
+// share s as well, and from there on the sum makes one step of the slew limit at most.
+void ForceSafety::damp(const SafetyInput& input, const Vec3& damper, const Fall& fall, Wrench& wrench,
+                       std::uint32_t& state) noexcept {
+  const double step_n = limits_.max_slew_n_s * slew_s(input);
+  const bool nothing_left = wrench.force.isZero(0) && (is_in_air(input) || gain_ <= 0);
+  const Vec3 from = fall.share * damping_;
+  damping_ = nothing_left ? Vec3::Zero() : damper;
+  if (!nothing_left) approach(damping_, from, std::max(0.0, step_n - fall.share * fall.change_n));
+  if (!damping_.isZero(0)) state |= msg::FORCE_PASSIVITY;
+  const bool decays = state & (msg::FORCE_STALE | msg::FORCE_PAUSED);
+  const double sum_n = (wrench.force + damping_).norm(), most_n = (decays ? gain_ : 1) * max_force_n();
+  const double kept = sum_n > most_n ? most_n / sum_n : 1;
+  damping_ *= kept;
+  wrench.force *= kept;
+  model_ = wrench;
   wrench.force += damping_;
-  clamp_wrench(wrench, max_force_n(), max_torque_nm());
 }
 
 void ForceSafety::let_go() noexcept {

@@ -96,6 +96,12 @@ class ForceSafety {
 
   /// What the hand was given as far as this node can know: the worse of what may be.
   const node::EnergyTank& tank() const noexcept { return soon_.level_j() < late_.level_j() ? soon_ : late_; }
+  /// What the model may give back to the hand without being cut, J: what the tank then holds still covers the
+  /// hand as it moved last.
+  double covered_j() const noexcept {
+    return std::max(0.0, tank().level_j() - std::max(kKeptBack_j, ahead_j_));
+  }
+  static constexpr double kKeptBack_j = 1.5e-3;
   /// The share of the model's wrench that the tank let through in the last pass, 0..1.
   double share() const noexcept { return share_; }
 
@@ -105,8 +111,14 @@ class ForceSafety {
   void charge(const ActingForce::Work& given, const SafetyInput& input) noexcept;
   void fade_to(const SafetyInput& input, std::uint32_t& state) noexcept;
   Wrench filter(const SafetyInput& input, std::uint32_t& state) noexcept;
-  void limit(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) const noexcept;
-  void damp(const SafetyInput& input, Wrench& wrench, std::uint32_t& state) noexcept;
+  /// How far the model's force fell at once in this tick, to which share, and what it changed by before, N.
+  struct Fall {
+    double share = 1, change_n = 0;
+  };
+  void limit(const SafetyInput& input, double slew_s, Wrench& wrench, std::uint32_t& state) const noexcept;
+  Vec3 wanted_damper(const SafetyInput& input) const noexcept;
+  void damp(const SafetyInput& input, const Vec3& damper, const Fall& fall, Wrench& wrench,
+            std::uint32_t& state) noexcept;
   void let_go() noexcept;
   double max_force_n() const noexcept { return std::min(device_.max_force_n, limits_.max_force_n); }
   double max_torque_nm() const noexcept { return std::min(device_.max_torque_nm, limits_.max_torque_nm); }
@@ -122,6 +134,7 @@ class ForceSafety {
   Vec3 damping_ = Vec3::Zero();   // ... and the damper's, N
   double told_valid_s_ = 0;       // for how long it holds
   double gain_ = 0, share_ = 1;
+  double ahead_j_ = 0;  // of the model's wrench in the last pass
   bool faulted_ = false;
   bool known_place_ = false;
   Vec3 tip_ = Vec3::Zero();

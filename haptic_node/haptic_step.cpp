@@ -162,6 +162,7 @@ StepResult haptic_step(const HapticModel& model, std::span<const ToolInput> inpu
     measure_work(model, state, work.before, work.free_gaps, work.gaps, work.works);
     if (model.mode == ContactMode::kPoint) measure_exchange(work.problem, state, work.before, work.works);
     settle_own_motion(state, work.works);
+    for (std::size_t t = 0; t < inputs.size(); ++t) work.works[t].covered_j = inputs[t].covered_j;
     balance(state.energies, work.works, anyone_let_go(state));
     measure(model, inputs, state, outputs);
   } else {

@@ -18,6 +18,8 @@ struct ToolInput {
   double grip = 0;  // jaw opening, rad
   // the stiffest wall that its device renders, N/m
   double max_stiffness_n_m = std::numeric_limits<double>::infinity();
+  // what its safety lets the hand have (ForceSafety::covered_j), J
+  double covered_j = std::numeric_limits<double>::infinity();
 };
 
 /// Whether a tool's input can be computed with: finite, and a device of some stiffness. One that cannot is

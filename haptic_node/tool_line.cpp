@@ -114,7 +114,8 @@ bool ToolLine::listen(std::int64_t now_ns, ToolInput& input) noexcept {
            .heard_again = again,
            .frame = lead_.ahead(frame_of(heard.pose), fresh),
            .grip = opening_of(heard.pose),
-           .max_stiffness_n_m = max_stiffness_n_m_};
+           .max_stiffness_n_m = max_stiffness_n_m_,
+           .covered_j = safety_.covered_j()};
   return fresh;
 }
 
