@@ -5,6 +5,8 @@
 //   part/state         normals, shade and upload of a new state
 //   part/no_panel      a faint frame of the same state without the panel
 //   part/empty         and without anything in it: backdrop and stretching
+//   part/panel         that and the panel, laid out and blended as it was kept (panel_refresh.h)
+//   part/new_panel     and drawn anew
 //   part/read_back     for a picture
 //   settle/LOAD/FROM   until the frame rate's control keeps the rate, in simulated time: loads per piece of
 //                      a tube, vertex or pixel (load_models.h), from the coarsest or finest level
@@ -71,10 +73,11 @@ class Stage {
 
   struct Parts {
     Quality quality = Quality::kFine;
-    bool scene = true, panel = true;
+    bool scene = true, panel = true, new_panel = false;
   };
   void draw(const Parts& parts) {
     renderer_->begin_frame();
+    if (parts.new_panel) panel_.time_s += 0.1;
     if (parts.panel) lay_out_panel(panel_);
     Frame frame = view_.frame(choices_, tools_, panel_share(kSize));
     frame.quality = parts.quality;
@@ -124,14 +127,14 @@ void write_pictures(Stage& stage, const std::filesystem::path& folder) {
 }
 
 void measure_settling(omentum::bench::Results& results) {
-  constexpr double kAsked_fps = 30, kDuty = 0.5, kReached = 0.95, kRun_s = 6, kLimit_s = 1;
+  constexpr double kAsked_fps = 30, kReached = 0.95, kRun_s = 6, kLimit_s = 1;
   const std::array<std::pair<const char*, test::LoadModel>, 3> loads{
       {{"pieces", {.fixed_s = 0.002, .per_piece_s = 9e-5, .per_million_pixels_s = 2e-4}},
        {"vertices", {.fixed_s = 0.002, .per_thousand_vertices_s = 8e-4}},
        {"pixels", {.fixed_s = 0.004, .per_million_pixels_s = 0.08}}}};
   for (const auto& [name, load] : loads) {
     for (const bool from_finest : {false, true}) {
-      test::RateSession session(kAsked_fps, kDuty);
+      test::RateSession session(kAsked_fps, kDrawingDuty);
       if (from_finest) session.run({.fixed_s = 1e-4}, kRun_s);
       const double begin_s = session.now_s();
       session.run(load, kRun_s);
@@ -180,6 +183,8 @@ int main(int argc, char** argv) {
     add("part/state", [&] { stage.show_next_state(); });
     add("part/no_panel", [&] { stage.draw({Quality::kFaint, true, false}); });
     add("part/empty", [&] { stage.draw({Quality::kFaint, false, false}); });
+    add("part/panel", [&] { stage.draw({Quality::kFaint, false}); });
+    add("part/new_panel", [&] { stage.draw({Quality::kFaint, false, true, true}); });
     add("part/read_back", [&] { stage.read_back(); });
     omentum::bench::JsonReporter reporter(results);
     benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -9,6 +9,10 @@
 
 namespace omentum::render {
 
+/// The share of the time that drawing may take. The 1 kHz loops' priority takes the processor from it at any
+/// moment; the rest is for what has none.
+inline constexpr double kDrawingDuty = 0.75;
+
 /// Chooses the level of the next frame from what the last ones cost, and when it may begin: the feedback of
 /// Raghupathi 2004, eq. 15, over all means of a picture at once (picture_level.h). From frame to frame
 ///

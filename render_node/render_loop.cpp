@@ -21,9 +21,6 @@ namespace {
 constexpr std::int64_t kSlow_ns = 1'000'000'000;  // loops are folded aside, and the ground's shade is seen to
                                                   // follow them, within seconds
 constexpr std::int64_t kStatusPeriod_ns = 100'000'000;  // docs/topics.md: 1-10 Hz
-// The share of the time that drawing may take. The 1 kHz loops' priority takes the processor from it at any
-// moment; the rest is for what has none.
-constexpr double kDuty = 0.75;
 constexpr double kSettled_s = 3;  // the frame rate's control has found its level, and the others are there
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
@@ -90,7 +87,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
       watch_(loaded.scene, loaded.organs, begin_ns_),
       feel_ring_(renderer),
       max_force_n_(loaded.scene.haptics.max_force_n),
-      control_(options.fps, kDuty),
+      control_(options.fps, kDrawingDuty),
       schedule_(schedule_of(options.picture_period_s, renderer)),
       recorder_(options.out.empty() ? "." : options.out, options.record_fps, faults_),
       account_(std::llround(1e9 / options.fps)),

@@ -66,7 +66,7 @@ class GlRenderer final : public Renderer {
     if (casts_shadows(frame)) cast_shadows(frame);
     draw_scene(frame, scene);
     resolve(scene);
-    if (frame.with_panel) panel_->draw();
+    if (frame.with_panel) panel_->draw(output(), fitted_);
   }
 
   Picture read_back() override {

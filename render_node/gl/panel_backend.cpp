@@ -7,6 +7,23 @@
 #include <imgui.h>
 
 namespace omentum::render::gl {
+namespace {
+
+// The mouse moves over the panel, or presses or lets go what lies on it.
+bool touched() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!io.WantCaptureMouse) return false;
+  return io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 || ImGui::IsMouseClicked(0) ||
+         ImGui::IsMouseReleased(0);
+}
+
+bool any(const KeyPresses& keys) {
+  for (char letter = 'A'; letter <= 'Z'; ++letter)
+    if (keys.has(letter)) return true;
+  return false;
+}
+
+}  // namespace
 
 PanelBackend::PanelBackend(GlContext& context, float asked_scale)
     : context_(context),
@@ -32,19 +49,26 @@ void PanelBackend::fit() {
   style_panel(scale);
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
+  picture_.forget();
 }
 
 Input PanelBackend::begin_frame() {
+  if (laid_out_) ImGui::EndFrame();
   fit();
   ImGui_ImplOpenGL3_NewFrame();
   const Input input = context_.begin_frame();
+  typed_ = any(input.keys);
   ImGui::NewFrame();
+  laid_out_ = true;
   return input;
 }
 
-void PanelBackend::draw() {
+void PanelBackend::draw(unsigned to, Size picture) {
   ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  laid_out_ = false;
+  const bool at_once = !context_.has_window() || typed_ || touched();
+  picture_.update(*ImGui::GetDrawData(), picture, ImGui::GetTime(), at_once);
+  picture_.blend(to);
 }
 
 }  // namespace omentum::render::gl

@@ -1,6 +1,7 @@
 // Dear ImGui on our contexts.
 #pragma once
 
+#include "render_node/gl/panel_picture.h"
 #include "render_node/renderer.h"
 
 namespace omentum::render::gl {
@@ -16,8 +17,11 @@ class PanelBackend {
   PanelBackend(const PanelBackend&) = delete;
   PanelBackend& operator=(const PanelBackend&) = delete;
 
-  Input begin_frame();  // events; the panel may be laid out from here on
-  void draw();          // into the bound framebuffer
+  /// Events; the panel may be laid out from here on. What was laid out before and never drawn is dropped.
+  Input begin_frame();
+  /// Over the framebuffer `to`. Leaves it bound. Off-screen as it was laid out; in a window as it is due
+  /// (PanelRefresh).
+  void draw(unsigned to, Size picture);
   float scale() const { return scale_; }
 
  private:
@@ -25,6 +29,9 @@ class PanelBackend {
 
   GlContext& context_;
   float asked_scale_, scale_;
+  PanelPicture picture_;
+  bool typed_ = false;     // a key, since the last frame
+  bool laid_out_ = false;  // a frame of Dear ImGui is open
 };
 
 }  // namespace omentum::render::gl
