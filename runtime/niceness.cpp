@@ -1,11 +1,17 @@
 #include "runtime/niceness.h"
 
+#include <fstream>
+
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace omentum::runtime {
 
 bool take_nice(int value) noexcept {
-  return setpriority(PRIO_PROCESS, 0, value) == 0;  // on Linux 0 is the calling thread, not its process
+  if (setpriority(PRIO_PROCESS, 0, value) != 0) return false;  // on Linux 0 is the calling thread
+  // nobody else is of a session that this process began
+  if (getsid(0) == getpid()) std::ofstream("/proc/self/autogroup") << value;
+  return true;
 }
 
 }  // namespace omentum::runtime

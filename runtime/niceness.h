@@ -14,6 +14,9 @@ inline constexpr int kPictureNice = 5;
 /// Gives the calling thread, and those that it starts from now on, that value. A lower one than a thread has
 /// needs permission (`nice` in limits.conf, or CAP_SYS_NICE): where it is not given, nothing changes, and the
 /// answer is false.
+///
+/// Linux shares a processor out among sessions first (autogroups, where it has them): in a process that began
+/// its own, as the launcher's nodes do, the session's share is that of the value as well.
 bool take_nice(int value) noexcept;
 
 }  // namespace omentum::runtime

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include <linux/capability.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace omentum::runtime {
@@ -38,6 +41,25 @@ TEST(Niceness, AThreadAndThoseThatItStartsHaveItAndOthersDoNot) {
     std::thread([before] { EXPECT_EQ(own_nice(), before + 3); }).join();
   }).join();
   EXPECT_EQ(own_nice(), before);
+}
+
+TEST(Niceness, AProcessThatBeganASessionHasItForTheSession) {
+  if (!std::ifstream("/proc/self/autogroup")) GTEST_SKIP() << "this kernel has no autogroups";
+  constexpr int kAsSaid = 0, kOtherwise = 1;
+  const int wanted = own_nice() + 3;
+  const pid_t child = fork();
+  if (child == 0) {
+    setsid();
+    take_nice(wanted);
+    std::ifstream group("/proc/self/autogroup");
+    std::string name, nice;
+    int value = 0;
+    group >> name >> nice >> value;  // "/autogroup-77 nice 3"
+    _exit(value == wanted ? kAsSaid : kOtherwise);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), kAsSaid);
 }
 
 TEST(Niceness, WhoMayNotComeFirstStaysWhereItIs) {
