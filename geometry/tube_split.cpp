@@ -40,11 +40,14 @@ TubeSplit::TubeSplit(std::size_t mass_count)
   cuts_.reserve(kMostCuts * mass_count);
 }
 
-void TubeSplit::split(const TubeAxis& axis, double eps) {
+void TubeSplit::split(const TubeAxis& axis, double eps, std::span<const std::uint8_t> wanted) {
   require(turns_.size() == static_cast<std::size_t>(axis.end()) + 1, "an axis of as many masses");
   require(eps > 0, "a threshold above 0");
+  require(wanted.empty() || wanted.size() == is_cut_.size(), "a word for each segment");
   for (std::size_t i = 0; i < turns_.size(); ++i) turns_[i] = axis.turn_at(i);
   find_peaks(axis, eps);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (wanted[i] != 0) is_cut_[i] = 1;
   cuts_.clear();
   for (std::size_t segment = 0; segment < is_cut_.size(); ++segment) cut(segment);
   cuts_.push_back(axis.end());

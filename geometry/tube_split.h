@@ -20,8 +20,9 @@ class TubeSplit {
   /// For axes of so many masses.
   explicit TubeSplit(std::size_t mass_count);
 
-  /// `eps`: above 0; from 1 on every segment is one piece.
-  void split(const TubeAxis& axis, double eps);
+  /// `eps`: above 0; from 1 on every segment is one piece. `wanted` [segments] or empty: where it is not 0 a
+  /// segment is cut at thirds however straight it is, for whoever needs frames there.
+  void split(const TubeAxis& axis, double eps, std::span<const std::uint8_t> wanted = {});
 
   /// Ascending, from 0 to the axis' end.
   std::span<const double> cuts() const { return cuts_; }

@@ -7,8 +7,9 @@ namespace omentum::render {
 namespace {
 
 // The mesentery is the last of the opaque ones: where it is blended they are all but that one.
-constexpr std::array kOpaque{Look::kSolid, Look::kGut, Look::kTissue, Look::kCut,    Look::kBared,
-                             Look::kBlood, Look::kMap, Look::kGround, Look::kSignal, Look::kMesentery};
+constexpr std::array kOpaque{Look::kSolid,  Look::kGut,    Look::kTissue,   Look::kCut,
+                             Look::kBared,  Look::kBlood,  Look::kMap,      Look::kWall,
+                             Look::kGround, Look::kSignal, Look::kMesentery};
 constexpr std::array kBlended{Look::kMesentery, Look::kSmoke};
 
 }  // namespace
@@ -23,7 +24,7 @@ std::span<const Look> blended_looks(Quality quality) {
 }
 
 bool casts_shadow(Look look) {
-  constexpr std::array kLetThrough{Look::kGround, Look::kSignal, Look::kMesentery, Look::kSmoke};
+  constexpr std::array kLetThrough{Look::kWall, Look::kGround, Look::kSignal, Look::kMesentery, Look::kSmoke};
   return std::ranges::find(kLetThrough, look) == kLetThrough.end();
 }
 

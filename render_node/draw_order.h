@@ -11,7 +11,7 @@ std::span<const Look> opaque_looks(Quality quality);
 /// Drawn after all that, the farthest first, without hiding each other: nothing from the coarse quality on,
 /// where a mesentery is opaque and there is no smoke.
 std::span<const Look> blended_looks(Quality quality);
-/// Whether it darkens what is behind it: neither the ground nor signals, nor what light goes through.
+/// Whether it darkens what is behind it: neither ground, wall nor signals, nor what light goes through.
 bool casts_shadow(Look look);
 
 }  // namespace omentum::render

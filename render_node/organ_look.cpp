@@ -15,6 +15,9 @@ const Material kGut{{0.395f, 0.158f, 0.128f}, 0.0f, 0.22f};
 const Material kMesentery{{0.50f, 0.335f, 0.155f}, 0.0f, 0.26f};
 // Large bowel: paler and greyer, its fat shines through.
 const Material kColon{{0.33f, 0.150f, 0.105f}, 0.0f, 0.26f};
+// Peritoneum over muscle: pale pink, moist. And fat under it.
+const Material kCavityWall{{0.385f, 0.168f, 0.125f}, 0.0f, 0.34f};
+const Material kOmentum{{0.315f, 0.195f, 0.072f}, 0.0f, 0.29f};
 // Without the capsule's veil: the deeper, duller red of parenchyma full of blood, wet with it; the mucosa of
 // a sac, yellow with bile; and that of a bowel, a moist salmon.
 const Material kLiverBared{{0.088f, 0.0105f, 0.0085f}, 0.0f, 0.30f};
@@ -24,8 +27,12 @@ const Material kColonBared{{0.260f, 0.085f, 0.060f}, 0.0f, 0.28f};
 // Venous, thick: nearly black where it stands.
 const Material kBlood{{0.046f, 0.0016f, 0.0016f}, 0.0f, 0.16f};
 
-const std::map<std::string, Material> kTissues{
-    {"gallbladder", kGallbladder}, {"gut", kGut}, {"mesentery", kMesentery}, {"colon", kColon}};
+const std::map<std::string, Material> kTissues{{"gallbladder", kGallbladder},
+                                               {"gut", kGut},
+                                               {"mesentery", kMesentery},
+                                               {"colon", kColon},
+                                               {"wall", kCavityWall},
+                                               {"omentum", kOmentum}};
 
 }  // namespace
 

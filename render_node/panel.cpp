@@ -136,7 +136,7 @@ double panel_share(Size picture, float ui_scale) {
 
 PanelActions lay_out_panel(const PanelView& view) {
   figures(view);
-  if (view.shows_help) lay_out_help();
+  if (view.shows_help) lay_out_help(view);
   return view.interactive ? lay_out_controls(view) : PanelActions{};
 }
 

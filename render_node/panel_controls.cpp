@@ -43,6 +43,8 @@ Button button_of(Control control, const PanelView& view) {
       return {"Contacts", lit(view.markers)};
     case Control::kWires:
       return {"Lines", lit(view.wires)};
+    case Control::kFolds:
+      return {"Folds", lit(view.folds)};
     case Control::kMap:
       return {"Map: " + std::string(word(view.map)), lit(view.map != TissueMap::kOff)};
     default:
@@ -63,16 +65,15 @@ struct Bar {
   int columns = 1, rows = 1;
 };
 
-Bar bar_in(const ImVec2& picture) {
+Bar bar_in(const ImVec2& picture, int count) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float margin = scaled(kPanelMargin), beside = scaled(kPanelWidth) + 2 * margin;
   Bar bar{beside, picture.x - beside - margin};
   if (bar.width < scaled(kLeastWidth)) bar = {margin, picture.x - 2 * margin};
   const float inside = bar.width - 2 * style.WindowPadding.x + style.ItemSpacing.x;
   const int fitting = std::max(1, static_cast<int>(inside / (widest_label() + style.ItemSpacing.x)));
-  constexpr auto kCount = static_cast<int>(kControlCount);
-  bar.rows = (kCount + fitting - 1) / fitting;
-  bar.columns = (kCount + bar.rows - 1) / bar.rows;
+  bar.rows = (count + fitting - 1) / fitting;
+  bar.columns = (count + bar.rows - 1) / bar.rows;
   return bar;
 }
 
@@ -89,7 +90,8 @@ bool draw(const ControlWord& word, const Button& button, float width) {
 PanelActions lay_out_controls(const PanelView& view) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   const ImGuiStyle& style = ImGui::GetStyle();
-  const Bar bar = bar_in(picture);
+  const auto is_shown = [&](const ControlWord& word) { return is_of_use(word.control, view); };
+  const Bar bar = bar_in(picture, static_cast<int>(std::ranges::count_if(control_words(), is_shown)));
   const auto rows = static_cast<float>(bar.rows), columns = static_cast<float>(bar.columns);
   const float padding = std::round(0.6f * style.WindowPadding.y);
   const float height = rows * (ImGui::GetFrameHeight() + style.ItemSpacing.y) - style.ItemSpacing.y;
@@ -103,6 +105,7 @@ PanelActions lay_out_controls(const PanelView& view) {
   PanelActions actions;
   int place = 0;
   for (const ControlWord& word : control_words()) {
+    if (!is_shown(word)) continue;
     if (place++ % bar.columns != 0) ImGui::SameLine();
     if (draw(word, button_of(word.control, view), width)) ask_for(word.control, view, actions);
   }

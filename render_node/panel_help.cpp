@@ -9,19 +9,6 @@
 namespace omentum::render {
 namespace {
 
-struct HelpLine {
-  std::string what, does;
-};
-
-std::vector<HelpLine> help_lines() {
-  std::vector<HelpLine> lines;
-  for (const ControlWord& word : control_words()) lines.push_back({std::string(1, word.key), word.does});
-  lines.push_back({"drag", "turn the orbit camera"});
-  lines.push_back({"right drag", "move it (also the middle button)"});
-  lines.push_back({"wheel", "zoom"});
-  return lines;
-}
-
 float widest(const std::vector<HelpLine>& lines, std::string HelpLine::*column) {
   float width = 0;
   for (const HelpLine& line : lines) width = std::max(width, ImGui::CalcTextSize((line.*column).c_str()).x);
@@ -30,9 +17,25 @@ float widest(const std::vector<HelpLine>& lines, std::string HelpLine::*column) 
 
 }  // namespace
 
-void lay_out_help() {
+std::vector<HelpLine> help_lines(const PanelView& view) {
+  std::vector<HelpLine> lines;
+  for (const ControlWord& word : control_words())
+    if (is_of_use(word.control, view)) lines.push_back({std::string(1, word.key), word.does});
+  if (view.mouse_help.empty()) {
+    lines.push_back({"drag", "turn the orbit camera"});
+    lines.push_back({"right drag", "move it (also the middle button)"});
+    lines.push_back({"wheel", "zoom"});
+  } else {  // as PointerRays::for_camera() has it
+    lines.push_back({"middle drag", "turn the orbit camera (also Ctrl and left drag)"});
+    lines.push_back({"Ctrl, right drag", "move it"});
+    lines.push_back({"Ctrl, wheel", "zoom"});
+  }
+  return lines;
+}
+
+void lay_out_help(const PanelView& view) {
   constexpr float kGap = 18;  // pixels at scale 1, between both columns
-  const std::vector<HelpLine> lines = help_lines();
+  const std::vector<HelpLine> lines = help_lines(view);
   const ImGuiStyle& style = ImGui::GetStyle();
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   const float first = widest(lines, &HelpLine::what) + scaled(kGap);

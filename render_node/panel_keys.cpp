@@ -14,6 +14,7 @@ const std::array<ControlWord, kControlCount>& control_words() {
        {Control::kArrows, 'F', "arrows of the forces on the hands", "###F"},
        {Control::kContacts, 'N', "nodes in contact", "###N"},
        {Control::kWires, 'L', "lines: the triangles of the organs", "###L"},
+       {Control::kFolds, 'G', "gut coloured by how sharply it is folded", "###G"},
        {Control::kMap, 'S', "map of strain, of stress, or none", "###S"},
        {Control::kHelp, 'H', "this help (also F1)", "###H"}}};
   return kWords;
@@ -21,6 +22,10 @@ const std::array<ControlWord, kControlCount>& control_words() {
 
 const ControlWord& word_of(Control control) {
   return *std::ranges::find(control_words(), control, &ControlWord::control);
+}
+
+bool is_of_use(Control control, const PanelView& view) {
+  return control != Control::kFolds || view.has_tube;
 }
 
 void ask_for(Control control, const PanelView& view, PanelActions& actions) {
@@ -48,6 +53,9 @@ void ask_for(Control control, const PanelView& view, PanelActions& actions) {
       break;
     case Control::kWires:
       actions.switch_wires = true;
+      break;
+    case Control::kFolds:
+      actions.switch_folds = view.has_tube;
       break;
     case Control::kMap:
       actions.switch_map = true;

@@ -19,10 +19,11 @@ enum class Control : std::uint8_t {
   kArrows,
   kContacts,
   kWires,
+  kFolds,
   kMap,
   kHelp
 };
-inline constexpr std::size_t kControlCount = 10;
+inline constexpr std::size_t kControlCount = 11;
 
 struct ControlWord {
   Control control{};
@@ -33,6 +34,8 @@ struct ControlWord {
 /// In the order in which they are shown.
 const std::array<ControlWord, kControlCount>& control_words();
 const ControlWord& word_of(Control control);
+/// Whether there is anything that it would change.
+bool is_of_use(Control control, const PanelView& view);
 
 /// Adds what `control` does to `actions`, which then are done.
 void ask_for(Control control, const PanelView& view, PanelActions& actions);

@@ -79,7 +79,8 @@ struct PanelView {
   double time_s = 0;
   bool paused = false;
   bool interactive = false;  // somebody could press a button
-  bool endoscope = false, arrows = true, markers = true, wires = false;
+  bool endoscope = false, arrows = true, markers = true, wires = false, folds = false;
+  bool has_tube = false;    // an organ here can be coloured by its folds
   bool shows_help = false;  // the keys
   RecordingRow recording;
   TissueMap map = TissueMap::kOff;
@@ -108,7 +109,7 @@ struct PanelActions {
   bool start = false, pause = false, reset = false, clear_fault = false;
   bool record = false, stop_recording = false;
   bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_wires = false;
-  bool switch_map = false, switch_help = false;
+  bool switch_folds = false, switch_map = false, switch_help = false;
 };
 
 /// Linear elasticity is trusted up to this share of the mesh's size (Cotin 1999, section 3-3).

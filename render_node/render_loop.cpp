@@ -5,6 +5,7 @@
 #include "node_common/session_orders.h"
 #include "render_node/panel_keys.h"
 #include "render_node/plausible.h"
+#include "render_node/view_choices.h"
 #include "runtime/report.h"
 
 #include <nlohmann/json.hpp>
@@ -99,6 +100,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   to_expose_ = organ_to_expose(loaded.scene);
   scored_from_s_ = loaded.scene.score.from_s;
   if (loaded.scene.score.camera) exercise_.emplace(loaded.scene, view_);
+  view_.surround(load_scenery(loaded.scene.scenery));
   choices_.orbit = view_.first_camera();
   choices_.folds = options.folds;
   choices_.endoscope = loaded.scene.camera.mode == "endoscope";
@@ -244,10 +246,7 @@ void RenderLoop::obey(const PanelActions& actions) {
   if (actions.clear_fault) command(msg::COMMAND_CLEAR_FAULT);
   if (actions.record) command(msg::COMMAND_RECORD, node::kRecordOn);
   if (actions.stop_recording) command(msg::COMMAND_RECORD, node::kRecordOff);
-  choices_.endoscope ^= actions.switch_camera;
-  choices_.arrows ^= actions.switch_arrows;
-  choices_.markers ^= actions.switch_markers;
-  choices_.wires ^= actions.switch_wires;
+  choose(actions, choices_);
   help_ ^= actions.switch_help;
   if (actions.switch_map) show_map(next(choices_.map));
 }
@@ -268,13 +267,10 @@ void RenderLoop::command(std::uint32_t command, const std::string& argument) {
 PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   PanelView panel;
   panel.interactive = renderer_.has_window();
-  panel.endoscope = choices_.endoscope;
-  panel.arrows = choices_.arrows;
-  panel.markers = choices_.markers;
-  panel.wires = choices_.wires;
+  tell(choices_, panel);
+  panel.has_tube = view_.has_tube();
   panel.shows_help = help_;
   panel.recording = recorder_.row(seconds_since_begin(now_ns));
-  panel.map = choices_.map;
   panel.full_stress_pa = watch_.full_stress_pa();
   panel.exposed_organ = exposed_organ_;
   panel.exposed_share = exposure_.newest;

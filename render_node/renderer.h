@@ -60,6 +60,7 @@ enum class Look : std::uint8_t {
   kGut,        // tissue of a tube: fine vessels, rings of muscle
   kMesentery,  // a sheet of fat and vessels, through which light goes: its triangles lie back to front
   kMap,        // tissue as a map of what it is under (tissue_map.h)
+  kWall,       // tissue that encloses the organs: seen from inside, darkens nothing
   kSolid,      // metal or plastic
   kSmoke,      // soft, and blended over all that lies behind
   kGround,     // the drape below, fading into the background

@@ -22,6 +22,7 @@ std::optional<double> SceneView::exposed_share(std::size_t organ, std::span<cons
     if (o == organ) continue;
     for (const MeshData* mesh : meshes_of(*organs_[o].drawing)) raster.add_cover(*mesh);
   }
+  for (const MeshData* mesh : scenery_.covers()) raster.add_cover(*mesh);
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen || (own.endoscope && scene_.tools[t].scope)) continue;
     for (const auto& [part, mesh] : instruments_[t])
@@ -38,6 +39,8 @@ bool SceneView::hidden_from_scope(const Vec3& eye, const Vec3& target, std::span
     for (const MeshData* mesh : meshes_of(*organ.drawing))
       if (stands_between(*mesh, Mat4f::Identity())) return true;
   }
+  for (const MeshData* mesh : scenery_.covers())
+    if (stands_between(*mesh, Mat4f::Identity())) return true;
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen || scene_.tools[t].scope) continue;
     for (const auto& [part, mesh] : instruments_[t])

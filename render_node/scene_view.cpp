@@ -71,7 +71,7 @@ SceneView::SceneView(const scene::Scene& scene, const std::vector<OrganShape>& o
 
 SceneView::SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs,
                      Renderer& renderer)
-    : renderer_(renderer), scene_(scene), tubes_(renderer) {
+    : renderer_(renderer), scene_(scene), tubes_(renderer), scenery_(renderer) {
   for (std::unique_ptr<OrganDrawing>& drawing : organs) {
     DrawnOrgan& organ = organs_.emplace_back(DrawnOrgan{std::move(drawing)});
     TubeFrames* const tube = organ.drawing->tube();
@@ -220,7 +220,8 @@ Frame SceneView::frame_from(const Camera& from, const ViewChoices& choices, std:
   frame.lighting = light_scene(from, shadow_ball());
   frame.middle = static_cast<float>(0.5 + panel_share / 2);
   frame.wires = choices.wires;
-  frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
+  if (!scenery_.encloses()) frame.items.push_back({ground_, Look::kGround, Mat4f::Identity(), kDrape});
+  scenery_.draw(frame.items);
   for (const DrawnOrgan& organ : organs_) add_organ(organ, choices, frame);
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (!tools[t].seen) continue;

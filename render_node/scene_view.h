@@ -8,6 +8,7 @@
 #include "render_node/instrument_shape.h"
 #include "render_node/organ_drawing.h"
 #include "render_node/scene_tubes.h"
+#include "render_node/scenery.h"
 #include "render_node/smoke.h"
 #include "render_node/tissue_map.h"
 
@@ -52,6 +53,9 @@ class SceneView {
  public:
   SceneView(const scene::Scene& scene, std::vector<std::unique_ptr<OrganDrawing>> organs, Renderer& renderer);
   SceneView(const scene::Scene& scene, const std::vector<OrganShape>& organs, Renderer& renderer);
+
+  /// What else is seen, from now on. Once.
+  void surround(std::vector<SceneryPiece> pieces) { scenery_.set(std::move(pieces), outline()); }
 
   /// `values`: of a whole state of that organ (OrganDrawing::deform).
   void deform(std::size_t organ, std::span<const float> values);
@@ -151,6 +155,7 @@ class SceneView {
   scene::Scene scene_;
   std::vector<DrawnOrgan> organs_;
   SceneTubes tubes_;
+  Scenery scenery_;
   std::vector<std::vector<DrawnPart>> instruments_;  // per tool of the scene
   Ball ball_;
   MeshData drape_;  // the ground's

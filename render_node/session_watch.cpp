@@ -23,14 +23,9 @@ double largest_young_pa(const scene::Scene& scene) {
   return largest;
 }
 
-std::vector<scene::Trusted> trusted_of(const scene::Scene& scene) {
+std::vector<scene::Trusted> all_trusted(const scene::Scene& scene) {
   std::vector<scene::Trusted> trusted;
-  for (const scene::OrganSpec& organ : scene.organs) {
-    // what falls goes far, and is not of the law that is linear in displacements
-    const bool falls = organ.dynamics && organ.dynamics->pieces == "fall";
-    const auto model = std::ranges::find(scene::kOrganModels, organ.model, &scene::OrganModelWord::word);
-    trusted.push_back(falls ? scene::Trusted::kSmallStrains : model->trusted);
-  }
+  for (const scene::OrganSpec& organ : scene.organs) trusted.push_back(trusted_of(organ));
   return trusted;
 }
 
@@ -48,6 +43,13 @@ std::vector<msg::OrganInfo> infos_of(const std::vector<LoadedOrgan>& organs) {
 
 }  // namespace
 
+scene::Trusted trusted_of(const scene::OrganSpec& organ) {
+  const bool turns =
+      organ.dynamics && (organ.dynamics->pieces == "fall" || organ.dynamics->law == "corotational");
+  const auto model = std::ranges::find(scene::kOrganModels, organ.model, &scene::OrganModelWord::word);
+  return turns ? scene::Trusted::kSmallStrains : model->trusted;
+}
+
 SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
                            std::int64_t begin_ns)
     : scene_name_(scene.name),
@@ -62,7 +64,7 @@ SessionWatch::SessionWatch(const scene::Scene& scene, const std::vector<LoadedOr
       echoes_(organs.size()),
       state_arrived_ns_(organs.size(), 0),
       full_stress_pa_(render::full_stress_pa(largest_young_pa(scene))),
-      trusted_(trusted_of(scene)),
+      trusted_(all_trusted(scene)),
       strained_(organs.size()),
       stressed_pa_(organs.size()) {
   for (std::size_t t = 0; t < rows_.size(); ++t) {

@@ -12,6 +12,10 @@
 
 namespace omentum::render {
 
+/// Where an organ's law is tissue's: its model's, but what falls goes far, and what turns with its tissue
+/// may, so that neither is linear in displacements.
+scene::Trusted trusted_of(const scene::OrganSpec& organ);
+
 /// Takes from the inbox what came, moves the drawn organs, and says what the panel shows. Reads no clock:
 /// times are given (steady clock, ns). One thread, the drawing one.
 class SessionWatch {

@@ -94,8 +94,8 @@ MeshData unit_ball() {
   return turned(profile, kRoundSegments);
 }
 
-void shade_ground(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
-                  double surface_area_m2, std::size_t samples, MeshData& ground) {
+std::vector<float> light_left(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
+                              double surface_area_m2, std::size_t samples, std::span<const Vertex> to_all) {
   const std::size_t stride = std::max<std::size_t>(1, surface_positions.size() / samples);
   const auto element = static_cast<float>(surface_area_m2 * static_cast<double>(stride) /
                                           static_cast<double>(surface_positions.size()));
@@ -105,14 +105,23 @@ void shade_ground(std::span<const Vec3> surface_positions, std::span<const Vec3f
     place.col(i) = surface_positions[static_cast<std::size_t>(i) * stride].cast<float>();
     normal.col(i) = normals[static_cast<std::size_t>(i) * stride];
   }
-  for (Vertex& vertex : ground.vertices) {
+  std::vector<float> left;
+  for (const Vertex& vertex : to_all) {
     const Eigen::Array3Xf to = place.colwise() - vertex.position.array();
     const Eigen::ArrayXf squared = to.square().colwise().sum();
     const Eigen::ArrayXf facing = (-(normal * to).colwise().sum()).max(0);
-    const Eigen::ArrayXf hidden =
-        facing * to.row(2).transpose() * element / (squared * (kPi * squared + element));
-    vertex.openness = std::clamp(1 - hidden.sum(), 0.0f, 1.0f);
+    const Eigen::ArrayXf above = (vertex.normal.transpose() * to.matrix()).transpose().array().max(0);
+    const Eigen::ArrayXf hidden = facing * above * element / (squared * (kPi * squared + element));
+    left.push_back(std::clamp(1 - hidden.sum(), 0.0f, 1.0f));
   }
+  return left;
+}
+
+void shade_ground(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
+                  double surface_area_m2, std::size_t samples, MeshData& ground) {
+  const std::vector<float> left =
+      light_left(surface_positions, normals, surface_area_m2, samples, ground.vertices);
+  for (std::size_t v = 0; v < left.size(); ++v) ground.vertices[v].openness = left[v];
 }
 
 MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,

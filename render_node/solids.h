@@ -26,8 +26,13 @@ MeshData unit_head();
 /// Radius 1 about the origin.
 MeshData unit_ball();
 
-/// `openness` of a drape: the share of the sky that the surface above leaves free (the sum of the form
-/// factors of about `samples` of its elements).
+/// The share of the light from all around that a surface leaves to each vertex: 1 less the form factors of
+/// about `samples` of its elements.
+std::vector<float> light_left(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
+                              double surface_area_m2, std::size_t samples, std::span<const Vertex> to);
+
+/// `openness` of a drape: the share of the sky that the surface above leaves free
+/// (light_left()).
 void shade_ground(std::span<const Vec3> surface_positions, std::span<const Vec3f> normals,
                   double surface_area_m2, std::size_t samples, MeshData& ground);
 

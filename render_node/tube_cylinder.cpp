@@ -117,11 +117,12 @@ Blend blend(const Wall& one, const Wall& two, const Vec3f& turning, float w, flo
           turned(w_slope * (one.across - two.across)) + w_slope * (one.reach - two.reach) * scale * sum};
 }
 
-float openness_at(const SkinFrame& frame, float direction) {
+// Of what a frame's wall has in all directions (SkinFrame::walls).
+float wall_value(const SkinFrame& frame, float direction, float (&of)(float)) {
   float sum = 0;
   for (std::size_t d = 0; d < SkinFrame::kDirections; ++d) {
     const float off = std::abs(direction - static_cast<float>(d));
-    sum += std::max(0.0f, 1 - std::min(off, SkinFrame::kDirections - off)) * frame.openness[d];
+    sum += std::max(0.0f, 1 - std::min(off, SkinFrame::kDirections - off)) * of(frame.walls[d]);
   }
   return sum;
 }
@@ -195,7 +196,11 @@ Vertex skinned(const SkinFrame& first, const SkinFrame& second, float radius_m, 
   vertex.rest = {std::lerp(first.along, second.along, way) + kCapDepth * radius_m * at.forward,
                  rest * at.cosine, rest * at.sine};
   vertex.share = std::lerp(first.share, second.share, way);
-  vertex.openness = w * openness_at(first, at.direction) + v * openness_at(second, at.direction);
+  const auto blended = [&](float (&of)(float)) {
+    return w * wall_value(first, at.direction, of) + v * wall_value(second, at.direction, of);
+  };
+  vertex.openness = blended(openness_of);
+  vertex.pallor = blended(pallor_of);
   return vertex;
 }
 

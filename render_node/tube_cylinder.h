@@ -9,7 +9,7 @@ namespace omentum::render {
 struct CylinderVertex {
   float cosine = 1, sine = 0;  // of its direction across, from k towards b
   float z = 0;                 // 0 at the first frame, 1 at the second one
-  float direction = 0;         // the same direction, in steps of SkinFrame::openness
+  float direction = 0;         // the same direction, in steps of SkinFrame::walls
   float outwards = 1;          // of the radius: less on a cap
   float forward = 0;  // of the cap's depth: beyond the second frame, or, negative, before the first one
 };

@@ -60,7 +60,7 @@ class TubeDrawing final : public OrganDrawing {
   geometry::GutSkin touched_;  // what tools' forces are told of
   std::vector<geometry::Vec3> touched_places_;
   Pallor sheet_pallor_;
-  std::vector<Press> on_sheet_;  // workspace
+  std::vector<Press> on_wall_, on_sheet_;  // workspace
 };
 
 const MeshData& TubeDrawing::mesh() const {
@@ -69,20 +69,22 @@ const MeshData& TubeDrawing::mesh() const {
   return swept_.mesh();
 }
 
-// Of the mesentery alone: the wall's frames carry no pallor.
 bool TubeDrawing::live(std::span<const NodeForce> forces, double dt_s) {
+  on_wall_.clear();
   on_sheet_.clear();
   if (!forces.empty()) touched_.place(masses_, touched_places_);
   const auto nodes = touched_.node_count();
   const std::size_t of_sheet = 2 * static_cast<std::size_t>(layout_.mass_count());  // the last ones
   for (const auto& [node, force_n] : forces) {
-    if (node >= nodes || node + of_sheet < nodes) continue;
+    if (node >= nodes) continue;
     const geometry::Vec3& place = touched_places_[node];
     const geometry::NodeId id(std::size_t{node});
     const geometry::Vec3 outward = place - geometry::weighted(touched_.node(id), masses_);
-    on_sheet_.push_back(press_of(place.cast<float>(), outward.normalized().cast<float>(), force_n));
+    const Press press = press_of(place.cast<float>(), outward.normalized().cast<float>(), force_n);
+    (node + of_sheet < nodes ? on_wall_ : on_sheet_).push_back(press);
   }
-  return sheet_pallor_.advance(on_sheet_, dt_s, sheet_.vertices());
+  const bool wall = tube_.live(on_wall_, dt_s);
+  return sheet_pallor_.advance(on_sheet_, dt_s, sheet_.vertices()) || wall;
 }
 
 Outline TubeDrawing::outline() const {

@@ -46,7 +46,8 @@ TubeFrames::TubeFrames(std::span<const geometry::Vec3> rest, double radius_m)
       u_(geometry::TubeSplit::kThirds * (points_.size() - 1) + 1),
       speeds_(u_.size()),
       stations_(u_.size()),
-      shade_(radius_m) {
+      shade_(radius_m),
+      pale_(points_.size() - 1, 0) {
   for (std::size_t s = 0; s < u_.size(); ++s) u_[s] = static_cast<double>(s) / geometry::TubeSplit::kThirds;
   stations_.front().k.setZero();
   frames_.reserve(geometry::TubeSplit::kMostCuts * points_.size());
@@ -55,6 +56,7 @@ TubeFrames::TubeFrames(std::span<const geometry::Vec3> rest, double radius_m)
     rest_at_.push_back(i == 0 ? 0 : rest_at_.back() + (points_[i] - points_[i - 1]).norm());
   }
   deform(rest);
+  pallor_.emplace(stations_, radius_m);
 }
 
 void TubeFrames::deform(std::span<const geometry::Vec3> masses) {
@@ -77,6 +79,21 @@ void TubeFrames::map(std::span<const float> shares) {
     shares_[i] = shares[std::min(i * stride_, shares.size() - 1)];
 }
 
+bool TubeFrames::live(std::span<const Press> presses, double dt_s) {
+  if (!pallor_->advance(presses, dt_s, stations_)) return false;
+  want_pale_frames();
+  write_frames();
+  return true;
+}
+
+// Where nothing of it bends a piece may be as long as a segment, and pallor is as wide as a fingertip.
+void TubeFrames::want_pale_frames() {
+  for (std::size_t i = 0; i < pale_.size(); ++i) {
+    const std::size_t first = geometry::TubeSplit::kThirds * i;
+    pale_[i] = pallor_->is_pale(first, first + geometry::TubeSplit::kThirds) ? 1 : 0;
+  }
+}
+
 void TubeFrames::set_eps(double eps) {
   const double wanted = clamped({eps, 0}).eps;
   if (wanted == eps_) return;
@@ -85,7 +102,7 @@ void TubeFrames::set_eps(double eps) {
 }
 
 void TubeFrames::write_frames() {
-  split_.split(axis_, eps_);
+  split_.split(axis_, eps_, pale_);
   frames_.clear();
   double before = 0, speed_before = 0;
   for (const double u : split_.cuts()) {
@@ -99,6 +116,18 @@ void TubeFrames::write_frames() {
     }
     before = u;
     speed_before = speed;
+  }
+  if (pallor_ && pallor_->is_pale()) write_pallor();
+}
+
+void TubeFrames::write_pallor() {
+  const std::span<const double> cuts = split_.cuts();
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const double before = cuts[c > 0 ? c - 1 : 0], after = cuts[std::min(c + 1, cuts.size() - 1)];
+    const auto pallor =
+        pallor_->at(geometry::TubeSplit::kThirds * cuts[c], geometry::TubeSplit::kThirds * before,
+                    geometry::TubeSplit::kThirds * after);
+    for (std::size_t d = 0; d < SkinFrame::kDirections; ++d) frames_[c].walls[d] += kFullPallor * pallor[d];
   }
 }
 
@@ -126,7 +155,8 @@ void TubeFrames::write(const geometry::TubeFrame& frame, double u) {
   const auto before = std::min(static_cast<std::size_t>(u), split_.turns().size() - 2);
   skin.turn = static_cast<float>(std::max(split_.turns()[before], split_.turns()[before + 1]));
   shade_.stand_at(skin.origin);
-  skin.openness = shade_.around(skin.origin, skin.k, frame.b.cast<float>());
+  const auto openness = shade_.around(skin.origin, skin.k, frame.b.cast<float>());
+  for (std::size_t d = 0; d < SkinFrame::kDirections; ++d) skin.walls[d] = pack_wall(openness[d], 0);
 }
 
 // Between the last two frames: each takes the tighter one of its sides, since it must clear both neighbours.

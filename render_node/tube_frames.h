@@ -3,14 +3,17 @@
 
 #include "geometry/tube_split.h"
 #include "render_node/fold_shade.h"
+#include "render_node/tube_pallor.h"
 #include "render_node/tube_resolution.h"
+
+#include <optional>
 
 namespace omentum::render {
 
 /// All that the processor does for a tube in a picture: a spline through the masses, stations on it whose
-/// directions across are carried from the first one on, its pieces, and the light from all around. Stations
-/// are the same whichever pieces there are, so that nothing turns on the wall when a piece is cut. No heap
-/// after the first state. One thread.
+/// directions across are carried from the first one on, its pieces, light from all around and pallor.
+/// Stations are the same whichever pieces there are, so that nothing turns on the wall when a piece is cut.
+/// No heap after the first state. One thread.
 class TubeFrames {
  public:
   /// `rest`: places of the axis' masses, at least three, in W, m. Where they stand more closely than a spline
@@ -21,6 +24,8 @@ class TubeFrames {
   void deform(std::span<const geometry::Vec3> masses);
   /// `shares`: of the map's scale at each of those masses (tissue_map.h), from the next state on.
   void map(std::span<const float> shares);
+  /// `dt_s` go by under these presses of its wall. Whether it is paler or redder now.
+  bool live(std::span<const Press> presses, double dt_s);
   /// Where it is cut, from now on; within kCoarsestTubeEps and kFinestTubeEps.
   void set_eps(double eps);
 
@@ -35,6 +40,8 @@ class TubeFrames {
  private:
   void write_frames();
   geometry::TubeFrame frame_at(double u, double& speed) const;
+  void want_pale_frames();
+  void write_pallor();
   void write(const geometry::TubeFrame& frame, double u);
   void bend();
 
@@ -50,6 +57,8 @@ class TubeFrames {
   std::vector<double> u_, speeds_;  // [stations]
   std::vector<geometry::TubeFrame> stations_;
   FoldShade shade_;
+  std::optional<TubePallor> pallor_;  // made when the stations first stand
+  std::vector<std::uint8_t> pale_;    // [segments]
   std::vector<SkinFrame> frames_;
 };
 

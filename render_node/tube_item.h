@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace omentum::render {
@@ -37,9 +38,23 @@ struct SkinFrame {
   float bend_k = 0, bend_b = 0;  // radius times curvature, towards k and b: the tighter side's
   float share = 0;               // of a map's scale (tissue_map.h)
   float turn = 0;                // of the piece behind it: the larger indicator of its masses, 0 to 1
-  std::array<float, kDirections> openness{};  // as of a Vertex, of the wall there
+  std::array<float, kDirections> walls{};  // of the wall there: pack_wall()
 };
 static_assert(sizeof(SkinFrame) == 24 * sizeof(float), "uploaded as it lies in memory");
+
+/// A Vertex' openness and pallor in one number: openness in 255ths before the point, pallor behind it.
+/// Attributes of two frames and a corner would be more than the 16 that OpenGL promises otherwise.
+/// gl/shaders/tube.vert unpacks them too.
+inline constexpr float kWallSteps = 255, kFullPallor = 0.999f;
+inline float pack_wall(float openness, float pallor) {
+  return std::round(kWallSteps * openness) + kFullPallor * pallor;
+}
+inline float openness_of(float wall) {
+  return std::floor(wall) / kWallSteps;
+}
+inline float pallor_of(float wall) {
+  return (wall - std::floor(wall)) / kFullPallor;
+}
 
 /// A tube that a renderer holds.
 enum class TubeId : std::uint32_t {};

@@ -1,9 +1,11 @@
 #include "scene/scene.h"
 
 #include "messages/common.h"
+#include "scene/camera_keys.h"
 #include "scene/dynamics_keys.h"
 #include "scene/hand_way_keys.h"
 #include "scene/intestine_keys.h"
+#include "scene/scenery_keys.h"
 #include "scene/scope_keys.h"
 #include "scene/score_keys.h"
 #include "scene/toml_section.h"
@@ -23,7 +25,6 @@ using enum TomlSection::Need;
 constexpr std::array<std::string_view, 6> kPhantoms{"phantom:paper", "phantom:fine",  "phantom:gallbladder",
                                                     "phantom:colon", "phantom:plate", "phantom:cylinder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
-constexpr Range kFieldOfView{.minimum = 1, .maximum = 170};
 
 // A scene may make force safety stricter or suit it to a device; it must not disarm it.
 // The strongest table-top devices give 40 N and some N m at the handle: more is a wrong unit.
@@ -219,17 +220,6 @@ HapticsSpec read_haptics(TomlSection s) {
   return haptics;
 }
 
-CameraSpec read_camera(TomlSection s, bool given) {
-  CameraSpec camera;
-  s.read_word("mode", camera.mode, kOptional, {"orbit", "endoscope"});
-  s.read("eye", camera.eye, given ? kRequired : kOptional);
-  s.read("target", camera.target, given ? kRequired : kOptional);
-  s.read_direction("up", camera.up, kOptional);
-  s.read("field_of_view_deg", camera.field_of_view_deg, kOptional, kFieldOfView);
-  s.refuse_unknown_keys();
-  return camera;
-}
-
 void refuse_repeated_organs(const Scene& scene, std::vector<TomlSection>& sections) {
   for (std::size_t i = 0; i < scene.organs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -309,6 +299,7 @@ Scene load_scene(const std::filesystem::path& file) {
   const bool has_camera = root.has("camera");
   scene.haptics = read_haptics(root.section("haptics"));
   scene.camera = read_camera(root.section("camera"), has_camera);
+  scene.scenery = read_scenery(root.sections("scenery"), file);
   TomlSection score = root.section("score");
   root.refuse_unknown_keys();
 

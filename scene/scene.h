@@ -5,6 +5,7 @@
 #include "scene/camera_score_spec.h"
 #include "scene/dynamics_spec.h"
 #include "scene/intestine_spec.h"
+#include "scene/scenery_spec.h"
 #include "scene/scope_spec.h"
 
 #include <cstdint>
@@ -170,6 +171,7 @@ struct Scene {
   std::filesystem::path file;
   std::vector<OrganSpec> organs;
   std::vector<ObstacleSpec> obstacles;  // of intestines
+  std::vector<ScenerySpec> scenery;
   std::vector<ToolSpec> tools;
   std::vector<HandSpec> hands;
   HapticsSpec haptics;

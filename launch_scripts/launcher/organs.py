@@ -14,7 +14,7 @@ LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to
 # underside; held at its lowest tip only, it would rock under the hand.
 SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
 MOVING_PART = 1 / 3  # of a foreign mesh's length from where it is not held, in a scene of a hybrid organ
-PHANTOM_PARTS = ("gallbladder", "colon", "plate", "cylinder")  # beside the liver, in one size each
+PHANTOM_PARTS = ("gallbladder", "colon", "cavity", "omentum", "plate", "cylinder")  # beside the liver, in one size each
 
 NO_FILE = ("plane:", "box:", "label:")  # what a SPEC that names no CSV begins with
 
@@ -178,9 +178,21 @@ def organ_files(options, cache, specs):
             for spec in specs if spec["has_file"]]
 
 
+def scenery_files(options, cache, specs):
+    """Of all scenery, in the scene's order; of none where a user's organ takes the place of the scene's: it lies and is
+    as large as it likes."""
+    if options.organ:
+        return []
+    kinds = [spec["mesh"].partition(":") for spec in specs]
+    return [phantom_mesh(options, cache, word) if kind == "phantom" else spec["mesh"]
+            for spec, (kind, _, word) in zip(specs, kinds)]
+
+
 def prepare(options):
     """Makes what is missing; returns the fitted scene and its name. Raises Refusal."""
-    files = organ_files(options, Cache(), describe(options, options.scene)["organs"])
+    wanted, cache = describe(options, options.scene), Cache()
+    files = organ_files(options, cache, wanted["organs"])
+    scenery = scenery_files(options, cache, wanted["scenery"])
     try:
         options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -188,6 +200,7 @@ def prepare(options):
     scene = (options.out / "scene.toml").resolve()
     keep = [] if options.organ else ["--keep-points"]
     given = [word for file in files for word in ("--organ", file)]
+    given += [word for file in scenery for word in ("--scenery", file)]
     notes = run_tool(options, ["scene_prepare", options.scene, *given, "-o", scene, *keep], "fitting the scene")
     for line in notes.strip().splitlines():
         print(f"run: {line}", flush=True)

@@ -5,6 +5,13 @@
 
 namespace omentum::phantom {
 
+double ellipsoid_distance(const Ellipsoid& e, const Vec3& p) {
+  const Vec3 q = (p - e.centre).cwiseQuotient(e.radii);
+  const double level = q.norm();
+  const double slope = q.cwiseQuotient(e.radii).norm();
+  return slope > 0 ? level * (level - 1) / slope : -e.radii.minCoeff();
+}
+
 double blended_min(double a, double b, double width) {
   const double overlap = std::max(width - std::abs(a - b), 0.0) / width;
   return std::min(a, b) - overlap * overlap * width / 4;

@@ -20,6 +20,13 @@ struct ImplicitShape {
   Extent extent;
 };
 
+struct Ellipsoid {
+  Vec3 centre;
+  Vec3 radii;  // along x, y and z
+};
+/// The distance to its surface, m, to first order: the value of its equation over the length of its gradient.
+double ellipsoid_distance(const Ellipsoid& e, const Vec3& p);
+
 /// The smaller of two distances, blended by a parabola where they differ by less than `width` (m, above 0).
 double blended_min(double a, double b, double width);
 /// The larger one, likewise.

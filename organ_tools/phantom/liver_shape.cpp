@@ -3,11 +3,6 @@
 namespace omentum::phantom {
 namespace {
 
-struct Ellipsoid {
-  Vec3 centre;
-  Vec3 radii;
-};
-
 // All of it in metres. Proportions after the look of an adult liver, scaled to 18 cm.
 constexpr double kLobeBlend = 0.028;     // radius over which the lobes flow into each other
 constexpr double kEdgeRounding = 0.006;  // of the inferior edge: sharp, but still a surface to mesh
@@ -27,14 +22,6 @@ const Ellipsoid kStomachPrint{{0.0558, 0.0279, -0.0512}, {0.0558, 0.0512, 0.0418
 // lobe.
 const Vec3 kVisceralPoint{0, 0, -0.0242};
 const Vec3 kVisceralOutward = Vec3(0.10, -0.36, -1.0).normalized();
-
-// First-order distance to an ellipsoid: the value of its equation over the length of its gradient.
-double ellipsoid_distance(const Ellipsoid& e, const Vec3& p) {
-  const Vec3 q = (p - e.centre).cwiseQuotient(e.radii);
-  const double level = q.norm();
-  const double slope = q.cwiseQuotient(e.radii).norm();
-  return slope > 0 ? level * (level - 1) / slope : -e.radii.minCoeff();
-}
 
 double dented(double body, const Ellipsoid& dent, const Vec3& p) {
   return blended_max(body, -ellipsoid_distance(dent, p), kDentRounding);

@@ -1,5 +1,6 @@
 // organ_phantom: makes the project's own organs, each as a tetrahedral mesh and as a labelled volume.
 #include "files/whole_file.h"
+#include "organ_tools/phantom/cavity_shape.h"
 #include "organ_tools/phantom/colon_shape.h"
 #include "organ_tools/phantom/gallbladder_shape.h"
 #include "organ_tools/phantom/label_volume.h"
@@ -35,6 +36,8 @@ Part chosen(const std::string& part, const std::string& size) {
   if (!size.empty()) throw std::runtime_error("--size " + size + ": the " + part + " comes in one size");
   if (part == "gallbladder") return {phantom::gallbladder(), phantom::gallbladder_size()};
   if (part == "colon") return {phantom::colon(), phantom::colon_size()};
+  if (part == "cavity") return {phantom::cavity(), phantom::cavity_size()};
+  if (part == "omentum") return {phantom::omentum(), phantom::omentum_size()};
   if (part == "plate") return {phantom::plate(), phantom::plate_size()};
   return {phantom::cylinder(), phantom::cylinder_size()};
 }
@@ -45,14 +48,16 @@ int main(int argc, char** argv) {
   runtime::CommandLine line(
       "organ_phantom",
       "Makes the phantom's organs, in one frame: a liver of about 18 cm, z up, the "
-      "inferior edge towards -y, its gallbladder and the colon; and two pieces of tissue "
-      "to cut and tear, a plate and a cylinder; in metres.");
+      "inferior edge towards -y, its gallbladder and the colon; the cavity and the omentum "
+      "around them; and two pieces of tissue to cut and tear, a plate and a cylinder; in "
+      "metres.");
   std::string part = "liver", size;
   std::filesystem::path mesh_file, labels_file;
-  line.option(
-          "--part", part,
-          "liver, gallbladder (700-1,000 nodes), colon (1,400-1,900), plate (700-820) or cylinder (238-262)")
-      .one_of({"liver", "gallbladder", "colon", "plate", "cylinder"})
+  line.option("--part", part,
+              "liver, gallbladder (700-1,000 nodes), colon (1,400-1,900), cavity (2,500-6,000), omentum "
+              "(2,000-5,000), "
+              "plate (700-820) or cylinder (238-262)")
+      .one_of({"liver", "gallbladder", "colon", "cavity", "omentum", "plate", "cylinder"})
       .show_default();
   line.option("--size", size, "of the liver: paper (the default: 1,500-1,800 nodes) or fine (above 16,000)")
       .one_of({"paper", "fine"});

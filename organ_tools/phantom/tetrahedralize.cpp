@@ -30,10 +30,6 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 constexpr double kFacetAngleDegrees = 25;
 constexpr double kRadiusEdgeRatio = 2;
 
-// How far a boundary facet may be from the shape, as part of the edge length: the inferior edge stays
-// recognizable without drawing all nodes to itself.
-constexpr double kFacetDistance = 0.12;
-
 // Nodes grow with the inverse cube of the edge length: a few steps of a root search suffice.
 constexpr int kMostTries = 12;
 
@@ -64,14 +60,18 @@ geometry::RawMesh to_raw(const Complex& complex) {
   return raw;
 }
 
-geometry::RawMesh mesh_with_edges(const ImplicitShape& shape, double edge_m, double cell_size) {
+geometry::RawMesh mesh_with_edges(const ImplicitShape& shape, double edge_m, const MeshSize& size) {
   namespace parameters = CGAL::parameters;
   CGAL::get_default_random() = CGAL::Random(0);
   const Domain domain = make_domain(shape);
   const Criteria criteria(parameters::facet_angle = kFacetAngleDegrees, parameters::facet_size = edge_m,
-                          parameters::facet_distance = kFacetDistance * edge_m,
+                          parameters::facet_distance = size.facet_distance * edge_m,
                           parameters::cell_radius_edge_ratio = kRadiusEdgeRatio,
-                          parameters::cell_size = cell_size * edge_m);
+                          parameters::cell_size = size.cell_size * edge_m);
+  if (!size.without_slivers)
+    return to_raw(CGAL::make_mesh_3<Complex>(domain, criteria, parameters::manifold(), parameters::no_odt(),
+                                             parameters::no_lloyd(), parameters::no_perturb(),
+                                             parameters::no_exude()));
   // sliver removal without a time limit, so that the result does not depend on the machine
   const Complex complex = CGAL::make_mesh_3<Complex>(
       domain, criteria, parameters::manifold(), parameters::no_odt(), parameters::no_lloyd(),
@@ -97,6 +97,14 @@ MeshSize colon_size() {
   return {1400, 1900, 4500, 9000, 0.0135};
 }
 
+MeshSize cavity_size() {
+  return {2500, 6000, 5000, 40000, 0.028, 4, 0.04, false};
+}
+
+MeshSize omentum_size() {
+  return {2000, 5000, 5000, 30000, 0.014, 2, 0.12, false};
+}
+
 MeshSize plate_size() {
   return {700, 820, 2000, 2450, 0.0105};
 }
@@ -110,7 +118,7 @@ geometry::TetraMesh tetrahedralize(const ImplicitShape& shape, const MeshSize& s
   const double wanted = 0.5 * static_cast<double>(size.fewest_nodes + size.most_nodes);
   std::string tried;
   for (int i = 0; i < kMostTries; ++i) {
-    const geometry::RawMesh raw = mesh_with_edges(shape, edge_m, size.cell_size);
+    const geometry::RawMesh raw = mesh_with_edges(shape, edge_m, size);
     const std::size_t nodes = raw.positions.size(), tetrahedra = raw.tetrahedra.size();
     tried = std::to_string(nodes) + " nodes and " + std::to_string(tetrahedra) + " tetrahedra";
     const bool fits = nodes >= size.fewest_nodes && nodes <= size.most_nodes &&

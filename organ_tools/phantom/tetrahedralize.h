@@ -12,6 +12,11 @@ struct MeshSize {
   std::size_t fewest_tetrahedra, most_tetrahedra;
   double first_edge_m;   // where the search for the right edge length starts
   double cell_size = 1;  // bound on tetrahedra over that on facets: below 1 the inside is finer
+  // How far a boundary facet may be from the shape, as part of the edge length: the inferior edge stays
+  // recognizable without drawing all nodes to itself.
+  double facet_distance = 0.12;
+  bool without_slivers =
+      true;  // they are removed, which takes most of the time; of what is only seen they stay
 };
 
 /// The liver's. The papers' size: 1,500-1,800 nodes, 6,500-8,000 tetrahedra.
@@ -22,6 +27,10 @@ MeshSize fine_size();
 MeshSize gallbladder_size();
 /// The colon's: edges of a third of its width, as long as it is.
 MeshSize colon_size();
+/// The cavity's: long edges where the wall is plain, short ones over ribs, few nodes inside.
+MeshSize cavity_size();
+/// The omentum's: edges of a fifth of a lobe.
+MeshSize omentum_size();
 /// The plate's: about 759 nodes and 2,212 tetrahedra (Cotin 1998, fig. 2).
 MeshSize plate_size();
 /// The cylinder's: about 248 nodes and 889 tetrahedra (Cotin 1998, fig. 3).

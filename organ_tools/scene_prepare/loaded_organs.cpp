@@ -27,4 +27,13 @@ void name_files(const std::vector<std::string>& files, scene::Scene& scene) {
                            "\" has no file, expected another --organ FILE, in the scene's order");
 }
 
+void name_scenery(const std::vector<std::string>& files, scene::Scene& scene) {
+  if (files.size() > scene.scenery.size()) {
+    throw std::runtime_error("--scenery: found " + std::to_string(files.size()) +
+                             " files, expected at most " + std::to_string(scene.scenery.size()) +
+                             ", the [[scenery]] of " + scene.file.string());
+  }
+  for (std::size_t k = 0; k < files.size(); ++k) scene.scenery[k].file = files[k];
+}
+
 }  // namespace omentum::scene_prepare

@@ -15,4 +15,8 @@ std::vector<std::size_t> organs_of_files(const scene::Scene& scene);
 /// the scene names. Throws std::runtime_error where there are more files than such organs, or one without.
 void name_files(const std::vector<std::string>& files, scene::Scene& scene);
 
+/// The k-th of `files` becomes the file of the scene's k-th scenery; what is left over keeps its own. Throws
+/// std::runtime_error where there are more.
+void name_scenery(const std::vector<std::string>& files, scene::Scene& scene);
+
 }  // namespace omentum::scene_prepare

@@ -19,7 +19,7 @@ using namespace omentum;
 
 struct Options {
   std::filesystem::path scene, output, measured;
-  std::vector<std::string> organs;
+  std::vector<std::string> organs, scenery;
   bool keep_points = false;
   bool describe = false;
 };
@@ -58,6 +58,7 @@ void fit(std::size_t i, bool is_its_own, scene::Scene& scene) {
 void prepare(const Options& options) {
   scene::Scene scene = scene::load_scene(options.scene);
   scene_prepare::name_files(options.organs, scene);
+  scene_prepare::name_scenery(options.scenery, scene);
   for (const std::size_t i : scene_prepare::organs_of_files(scene))
     fit(i, i > 0 || options.keep_points, scene);
   files::write_whole(options.output, scene_prepare::resolved_toml(scene));
@@ -86,6 +87,9 @@ int main(int argc, char** argv) {
   line.option("--organ", options.organs,
               "organ file that the scene's first organ becomes; given again, those that the next ones do")
       .type_name("ORGAN.h5");
+  line.option("--scenery", options.scenery,
+              "mesh file of the scene's first scenery; given again, those of the next")
+      .type_name("MESH");
   line.option("-o,--output", options.output, "the fitted scene").type_name("OUT.toml");
   line.flag("--keep-points", options.keep_points,
             "the first organ is the scene's own: only project the press points onto its surface");

@@ -127,6 +127,7 @@ std::vector<std::string> replace_first(const std::string& name, const OrganSkin&
   first.mesh = first.file.string();
   std::vector<std::string> notes = place_hands(skin, scene);
   name_after(name, scene);
+  scene.scenery.clear();  // it lies around the scene's own organ
   return notes;
 }
 

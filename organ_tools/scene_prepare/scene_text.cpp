@@ -87,6 +87,17 @@ void write_hand(const scene::HandSpec& hand, toml::table& table) {
   table.insert_or_assign("slide_m", hand.slide_m);
 }
 
+// As files, or, where an organ that is not the scene's took its place, none.
+void write_scenery(const std::vector<scene::ScenerySpec>& scenery, toml::table& root) {
+  if (scenery.empty()) root.erase("scenery");
+  for (std::size_t i = 0; i < scenery.size(); ++i) {
+    if (scenery[i].file.empty()) continue;  // of a word, and nobody made it
+    toml::table& table = entry(root, "scenery", i);
+    const std::string file = std::filesystem::absolute(scenery[i].file).string();
+    table.insert_or_assign(scenery[i].mesh.starts_with("phantom:") ? "file" : "mesh", file);
+  }
+}
+
 }  // namespace
 
 std::string resolved_toml(const scene::Scene& scene) {
@@ -103,6 +114,7 @@ std::string resolved_toml(const scene::Scene& scene) {
     camera->insert_or_assign("eye", to_array(scene.camera.eye));
     camera->insert_or_assign("target", to_array(scene.camera.target));
   }
+  write_scenery(scene.scenery, root);
   std::ostringstream text;
   text << "# Fitted to its organs by scene_prepare; the nodes of one run read this.\n" << root << '\n';
   return text.str();
@@ -125,7 +137,9 @@ nlohmann::json describe(const scene::Scene& scene) {
                       {"fixed", organ.fixed},
                       {"dynamic", organ.dynamics ? organ.dynamics->dynamic_part : ""}});
   }
-  return {{"name", scene.name}, {"organs", organs}};
+  nlohmann::json scenery = nlohmann::json::array();
+  for (const scene::ScenerySpec& piece : scene.scenery) scenery.push_back({{"mesh", piece.mesh}});
+  return {{"name", scene.name}, {"organs", organs}, {"scenery", scenery}};
 }
 
 }  // namespace omentum::scene_prepare

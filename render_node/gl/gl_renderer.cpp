@@ -151,7 +151,10 @@ class GlRenderer final : public Renderer {
     glEnable(GL_CULL_FACE);
     for (const Look look : opaque_looks(frame.quality)) draw_items(frame, look);
     glDepthRange(kSignalDepth, 1);
-    if (frame.wires) wires_.draw(frame, [this](MeshId id) -> const MeshBuffer& { return mesh(id); });
+    if (frame.wires)
+      wires_.draw(
+          frame, [this](MeshId id) -> const MeshBuffer& { return mesh(id); },
+          [&] { tubes_.draw_wires(frame); });
     glDisable(GL_CULL_FACE);
     glDepthFunc(GL_LEQUAL);
     fill_screen(programs(frame).backdrop(), frame);

@@ -40,6 +40,7 @@ Programs::Programs(Shading shading)
       blood_(surface(shading, "blood", "", shaders::blood_frag, "SOLID")),
       smoke_("smoke", shaders::surface_vert, prefix_of(shading), shaders::smoke_frag),
       mesentery_(surface(shading, "mesentery", "#define SHEET\n", shaders::tissue_frag, "TISSUE")),
+      wall_(surface(shading, "wall", "#define WALL\n", shaders::tissue_frag, "TISSUE")),
       solid_(surface(shading, "solid", "", shaders::solid_frag, "SOLID")),
       ground_(surface(shading, "ground", "", shaders::ground_frag, "GROUND")),
       signal_(surface(shading, "signal", "", shaders::signal_frag, "SIGNAL")) {}
@@ -62,6 +63,8 @@ const Program& Programs::of(Look look) const {
       return smoke_;
     case Look::kMesentery:
       return mesentery_;
+    case Look::kWall:
+      return wall_;
     case Look::kGround:
       return ground_;
     case Look::kSignal:

@@ -21,8 +21,8 @@ class Programs {
   const Program& lens() const { return lens_; }
 
  private:
-  Program backdrop_, lens_, tissue_, cut_, bared_, map_, gut_, blood_, smoke_, mesentery_, solid_, ground_,
-      signal_;
+  Program backdrop_, lens_, tissue_, cut_, bared_, map_, gut_, blood_, smoke_, mesentery_, wall_, solid_,
+      ground_, signal_;
 };
 
 }  // namespace omentum::render::gl

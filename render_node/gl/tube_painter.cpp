@@ -20,7 +20,8 @@ TubePainter::Wall::Wall(Shading shading)
                           "MAP")) {}
 
 TubePainter::TubePainter()
-    : shadow_("shadow of a tube", skinning(shaders::tube_shadow_vert), "", shaders::shadow_frag) {}
+    : shadow_("shadow of a tube", skinning(shaders::tube_shadow_vert), "", shaders::shadow_frag),
+      wires_("wires of a tube", skinning(shaders::tube_shadow_vert), "", shaders::wires_frag) {}
 
 TubeId TubePainter::add() {
   tubes_.emplace_back();
@@ -37,6 +38,16 @@ void TubePainter::cast_shadows(const Frame& frame) {
   shadow_.set("clip_from_W", frame.lighting.clip_from_W);
   for (const TubeItem& item : frame.tubes) {
     shadow_.set("radius", item.radius_m);
+    draw(item);
+  }
+}
+
+void TubePainter::draw_wires(const Frame& frame) {
+  if (frame.tubes.empty()) return;
+  wires_.use();
+  wires_.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
+  for (const TubeItem& item : frame.tubes) {
+    wires_.set("radius", item.radius_m);
     draw(item);
   }
 }

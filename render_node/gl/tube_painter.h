@@ -20,6 +20,8 @@ class TubePainter {
   void update(TubeId tube, std::span<const SkinFrame> frames);
 
   void cast_shadows(const Frame& frame);
+  /// Their triangles alone, in the colour of wires.h.
+  void draw_wires(const Frame& frame);
   /// Those that look so. `set_scene`: sets the uniforms of the program in use that tubes share with meshes.
   void draw(const Frame& frame, Look look, const std::function<void(const Program&)>& set_scene);
 
@@ -31,7 +33,7 @@ class TubePainter {
   void draw(const TubeItem& item);
 
   std::array<std::optional<Wall>, kShadingCount> walls_;  // made when first needed
-  Program shadow_;
+  Program shadow_, wires_;
   std::array<std::optional<CylinderBuffer>, kMostTubeN + 1> cylinders_;  // by n
   std::vector<TubeBuffer> tubes_;
 };

@@ -11,14 +11,15 @@ namespace {
 constexpr float kSlope = -1.0f, kBias = -2.0f;
 
 bool is_organ(Look look) {
-  return look != Look::kSolid && look != Look::kGround && look != Look::kSignal;
+  return look != Look::kSolid && look != Look::kWall && look != Look::kGround && look != Look::kSignal;
 }
 
 }  // namespace
 
 Wires::Wires() : program_("wires", shaders::shadow_vert, "", shaders::wires_frag) {}
 
-void Wires::draw(const Frame& frame, const std::function<const MeshBuffer&(MeshId)>& mesh) const {
+void Wires::draw(const Frame& frame, const std::function<const MeshBuffer&(MeshId)>& mesh,
+                 const std::function<void()>& tubes) const {
   program_.use();
   program_.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
@@ -31,6 +32,7 @@ void Wires::draw(const Frame& frame, const std::function<const MeshBuffer&(MeshI
     program_.set("W_from_mesh", item.W_from_mesh);
     mesh(item.mesh).draw();
   }
+  tubes();
   glDisable(GL_BLEND);
   glDisable(GL_POLYGON_OFFSET_LINE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

@@ -13,7 +13,9 @@ class Wires {
  public:
   Wires();
   /// Into the framebuffer that has the frame's surfaces and their depths: what those hide has no lines.
-  void draw(const Frame& frame, const std::function<const MeshBuffer&(MeshId)>& mesh) const;
+  /// `tubes`: draws those of the frame's tubes.
+  void draw(const Frame& frame, const std::function<const MeshBuffer&(MeshId)>& mesh,
+            const std::function<void()>& tubes) const;
 
  private:
   Program program_;

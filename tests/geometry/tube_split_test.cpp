@@ -143,5 +143,15 @@ TEST(TubeSplit, AFinerThresholdCutsMore) {
   EXPECT_GT(before, Split(random_axis(7), 1.1).split.cuts().size());
 }
 
+TEST(TubeSplit, WhoWantsFramesOnAStraightSegmentGetsThirds) {
+  TubeAxis axis(5);
+  axis.set(line_of(5));
+  TubeSplit split(5);
+  split.split(axis, 0.03, std::vector<std::uint8_t>{0, 0, 1, 0});
+  const std::vector<double> wanted{0, 1, 2, 2 + 1.0 / 3, 2 + 2.0 / 3, 3, 4};
+  ASSERT_EQ(split.cuts().size(), wanted.size());
+  for (std::size_t c = 0; c < wanted.size(); ++c) EXPECT_NEAR(split.cuts()[c], wanted[c], kSplitRounding);
+}
+
 }  // namespace
 }  // namespace omentum::geometry

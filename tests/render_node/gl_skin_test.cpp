@@ -7,35 +7,19 @@
 #include "render_node/tube_cylinder.h"
 #include "render_node/tube_frames.h"
 #include "render_node/tube_skin.h"
+#include "seen_difference.h"
 
 #include <gtest/gtest.h>
-
-#include <numeric>
 
 namespace omentum::render {
 namespace {
 
 constexpr Size kPictureSize{320, 240};
-constexpr int kBlock = 4;  // pixels: what an eye takes together at arm's length
+constexpr double kSameToRounding = 0.05;  // another order of sums moves an edge by a grain
 
-// Of 255, of blocks: below the first two pictures look the same, side by side; where one of them has straight
-// pieces between its frames that is seen, and is above the second.
-constexpr double kSameToTheEye = 0.7, kSeen = 1.2;
-constexpr double kSameToRounding = 0.2;  // another order of sums moves an edge by a grain
-
-/// The mean difference of blocks of pixels, of 255.
-double seen_difference(const Picture& a, const Picture& b) {
-  std::vector<double> blocks(static_cast<std::size_t>(kPictureSize.width / kBlock) *
-                             static_cast<std::size_t>(kPictureSize.height / kBlock) * 3);
-  for (int y = 0; y < kPictureSize.height; ++y)
-    for (int x = 0; x < kPictureSize.width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        const auto byte = static_cast<std::size_t>(4 * (y * kPictureSize.width + x) + c);
-        const int block = 3 * (y / kBlock * (kPictureSize.width / kBlock) + x / kBlock) + c;
-        blocks[static_cast<std::size_t>(block)] += (a.rgba[byte] - b.rgba[byte]) / double{kBlock * kBlock};
-      }
-  const auto add = [](double sum, double of_block) { return sum + std::abs(of_block); };
-  return std::accumulate(blocks.begin(), blocks.end(), 0.0, add) / static_cast<double>(blocks.size());
+/// Their mean difference, as an eye sees it.
+double mean_difference(const Picture& a, const Picture& b) {
+  return test::seen_difference_of(a, b).mean;
 }
 
 class SkinnedTube : public testing::Test {
@@ -87,15 +71,16 @@ TEST_F(SkinnedTube, IsWhatTheProcessorComputesOfItsFrames) {
   for (const TubeResolution& resolution : {TubeResolution{}, TubeResolution{kCoarsestTubeEps, 1}}) {
     const Picture drawn = skinned(resolution);
     const MeshData mesh = skinned_tube(tube_.frames(), tube_.radius_m(), make_tube_cylinder(resolution.n));
-    EXPECT_LT(seen_difference(drawn, meshed(mesh)), kSameToRounding) << resolution.eps;
+    EXPECT_LT(mean_difference(drawn, meshed(mesh)), kSameToRounding) << resolution.eps;
   }
 }
 
 TEST_F(SkinnedTube, LooksLikeTheSweptOne) {
   const Picture swept = meshed(TubeSkin(axis_, 0.012).mesh());
-  EXPECT_LT(seen_difference(skinned({}), swept), kSameToTheEye);
-  EXPECT_LT(seen_difference(skinned(kPictureTube), swept), kSameToTheEye);
-  EXPECT_GT(seen_difference(skinned({kCoarsestTubeEps, 0}), swept), kSeen) << "a difference that is seen";
+  EXPECT_LT(mean_difference(skinned({}), swept), test::kSameMean);
+  EXPECT_LT(mean_difference(skinned(kPictureTube), swept), test::kSameMean);
+  EXPECT_GT(mean_difference(skinned({kCoarsestTubeEps, 0}), swept), test::kSameMean)
+      << "a difference that is seen";
 }
 
 TEST_F(SkinnedTube, HasTheColoursOfItsMap) {
@@ -105,8 +90,28 @@ TEST_F(SkinnedTube, HasTheColoursOfItsMap) {
   const Picture drawn = skinned({}, Look::kMap);
   const MeshData mesh =
       skinned_tube(tube_.frames(), tube_.radius_m(), make_tube_cylinder(TubeResolution{}.n));
-  EXPECT_LT(seen_difference(drawn, meshed(mesh, Look::kMap)), kSameToRounding);
-  EXPECT_GT(seen_difference(drawn, skinned({}, Look::kMap, true)), kSeen) << "its folds are another map";
+  EXPECT_LT(mean_difference(drawn, meshed(mesh, Look::kMap)), kSameToRounding);
+  EXPECT_GT(mean_difference(drawn, skinned({}, Look::kMap, true)), test::kSameMean)
+      << "its folds are another map";
+}
+
+TEST_F(SkinnedTube, PalesAsItsMeshDoes) {
+  const Picture red = skinned({});
+  std::vector<Press> presses;  // from above, all along it
+  for (const SkinFrame& frame : tube_.frames())
+    presses.push_back({frame.origin + tube_.radius_m() * Vec3f::UnitZ(), Vec3f::UnitZ(), 1});
+  ASSERT_TRUE(tube_.live(presses, 1));
+  const Picture pale = skinned({});
+  const MeshData mesh =
+      skinned_tube(tube_.frames(), tube_.radius_m(), make_tube_cylinder(TubeResolution{}.n));
+  EXPECT_LT(mean_difference(pale, meshed(mesh)), kSameToRounding);
+  EXPECT_GT(mean_difference(pale, red), 5 * kSameToRounding) << "it is seen";
+}
+
+TEST_F(SkinnedTube, ItsTrianglesAreShownAsLines) {
+  const Picture plain = skinned({});
+  scene_.wires = true;
+  EXPECT_GT(mean_difference(plain, skinned({})), test::kSameMean);
 }
 
 TEST_F(SkinnedTube, OfFewerThanTwoFramesIsNothing) {

@@ -3,6 +3,7 @@
 #include "ball_organ.h"
 #include "gut_organ.h"
 #include "recording_renderer.h"
+#include "render_node/tube_cylinder.h"
 #include "render_node/tube_drawing.h"
 
 #include "geometry/gut_skin.h"
@@ -171,22 +172,71 @@ TEST(PalingOrgan, PalesAroundThePressedNodeAndIsSentWithoutAState) {
   EXPECT_EQ(renderer.updates, 1);
 }
 
-TEST(PalingOrgan, AMesenteryPalesUnderThePressAlone) {
-  const geometry::GutShape gut = test::gut_shape();
-  const auto drawing = make_tube_drawing(gut, tissue_material("gut"));
-  const geometry::GutSkin skin(gut);
-  std::vector<geometry::Vec3> places(skin.node_count());
-  skin.place(gut.positions, places);
-  const std::uint32_t on_tube = 403, on_sheet = static_cast<std::uint32_t>(skin.node_count()) - 150;
-  const auto pressed = [&](std::uint32_t node) {
+/// A gut that is pressed at nodes of what tools touch.
+struct PressedGut {
+  PressedGut() {
+    skin.place(gut.positions, places);
+    organs.push_back(make_tube_drawing(gut, tissue_material("gut")));
+    drawing = organs.front().get();
+    view = std::make_unique<SceneView>(scene, std::move(organs), renderer);
+  }
+  std::uint32_t on_sheet() const { return static_cast<std::uint32_t>(skin.node_count()) - 150; }
+  NodeForce pressed(std::uint32_t node, float force_n = 1) const {
     const geometry::Vec3 inward =
         geometry::weighted(skin.node(geometry::NodeId(std::size_t{node})), gut.positions) - places[node];
-    return NodeForce{node, inward.normalized().cast<float>()};
-  };
-  drawing->live(std::vector{pressed(on_tube)}, 0.5);
-  EXPECT_EQ(Whitened(*drawing->parts().front().mesh).sum, 0);
-  drawing->live(std::vector{pressed(on_sheet)}, 0.5);
-  EXPECT_GT(Whitened(*drawing->parts().front().mesh).sum, 0.5f);
+    return {node, force_n * inward.normalized().cast<float>()};
+  }
+  /// The wall as a renderer would draw what it was sent.
+  MeshData wall() const {
+    return skinned_tube(renderer.tubes.front(), static_cast<float>(gut.tube_radius_m), make_tube_cylinder(2));
+  }
+  MeshData sheet() const { return *drawing->parts().front().mesh; }
+
+  geometry::GutShape gut = test::gut_shape();
+  geometry::GutSkin skin{gut};
+  std::vector<geometry::Vec3> places{skin.node_count()};
+  scene::Scene scene;
+  RecordingRenderer renderer;
+  std::vector<std::unique_ptr<OrganDrawing>> organs;
+  OrganDrawing* drawing = nullptr;
+  std::unique_ptr<SceneView> view;
+};
+constexpr std::uint32_t kOnTube = 403;
+
+TEST(PalingOrgan, AGutsWallPalesWhereItIsPressedAndIsSentWithoutAState) {
+  for (const std::uint32_t node : {kOnTube, kOnTube + 1, kOnTube + 40, kOnTube + 77}) {
+    PressedGut pressed;
+    EXPECT_EQ(Whitened(pressed.wall()).sum, 0);
+    const int sent = pressed.renderer.updates;
+    pressed.view->live(0, std::vector{pressed.pressed(node)}, 0.5);
+    pressed.view->refresh(0);
+    EXPECT_GT(pressed.renderer.updates, sent);
+    const MeshData wall = pressed.wall();
+    EXPECT_GT(palest(wall), 0.3f) << node;
+    EXPECT_LT((Whitened(wall).middle - pressed.places[node].cast<float>()).norm(), 0.006f) << node;
+  }
+}
+
+TEST(PalingOrgan, AGutsWallReddensAgain) {
+  PressedGut pressed;
+  pressed.view->live(0, std::vector{pressed.pressed(kOnTube)}, 0.5);
+  for (int k = 0; k < 4; ++k) pressed.view->live(0, {}, 1);
+  pressed.view->refresh(0);
+  EXPECT_EQ(palest(pressed.wall()), 0);
+  const int sent = pressed.renderer.updates;
+  pressed.view->live(0, {}, 1);
+  pressed.view->refresh(0);
+  EXPECT_EQ(pressed.renderer.updates, sent) << "nothing new";
+}
+
+TEST(PalingOrgan, OfAGutsWallAndItsMesenteryOnlyThePressedOnePales) {
+  PressedGut on_tube, on_sheet;
+  on_tube.view->live(0, std::vector{on_tube.pressed(kOnTube)}, 0.5);
+  on_sheet.view->live(0, std::vector{on_sheet.pressed(on_sheet.on_sheet())}, 0.5);
+  on_sheet.view->refresh(0);
+  EXPECT_EQ(Whitened(on_tube.sheet()).sum, 0);
+  EXPECT_EQ(palest(on_sheet.wall()), 0);
+  EXPECT_GT(Whitened(on_sheet.sheet()).sum, 0.5f);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Keys and buttons of the panel, and that it can be read and pressed in pictures of any size.
 #include "render_node/panel.h"
+#include "render_node/panel_help.h"
 #include "render_node/panel_keys.h"
+#include "render_node/view_choices.h"
 
 #include "panel_context.h"
 
@@ -48,6 +50,33 @@ TEST(ControlWords, PauseAndRecordAskForWhateverIsNot) {
   EXPECT_FALSE(actions_of(KeyPresses('V'), view).record);
 }
 
+TEST(ControlWords, FoldsAreOfUseWhereThereIsAGut) {
+  PanelView view;
+  EXPECT_FALSE(actions_of(KeyPresses('G'), view).switch_folds);
+  const std::size_t lines = help_lines(view).size();
+  view.has_tube = true;
+  EXPECT_EQ(help_lines(view).size(), lines + 1);
+  ViewChoices choices;
+  choose(actions_of(KeyPresses('G'), view), choices);
+  EXPECT_TRUE(choices.folds);
+  tell(choices, view);
+  EXPECT_TRUE(view.folds);
+  choose(actions_of(KeyPresses('G'), view), choices);
+  EXPECT_FALSE(choices.folds);
+}
+
+TEST(HelpLines, SayWhatTurnsTheCameraWhileAMouseMovesAnInstrument) {
+  const auto turning = [](const PanelView& view) {
+    for (const HelpLine& line : help_lines(view))
+      if (line.does.find("turn the orbit camera") == 0) return line.what;
+    return std::string();
+  };
+  PanelView view;
+  EXPECT_EQ(turning(view), "drag");
+  view.mouse_help = "mouse: right hand";
+  EXPECT_EQ(turning(view), "middle drag");
+}
+
 TEST(UiScale, GrowsWithMonitorAndPictureAndShrinksWhereItWouldNotFit) {
   EXPECT_EQ(ui_scale(0, 1, {1280, 720}), 1);
   EXPECT_EQ(ui_scale(0, 1, {1920, 1080}), 1);
@@ -84,7 +113,7 @@ class Panels : public testing::TestWithParam<Screen> {
   static PanelView full() {
     PanelView view;
     view.scene = "A liver pressed by a simulated hand";
-    view.interactive = view.endoscope = view.wires = view.shows_help = true;
+    view.interactive = view.endoscope = view.wires = view.shows_help = view.has_tube = true;
     view.recording = {.on = true, .seconds = 3599};
     view.map = TissueMap::kStress;
     view.real_time_factor = 0.9;

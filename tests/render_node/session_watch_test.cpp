@@ -51,6 +51,14 @@ class SessionWatchTest : public testing::Test {
   SessionWatch watch_{scene_, organs_, 0};
 };
 
+TEST(TrustedOf, AHybridThatTurnsWithItsTissueIsNotTrustedByItsDisplacements) {
+  scene::OrganSpec organ{.name = "liver", .model = "hybrid", .dynamics = scene::DynamicsSpec{}};
+  organ.dynamics->law = "linear";
+  EXPECT_EQ(trusted_of(organ), scene::Trusted::kSmallDisplacements);
+  organ.dynamics->law = "corotational";
+  EXPECT_EQ(trusted_of(organ), scene::Trusted::kSmallStrains);
+}
+
 TEST_F(SessionWatchTest, AForeignSceneEndsANodeThatStartsAndIsAFaultOfASettledOne) {
   const msg::SceneInfo foreign{.protocol = msg::PROTOCOL_VERSION + 1, .scene = "s", .organs = {}};
   bus_.post(foreign);

@@ -21,7 +21,7 @@ SkinFrame frame_at(const Vec3f& origin, float angle, float half_m) {
   frame.t = {std::cos(angle), std::sin(angle), 0};
   frame.k = {-std::sin(angle), std::cos(angle), 0};
   frame.ahead = frame.behind = half_m;
-  frame.openness.fill(1);
+  frame.walls.fill(pack_wall(1, 0));
   return frame;
 }
 
@@ -84,6 +84,16 @@ TEST(TubeCylinder, HasTwoToTheNextPowerOfSectionsAndIsClosed) {
     const std::size_t caps = cylinder.vertices.size() - around * (std::size_t{2} << n);
     EXPECT_EQ(mesh.vertices.size(), 4 * cylinder.wall_vertices + caps);
     EXPECT_EQ(tube_cost(frames.size(), n), (TubeCost{4, mesh.vertices.size()}));
+  }
+}
+
+TEST(SkinFrame, OpennessAndPallorShareANumber) {
+  for (const float openness : {0.0f, 0.32f, 0.5f, 0.999f, 1.0f}) {
+    for (const float pallor : {0.0f, 0.01f, 0.5f, 0.99f, 1.0f}) {
+      const float wall = pack_wall(openness, pallor);
+      EXPECT_NEAR(openness_of(wall), openness, 0.5f / kWallSteps + 1e-6f);
+      EXPECT_NEAR(pallor_of(wall), pallor, 1e-4f);
+    }
   }
 }
 

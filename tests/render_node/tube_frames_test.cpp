@@ -127,6 +127,48 @@ TEST(TubeFrames, EachStepOfTheLadderCostsMore) {
   }
 }
 
+float palest_of(const TubeFrames& tube) {
+  float most = 0;
+  for (const SkinFrame& frame : tube.frames())
+    for (const float wall : frame.walls) most = std::max(most, pallor_of(wall));
+  return most;
+}
+
+TEST(TubeFrames, APressInTheMiddleOfAStraightPieceIsSeenThere) {
+  TubeFrames tube(rod(11, 0.4), kGut_m);  // frames are 4 cm apart
+  const std::size_t frames = tube.frames().size();
+  const Press press{{0.22f, 0, 0.012f}, Vec3f::UnitZ(), 1};
+  EXPECT_TRUE(tube.live(std::vector{press}, 0.5));
+  EXPECT_GT(tube.frames().size(), frames) << "where it is pale it has more";
+  EXPECT_GT(palest_of(tube), 0.3f);
+  for (const SkinFrame& frame : tube.frames()) {
+    for (std::size_t d = 0; d < SkinFrame::kDirections; ++d) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(d) / SkinFrame::kDirections;
+      const Vec3f normal = std::cos(angle) * frame.k + std::sin(angle) * frame.t.cross(frame.k);
+      const bool is_pale = pallor_of(frame.walls[d]) > 0;
+      if (is_pale) {
+        EXPECT_GT(normal.z(), 0) << "the other side is not pressed";
+        EXPECT_NEAR(frame.origin.x(), 0.22f, 0.02f);
+      }
+      EXPECT_NEAR(openness_of(frame.walls[d]), 1, 0.01f) << "and light reaches it as before";
+    }
+  }
+  for (int k = 0; k < 4; ++k) tube.live({}, 1);
+  EXPECT_EQ(tube.frames().size(), frames);
+}
+
+TEST(TubeFrames, APressOnAFoldIsSeenWhereNoFrameStands) {
+  std::vector<geometry::Vec3> corner = rod(11, 0.4);
+  for (std::size_t i = 6; i < corner.size(); ++i)
+    corner[i] = corner[5] + geometry::Vec3(0, 0.04 * (static_cast<double>(i) - 5), 0);
+  TubeFrames tube(corner, kGut_m);
+  for (const SkinFrame& frame : tube.frames())
+    ASSERT_GT((frame.origin - corner[5].cast<float>()).norm(), 0.005f);
+  const Vec3f top = corner[5].cast<float>() + Vec3f(0, 0, 0.012f);
+  tube.live(std::vector{Press{top, Vec3f::UnitZ(), 1}}, 0.5);
+  EXPECT_GT(palest_of(tube), 0.3f);
+}
+
 TEST(FoldShade, AllAroundIsWhatItIsInEachDirection) {
   TubeFrames tube(trial::folding_axis(60, 0.95), trial::kRadius_m);
   FoldShade shade = tube.shade();
@@ -137,7 +179,7 @@ TEST(FoldShade, AllAroundIsWhatItIsInEachDirection) {
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(d) / SkinFrame::kDirections;
       const Vec3f normal = std::cos(angle) * frame.k + std::sin(angle) * frame.t.cross(frame.k);
       const float one = shade.openness(frame.origin + tube.radius_m() * normal, normal);
-      EXPECT_NEAR(frame.openness[d], one, 1e-4f);
+      EXPECT_NEAR(openness_of(frame.walls[d]), one, 0.5f / kWallSteps + 1e-4f);
       if (one < 0.7f) ++shaded;
     }
   }

@@ -29,7 +29,7 @@ GENERATED = {"messages": "idl"}  # folders of generated headers, and the room th
 
 # (pattern of a header, the folders that may include it, what it is)
 VENDORS = [
-    (re.compile(r"(fastdds|fastrtps|fastcdr|dds|ddsc|idlc|ddscxx)/"), ("transport/",), "a DDS header"),
+    (re.compile(r"(fastdds|fastrtps|fastcdr|dds|ddsc|idlc|ddscxx)/"), ("transport/", "device_bridge/examples/"), "a DDS header"),
     (re.compile(r"(epoxy|GL|GLES\d?|EGL|GLFW|KHR)/|(.*/)?imgui_impl_"), ("render_node/gl/",), "an OpenGL or window header"),
     (re.compile(r"(linux/(input|hidraw|uinput|joystick)|libevdev|hidapi|libusb|HD|HDU|libudev|dhdc|drdc)\b"),
      ("device_bridge/",), "a device's header"),

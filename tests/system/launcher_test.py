@@ -484,6 +484,13 @@ class Parts(unittest.TestCase):
         self.assertNotIn("--region", told)
         self.assertIn("kidney.msh is of one material", said.getvalue())
 
+    def test_scenery_is_made_or_named_and_stays_behind_when_another_organ_comes(self):
+        specs = [{"mesh": "phantom:cavity"}, {"mesh": "/data/ribs.vtk"}]
+        with mock.patch.object(organs, "phantom_mesh", lambda options, cache, word: f"made/{word}.msh"):
+            self.assertEqual(organs.scenery_files(mock.Mock(organ=None), None, specs),
+                             ["made/cavity.msh", "/data/ribs.vtk"])
+            self.assertEqual(organs.scenery_files(mock.Mock(organ="kidney.msh"), None, specs), [])
+
     def test_support_file_of_a_scene_lies_beside_it(self):
         scene = self.folder / "scenes" / "a.toml"
         self.assertEqual(organs.relative_to(scene, "nodes.csv:xz"), str(self.folder / "scenes" / "nodes.csv:xz"))

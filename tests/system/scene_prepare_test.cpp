@@ -82,6 +82,7 @@ TEST(BoxTest, AForeignOrganGivesTheSceneItsName) {
   const scene::Scene scene = scene::load_scene(fitted);
   EXPECT_EQ(scene.name, "kidney pressed by a simulated hand");
   EXPECT_EQ(scene.organs.front().name, "kidney");
+  EXPECT_TRUE(scene.scenery.empty()) << "it lies around the scene's own organ";
 }
 
 // Whoever reads the fitted scene knows what the organ is made of, whichever organ it became.
@@ -104,6 +105,29 @@ TEST(BoxTest, AForeignOrgansMaterialsAreThoseOfTheFittedScene) {
   ASSERT_EQ(spec.regions.size(), 1u);
   EXPECT_EQ(spec.regions[0].label, 2) << "above the mesh's own";
   EXPECT_EQ(spec.regions[0].young_pa, 45000);
+}
+
+TEST(OwnOrganTest, SceneryHasTheFilesThatWereMadeOfIt) {
+  const ScratchFolder folder;
+  const std::string fitted = folder / "fitted.toml", made = folder / "cavity.msh";
+  const scene::Scene held = scene::load_scene(held_scene());
+  const auto prepare = [&](const std::vector<std::string>& files) {
+    std::vector<std::string> words{kOwnScene, "--organ", held.organs.front().file,
+                                   "-o",      fitted,    "--keep-points"};
+    for (const std::string& file : files) words.insert(words.end(), {"--scenery", file});
+    Process process("scene_prepare", words);
+    const int code = process.wait();
+    return std::pair(code, process.messages());
+  };
+  ASSERT_EQ(prepare({made}).first, 0);
+  const std::vector<scene::ScenerySpec> scenery = scene::load_scene(fitted).scenery;
+  ASSERT_EQ(scenery.size(), 3u);
+  EXPECT_EQ(scenery[0].mesh, "phantom:cavity");
+  EXPECT_EQ(scenery[0].file, made);
+  EXPECT_TRUE(scenery[1].file.empty()) << "nobody made it";
+  const auto [code, message] = prepare({made, made, made, made});
+  EXPECT_EQ(code, 2);
+  EXPECT_NE(message.find("--scenery: found 4 files, expected at most 3"), std::string::npos) << message;
 }
 
 TEST(OwnOrganTest, RegionsStayInTheFittedSceneAndAreToldAsOrganBuildTakesThem) {

@@ -1,5 +1,5 @@
 // GUT is defined for the wall of a gut, SHEET for its mesentery: `rest` is then on a straight tube along x, or on the sheet
-// unfolded, x along the gut and y away from it. CUT is defined for an organ that was cut: heat may have charred it. BARED too for what lies bare of it: no capsule, but
+// unfolded, x along the gut and y away from it. WALL is defined for peritoneum over muscle. CUT is defined for an organ that was cut: heat may have charred it. BARED too for what lies bare of it: no capsule, but
 // parenchyma, vessels, blood.
 // Wet organ: light that enters comes out reddened and spread around the edge of the shade; a film of water mirrors.
 in vec3 p_W;
@@ -59,10 +59,14 @@ float off_vessel(vec2 p) {
 }
 #endif
 
-#ifdef GUT
+#if defined(GUT) || defined(WALL)
 // Fine vessels under the serosa, where a slow noise of this period crosses its middle; their half width, m, their tint,
 // and how strongly they show.
+#ifdef WALL
+const float web_period = 0.52, web_width = 0.0006, web_share = 0.28;
+#else
 const float web_period = 0.17, web_width = 0.0003, web_share = 0.4;
+#endif
 const vec3 web_tint = vec3(0.20, 0.030, 0.030);
 #endif
 
@@ -94,7 +98,7 @@ vec2 off_branch(vec2 p) {
 #endif
 
 // The pattern's share in the colour, and the tint of spots where blood stands.
-#if defined(GUT) || defined(SHEET)
+#if defined(GUT) || defined(SHEET) || defined(WALL)
 const float mottle_weight = 1.2, grain_weight = 0.8, contrast = 0.20;
 #else
 const float mottle_weight = 1.7, grain_weight = 0.8, contrast = 0.38;
@@ -151,7 +155,7 @@ void main() {
   float spot = (mottle.a - 0.5) * mottle_weight + (fine.a - 0.5) * grain_weight;
   vec3 albedo = material_colour * (1.0 + contrast * spot);
   albedo = mix(albedo, albedo * blood_tint, clamp(-spot, 0.0, 1.0));
-#ifdef GUT
+#if defined(GUT) || defined(WALL)
   float crossing = texture(pattern, rest.zxy / web_period).a - 0.5, from_pixel = fwidth(crossing);
   float half_width = web_width * max(from_pixel, 1e-4) / max(length(fwidth(p_W)), 1e-6);
   float thread = 1.0 - smoothstep(half_width, half_width + from_pixel, abs(crossing));

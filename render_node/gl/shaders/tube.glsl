@@ -6,14 +6,14 @@ layout(location = 2) in vec4 origin_along_1;
 layout(location = 3) in vec4 t_ahead_1;
 layout(location = 4) in vec4 k_behind_1;
 layout(location = 5) in vec4 bend_share_turn_1;
-layout(location = 6) in vec4 open_low_1;
-layout(location = 7) in vec4 open_high_1;
+layout(location = 6) in vec4 walls_low_1;
+layout(location = 7) in vec4 walls_high_1;
 layout(location = 8) in vec4 origin_along_2;
 layout(location = 9) in vec4 t_ahead_2;
 layout(location = 10) in vec4 k_behind_2;
 layout(location = 11) in vec4 bend_share_turn_2;
-layout(location = 12) in vec4 open_low_2;
-layout(location = 13) in vec4 open_high_2;
+layout(location = 12) in vec4 walls_low_2;
+layout(location = 13) in vec4 walls_high_2;
 uniform float radius;
 
 const float cap_depth = 0.6, free_bend = 0.5, given_bend = 0.2, least_blend = 0.2, slope_fades = 3.0;

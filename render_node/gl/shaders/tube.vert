@@ -11,6 +11,7 @@ out float share;
 out float pallor;
 
 const float kink_from = 0.5, kink_all = 0.2;
+const float wall_steps = 255.0, full_pallor = 0.999;
 
 vec3 wall_normal(vec3 of_surface, vec3 out_) {
   float length_of = length(of_surface);
@@ -23,9 +24,11 @@ vec3 wall_normal(vec3 of_surface, vec3 out_) {
 // How the blend of both directions turns where their sum changes by this.
 vec3 turned(vec3 by) { return reach * scale * (by - flat_ * dot(across, by) * across); }
 
-float openness_at(vec4 low, vec4 high) {
+// Openness and pallor of a frame's wall (render_node/tube_item.h packs them).
+vec2 wall_values(vec4 low, vec4 high) {
   vec4 off_low = abs(corner.w - vec4(0.0, 1.0, 2.0, 3.0)), off_high = abs(corner.w - vec4(4.0, 5.0, 6.0, 7.0));
-  return dot(max(1.0 - min(off_low, 8.0 - off_low), 0.0), low) + dot(max(1.0 - min(off_high, 8.0 - off_high), 0.0), high);
+  vec4 of_low = max(1.0 - min(off_low, 8.0 - off_low), 0.0), of_high = max(1.0 - min(off_high, 8.0 - off_high), 0.0);
+  return vec2(dot(of_low, floor(low)) + dot(of_high, floor(high)), dot(of_low, fract(low)) + dot(of_high, fract(high)));
 }
 
 void main() {
@@ -38,9 +41,10 @@ void main() {
   n_W = cap.y == 0.0 ? normal : normalize(cap.x * normal + cap.y / cap_depth * t_mean);
   float way = 0.5 * (corner.z + v);
   rest = vec3(mix(origin_along_1.w, origin_along_2.w, way) + cap_depth * radius * cap.y, radius * cap.x * corner.xy);
-  openness = w * openness_at(open_low_1, open_high_1) + v * openness_at(open_low_2, open_high_2);
+  vec2 values = w * wall_values(walls_low_1, walls_high_1) + v * wall_values(walls_low_2, walls_high_2);
+  openness = values.x / wall_steps;
   charring = 0.0;
-  pallor = 0.0;
+  pallor = values.y / full_pallor;
   share = by_turn > 0.0 ? bend_share_turn_1.w / turn_full : mix(bend_share_turn_1.z, bend_share_turn_2.z, way);
   gl_Position = clip_from_W * vec4(p_W, 1.0);
 #ifdef PER_VERTEX

@@ -24,7 +24,7 @@ const float bloodless = 0.8;
 const vec3 burnt_tint = vec3(0.030, 0.012, 0.007);
 // Glints are wider than a vertex' share of the surface: narrower ones would jump from one to the next.
 const float widest_film = 0.42;
-#if defined(GUT) || defined(SHEET)
+#if defined(GUT) || defined(SHEET) || defined(WALL)
 const float contrast = 0.20;
 #else
 const float contrast = 0.38;
