@@ -2,6 +2,7 @@
 #include "deform_node/deform_loop.h"
 #include "node_common/node_identity.h"
 #include "physics/blas_memory.h"
+#include "runtime/niceness.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   line.option("--rate-hz", options.rate_hz, "states per second").between(1.0, 1000.0).show_default();
 
   return line.run(argc, argv, [&] {
+    runtime::take_nice(runtime::kOrganNice);  // before the bus: its threads carry what the hand waits for
     runtime::RateLoop pace(options.rate_hz);
     runtime::StopSignal signal([&] { pace.stop(); });
     const auto open_bus = [&] { return node::open_bus(options.node, "deform_node"); };

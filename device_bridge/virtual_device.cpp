@@ -5,6 +5,7 @@
 #include "device_bridge/trace_player.h"
 #include "device_bridge/virtual_hand.h"
 #include "node_common/node_identity.h"
+#include "runtime/niceness.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
@@ -64,6 +65,7 @@ Devices make_devices(const Options& options, const scene::Scene& scene, const de
 void run(Options& options) {
   const scene::Scene scene = node::load_scene(options.bridge.node);
   options.bridge.scene = node::loaded_scene(scene, {});
+  runtime::take_nice(runtime::kHandNice);
   runtime::RateLoop loop(options.bridge.rate_hz);
   runtime::StopSignal stop_signal([&loop] { loop.stop(); });
   const auto open_bus = [&] { return node::open_bus(options.bridge.node, "virtual_device"); };

@@ -1,6 +1,7 @@
 // haptic_node: the hand's loop. ToolPose in, ToolForce and Contact out.
 #include "haptic_node/haptic_loop.h"
 #include "node_common/node_identity.h"
+#include "runtime/niceness.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
       .show_default();
 
   return line.run(argc, argv, [&] {
+    runtime::take_nice(runtime::kHandNice);
     runtime::RateLoop pace(options.rate_hz);
     runtime::StopSignal signal([&] { pace.stop(); });
     const auto open_bus = [&] { return node::open_bus(options.node, "haptic_node"); };

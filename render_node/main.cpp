@@ -3,13 +3,12 @@
 #include "render_node/gl/display.h"
 #include "render_node/option_words.h"
 #include "render_node/render_loop.h"
+#include "runtime/niceness.h"
 #include "runtime/rate_loop.h"
 #include "runtime/report.h"
 #include "runtime/signals.h"
 
 #include <nlohmann/json.hpp>
-
-#include <sys/resource.h>
 
 #include <algorithm>
 
@@ -42,7 +41,7 @@ int main(int argc, char** argv) {
     if (options.record) options.fps = std::max(options.fps, options.record_fps);
     runtime::RateLoop pace(render::kTicksPerFrame * options.fps);
     runtime::StopSignal signal([&] { pace.stop(); });
-    setpriority(PRIO_PROCESS, 0, 5);  // pictures must never take the force loop's time
+    runtime::take_nice(runtime::kPictureNice);  // pictures must never take the force loop's time
     const auto folder = options.out.empty() ? std::filesystem::path(".") : options.out;
     const auto renderer =
         render::gl::open_display(options.headless, options.size, "Omentum", folder, options.ui_scale);

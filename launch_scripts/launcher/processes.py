@@ -28,7 +28,8 @@ class Node:
         self.starts += 1
         self.report.unlink(missing_ok=True)  # of the run before: this one may end without one
         try:
-            self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, process_group=0,
+            # a session of its own, among which Linux shares processors out: a node says how much of them it needs (runtime/niceness.h)
+            self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, start_new_session=True,
                                             preexec_fn=self.prepare_child)
         except OSError as error:
             raise Refusal(f"{self.command[0]}: {error.strerror}") from error

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace omentum::physics {
 
@@ -45,6 +46,7 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
               options.most_compliance_nodes, options.added),
       left_(mesh.tetrahedra.size(), 1),
       stands_(inertia.fixed.begin(), inertia.fixed.end()),
+      ties_(inertia.mass.size()),
       rotation_(inertia.mass.size(), Eigen::Matrix3d::Identity()),
       linear_at_(state_at_rest(inertia.mass.size())),
       ahead_(3 * inertia.mass.size()),
@@ -59,6 +61,21 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
       residual_(ahead_.size()) {
   options_.added = {};
   for (const geometry::NodeId n : added_.nodes()) stands_[n] = 1;
+  count_ties();
+}
+
+// By tetrahedra, and by what is added, of which nothing goes.
+void WarpedStep::count_ties() noexcept {
+  std::ranges::fill(ties_, 0);
+  for (const geometry::Tetrahedron& corners : mesh_.tetrahedra)
+    for (const geometry::NodeId n : corners) ++ties_[n];
+  for (const geometry::NodeId n : added_.nodes()) ++ties_[n];
+}
+
+// What is left of the mass of a node whose tissue is gone is so little that the part of an equation that a
+// solution may lack would throw it out of the world: it stays where it is.
+bool WarpedStep::is_held(std::size_t c) const noexcept {
+  return ties_[c / 3] == 0 || is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
 }
 
 bool WarpedStep::step(BodyState& state, std::span<const double> external) noexcept {
@@ -127,8 +144,7 @@ void WarpedStep::mean_rotations() noexcept {
 // The right-hand side is added to what the last step lacked: all of it is lacking while dv = 0.
 void WarpedStep::add_impulse(std::span<const double> external, std::span<double> lacking) noexcept {
   for (std::size_t c = 0; c < lacking.size(); ++c) {
-    const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
-    lacking[c] = held ? 0.0 : lacking[c] + options_.step_s * (external[c] + forces_[c]);
+    lacking[c] = is_held(c) ? 0.0 : lacking[c] + options_.step_s * (external[c] + forces_[c]);
   }
 }
 
@@ -137,8 +153,7 @@ void WarpedStep::multiply(std::span<const double> x, std::span<double> y) noexce
   added_.add_product(1, x, y);
   const SystemWeights& weights = factor_.weights();
   for (std::size_t c = 0; c < y.size(); ++c) {
-    const bool held = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3));
-    y[c] = held ? 0.0 : weights.mass * carried_.kg()[c / 3] * x[c] + weights.stiffness * y[c];
+    y[c] = is_held(c) ? 0.0 : weights.mass * carried_.kg()[c / 3] * x[c] + weights.stiffness * y[c];
   }
 }
 
@@ -148,7 +163,7 @@ void WarpedStep::precondition(std::span<const double> residual, std::span<double
     Vec3::Map(&turned_[3 * n]) = rotation_[n].transpose() * Vec3::Map(&residual[3 * n]);
   factor_.solve_roughly(turned_, x);
   for (std::size_t n = 0; n < rotation_.size(); ++n)
-    Vec3::Map(&x[3 * n]) = (rotation_[n] * Vec3::Map(&x[3 * n])).eval();
+    Vec3::Map(&x[3 * n]) = ties_[n] == 0 ? Vec3::Zero().eval() : (rotation_[n] * Vec3::Map(&x[3 * n])).eval();
 }
 
 double WarpedStep::enough_of(std::span<const double> right_hand_side) const noexcept {
@@ -157,6 +172,8 @@ double WarpedStep::enough_of(std::span<const double> right_hand_side) const noex
 
 // As much of the guess x as is right; what it lacks stays in `lacking`.
 void WarpedStep::start_from(std::span<double> x, std::span<double> lacking) noexcept {
+  for (std::size_t n = 0; n < ties_.size(); ++n)
+    if (ties_[n] == 0) Vec3::Map(&x[3 * n]).setZero();
   multiply(x, product_);
   const double length = dot(x, product_), share = length > 0 ? dot(x, lacking) / length : 0;
   for (double& value : x) value *= share;
@@ -188,7 +205,8 @@ bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
   is_linear_ = false;
   for (const geometry::TetId t : tetrahedra) {
     law_.remove(t);
-    left_[static_cast<std::size_t>(t)] = 0;
+    if (std::exchange(left_[static_cast<std::size_t>(t)], std::uint8_t{0}) == 0) continue;
+    for (const geometry::NodeId n : mesh_.tetrahedra[t]) --ties_[n];
   }
   // the factor, which only says where to look for a solution, keeps the mass: that is a removal less for each
   // node
@@ -202,6 +220,7 @@ void WarpedStep::restore() noexcept {
     if (left_[t] == 0) law_.add(geometry::TetId(t));
   }
   std::ranges::fill(left_, 1);
+  count_ties();
   for (auto* kept : {&residual_, &change_, &foreseen_}) std::ranges::fill(*kept, 0.0);
   factor_.restore();
   carried_.restore();
@@ -209,8 +228,7 @@ void WarpedStep::restore() noexcept {
 
 void WarpedStep::yield_to(std::span<const double> forces, std::span<double> yield) noexcept {
   const double dt = options_.step_s;
-  for (std::size_t c = 0; c < lacking_.size(); ++c)
-    lacking_[c] = is_fixed(inertia_.fixed[c / 3], static_cast<int>(c % 3)) ? 0.0 : dt * dt * forces[c];
+  for (std::size_t c = 0; c < lacking_.size(); ++c) lacking_[c] = is_held(c) ? 0.0 : dt * dt * forces[c];
   solve(enough_of(lacking_), lacking_, yield);
 }
 

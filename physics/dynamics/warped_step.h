@@ -62,6 +62,8 @@ class WarpedStep final : public JoinableStep {
   Corotational& law() { return law_; }
 
  private:
+  void count_ties() noexcept;
+  bool is_held(std::size_t c) const noexcept;
   void linearize(const BodyState& state) noexcept;
   void mean_rotations() noexcept;
   bool turns(std::size_t n) const noexcept { return stands_[n] == 0; }
@@ -80,8 +82,9 @@ class WarpedStep final : public JoinableStep {
   AddedForces added_;
   WarpedOptions options_;
   KeptFactor factor_;
-  std::vector<std::uint8_t> left_;         // [T] 1: there, 0: removed
-  std::vector<std::uint8_t> stands_;       // [N] 1: held or tied, so that it is never turned
+  std::vector<std::uint8_t> left_;    // [T] 1: there, 0: removed
+  std::vector<std::uint8_t> stands_;  // [N] 1: held or tied, so that it is never turned
+  std::vector<std::int32_t> ties_;    // [N] tetrahedra that are left, and what is added; 0: stays where it is
   std::vector<Eigen::Matrix3d> rotation_;  // [N] Q
   BodyState linear_at_;                    // where the law, the rotations and the forces are of ...
   bool is_linear_ = false;                 // ... if they are

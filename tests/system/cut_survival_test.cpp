@@ -142,10 +142,14 @@ TEST_P(CutSurvivalTest, AHandsNodeAPictureOrADeviceThatIsKilledWhileItCutsLeaves
   ASSERT_TRUE(before) << session_["virtual_device"].messages();
   for (const std::string name : {"haptic_node", "render_node", "virtual_device"}) {
     session_.kill(name);
+    if (name == "haptic_node") observer_.forget();
     session_.start(name);
   }
-  observer_.forget();
   EXPECT_TRUE(comes_true([&] { return observer_.forces().size() > 500; })) << "the new node does not answer";
+  const std::vector<msg::ToolForce> felt = observer_.forces();  // of the new node alone, from its first on
+  for (const std::uint32_t tool : {0U, 1U})
+    EXPECT_LE(steepest(felt, tool), 1 + 1e-6) << "the hand was struck that has tool " << tool;
+  observer_.forget();
   EXPECT_TRUE(comes_true([&] {
     const auto status = observer_.status(msg::NODE_RENDER);
     return status && !status->echoes.empty();

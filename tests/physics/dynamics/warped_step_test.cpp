@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace omentum::physics {
@@ -269,6 +270,28 @@ TEST_F(WarpedStepTest, AYieldThatIsNoNumberIsNoGuess) {
   forces[size - 2] = std::numeric_limits<double>::quiet_NaN();
   warped.yield_to(view(forces), yield);
   EXPECT_EQ(norm(yield), 0);
+}
+
+// Of so little mass that what an equation may lack would throw it out of the world.
+TEST_F(WarpedStepTest, ANodeWhoseTissueIsGoneStaysWhereItIs) {
+  const Inertia body = inertia(Held::kAtOneEnd);
+  WarpedStep warped = stepper(body);
+  BodyState state = moving(random_vector(size, 0.01 * kEdge, 6), Vector::Zero(size));
+  const Vector force = weight(body, 5), push = random_vector(size, 0.1, 8);
+  std::vector<double> yield(state.u.size());
+  warped.yield_to(view(push), yield);  // a guess of when it was there
+  ASSERT_TRUE(warped.step(state, view(force)));
+  const std::size_t last = mesh.positions.size() - 1;
+  std::vector<geometry::TetId> around;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    if (std::ranges::count(mesh.tetrahedra[t], geometry::NodeId(last)) > 0) around.emplace_back(t);
+  ASSERT_TRUE(warped.remove(around));
+  Vec3::Map(&state.v[3 * last]).setZero();
+  const Vec3 left_at = Vec3::Map(&state.u[3 * last]);
+  for (int i = 0; i < 50; ++i) ASSERT_TRUE(warped.step(state, view(force)));
+  EXPECT_EQ(Vec3(Vec3::Map(&state.u[3 * last])), left_at);
+  warped.yield_to(view(push), yield);
+  EXPECT_EQ(Vec3::Map(&yield[3 * last]).norm(), 0) << "nothing pushes it";
 }
 
 TEST_F(WarpedStepTest, StepAllocatesNothing) {
