@@ -27,12 +27,9 @@ const Material kColonBared{{0.260f, 0.085f, 0.060f}, 0.0f, 0.28f};
 // Venous, thick: nearly black where it stands.
 const Material kBlood{{0.046f, 0.0016f, 0.0016f}, 0.0f, 0.16f};
 
-const std::map<std::string, Material> kTissues{{"gallbladder", kGallbladder},
-                                               {"gut", kGut},
-                                               {"mesentery", kMesentery},
-                                               {"colon", kColon},
-                                               {"wall", kCavityWall},
-                                               {"omentum", kOmentum}};
+const std::map<std::string, Material> kTissues{{"gallbladder", kGallbladder}, {"gut", kGut},
+                                               {"mesentery", kMesentery},     {"colon", kColon},
+                                               {"wall", kCavityWall},         {"omentum", kOmentum}};
 
 }  // namespace
 

@@ -8,8 +8,8 @@ namespace {
 using enum TomlSection::Need;
 
 // What organ_phantom makes, but for pieces of tissue.
-constexpr std::array<std::string_view, 5> kSceneryPhantoms{"phantom:cavity", "phantom:omentum",
-                                                    "phantom:gallbladder", "phantom:colon", "phantom:paper"};
+constexpr std::array<std::string_view, 5> kSceneryPhantoms{
+    "phantom:cavity", "phantom:omentum", "phantom:gallbladder", "phantom:colon", "phantom:paper"};
 
 std::string phantom_words() {
   std::string text;
