@@ -84,10 +84,12 @@ def start_all(nodes):
 
 
 def stop_all(nodes):
-    """SIGTERM, patience, SIGKILL; only to our own children. The device goes first: the hand has let go."""
-    for node in nodes:
-        if node.name == "virtual_device":
-            node.terminate()
+    """SIGTERM, patience, SIGKILL; only to our own children. The device goes first: the hand has let go; and render_node,
+    whose last picture shows what it was like until then."""
+    for name in ("render_node", "virtual_device"):
+        for node in nodes:
+            if node.name == name:
+                node.terminate()
     if any(node.running() for node in nodes):
         time.sleep(LEAD_S)
     for node in nodes:
