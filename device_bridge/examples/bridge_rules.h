@@ -7,10 +7,10 @@
 #include <stdint.h>
 #include <time.h>
 
-enum { POSES_KEPT = 64, STATE_NO_FORCE = 32 + 64 }; /* FORCE_FAULT, FORCE_PAUSED */
-static const int64_t PERIOD_NS = 1000000, OLDEST_NS = 50000000, EXPIRY_NS = 20000000, DECAY_NS = 20000000,
-                     FADE_NS = 200000000;
-static const double MAX_FORCE_N = 8, SLEW_N_S = 2000;
+enum { kPosesKept = 64, kNoForce = 32 + 64 }; /* FORCE_FAULT, FORCE_PAUSED */
+static const int64_t kPeriod_ns = 1000000, kOldest_ns = 50000000, kExpiry_ns = 20000000, kDecay_ns = 20000000,
+                     kFade_ns = 200000000;
+static const double kMaxForce_n = 8, kSlew_n_s = 2000;
 
 static inline int64_t now_ns(void) {
   struct timespec now;
@@ -24,7 +24,7 @@ static inline void sleep_until_ns(int64_t time_ns) {
 }
 
 /* Of a ToolForce, what is exerted. */
-struct answer {
+struct Answer {
   uint64_t seq, echo_seq;
   int64_t echo_stamp_ns;
   double force[3], valid_for_s;
@@ -32,43 +32,43 @@ struct answer {
 };
 
 /* All zero in the beginning. */
-struct bridge {
-  int64_t sent_ns[POSES_KEPT]; /* the stamps of the newest poses, by number */
-  struct answer newest;        /* number 0: none came yet */
+struct Bridge {
+  int64_t sent_ns[kPosesKept]; /* the stamps of the newest poses, by number */
+  struct Answer newest;        /* number 0: none came yet */
   int64_t came_ns, fading_since_ns;
   double exerted[3]; /* what the motors exert, N, in W */
 };
 
-static inline void bridge_sent(struct bridge* bridge, uint64_t seq, int64_t stamp_ns) {
-  bridge->sent_ns[seq % POSES_KEPT] = stamp_ns;
+static inline void bridge_sent(struct Bridge* bridge, uint64_t seq, int64_t stamp_ns) {
+  bridge->sent_ns[seq % kPosesKept] = stamp_ns;
 }
 
 /* "echo_seq, echo_stamp_ns": an answer to a pose of ours, of the last 50 ms, newer than the one before. "Not
  * finite". */
-static inline void bridge_take(struct bridge* bridge, const struct answer* answer, int64_t now) {
-  const bool ours = answer->echo_stamp_ns == bridge->sent_ns[answer->echo_seq % POSES_KEPT] &&
-                    now - answer->echo_stamp_ns <= OLDEST_NS;
+static inline void bridge_take(struct Bridge* bridge, const struct Answer* answer, int64_t now) {
+  const bool ours = answer->echo_stamp_ns == bridge->sent_ns[answer->echo_seq % kPosesKept] &&
+                    now - answer->echo_stamp_ns <= kOldest_ns;
   if (!ours || answer->seq <= bridge->newest.seq) return;
   for (int i = 0; i < 3; ++i)
     if (!isfinite(answer->force[i])) return;
   /* "After an expiry", and after the first answer */
-  if (bridge->newest.seq == 0 || now - bridge->came_ns > EXPIRY_NS) bridge->fading_since_ns = now;
+  if (bridge->newest.seq == 0 || now - bridge->came_ns > kExpiry_ns) bridge->fading_since_ns = now;
   bridge->newest = *answer;
   bridge->came_ns = now;
 }
 
 /* Once a period: "valid_for_s", "after an expiry", "state", "limits", "jumps". Sets what the motors exert;
  * the number of the answer that it is, or is left of: the next pose's answer_seq. */
-static inline uint64_t bridge_exert(struct bridge* bridge, int64_t now) {
-  const struct answer* newest = &bridge->newest;
+static inline uint64_t bridge_exert(struct Bridge* bridge, int64_t now) {
+  const struct Answer* newest = &bridge->newest;
   const int64_t over_ns = now - bridge->came_ns - (int64_t)(1e9 * newest->valid_for_s);
-  double share = newest->seq == 0 ? 0 : fmin(1, (double)(now - bridge->fading_since_ns) / (double)FADE_NS);
-  if (over_ns > 0) share *= fmax(0, 1 - (double)over_ns / (double)DECAY_NS);
-  if (newest->state & STATE_NO_FORCE) share = 0;
+  double share = newest->seq == 0 ? 0 : fmin(1, (double)(now - bridge->fading_since_ns) / (double)kFade_ns);
+  if (over_ns > 0) share *= fmax(0, 1 - (double)over_ns / (double)kDecay_ns);
+  if (newest->state & kNoForce) share = 0;
   const double size = sqrt(newest->force[0] * newest->force[0] + newest->force[1] * newest->force[1] +
                            newest->force[2] * newest->force[2]);
-  if (size * share > MAX_FORCE_N) share = MAX_FORCE_N / size;
-  const double step = SLEW_N_S * 1e-9 * (double)PERIOD_NS;
+  if (size * share > kMaxForce_n) share = kMaxForce_n / size;
+  const double step = kSlew_n_s * 1e-9 * (double)kPeriod_ns;
   for (int i = 0; i < 3; ++i) {
     const double change = share * newest->force[i] - bridge->exerted[i];
     bridge->exerted[i] += share == 0 ? change : fmax(-step, fmin(step, change)); /* it may end at once */
@@ -78,13 +78,13 @@ static inline uint64_t bridge_exert(struct bridge* bridge, int64_t now) {
 
 /* A mass of 0.2 kg on a spring and a damper, whose other end goes up and down above the right lobe of
  * scenes/liver.toml, and which rolls to and fro about z. */
-struct hand {
+struct Hand {
   double at[3], velocity[3], roll, roll_speed;
 };
 
-static inline void hand_step(struct hand* hand, const double* force, double t) {
+static inline void hand_step(struct Hand* hand, const double* force, double t) {
   const double middle[3] = {-0.048, -0.015, 0.038}, depth_m = 0.015, rate = 0.8,
-               dt = 1e-9 * (double)PERIOD_NS;
+               dt = 1e-9 * (double)kPeriod_ns;
   const double mass_kg = 0.2, spring_n_m = 400, damper_n_s_m = 12, roll_rad = 0.3;
   for (int i = 0; i < 3; ++i) {
     const double target = middle[i] + (i == 2 ? depth_m * cos(rate * t) : 0);

@@ -52,20 +52,20 @@ static dds_entity_t topic(dds_entity_t participant, const dds_topic_descriptor_t
   return checked(dds_create_topic(participant, type, name, NULL, NULL), name);
 }
 
-static void take_answers(dds_entity_t forces, struct bridge* bridge) {
+static void take_answers(dds_entity_t forces, struct Bridge* bridge) {
   omentum_msg_ToolForce force;
   void* sample = &force;
   dds_sample_info_t info;
   while (dds_take(forces, &sample, &info, 1, 1) > 0) {
     if (!info.valid_data || force.tool != 0) continue;
-    const struct answer answer = {force.seq,           force.echo_seq,
+    const struct Answer answer = {force.seq,           force.echo_seq,
                                   force.echo_stamp_ns, {force.force.x, force.force.y, force.force.z},
                                   force.valid_for_s,   force.state};
     bridge_take(bridge, &answer, now_ns());
   }
 }
 
-static void fill(omentum_msg_ToolPose* pose, const struct hand* hand) {
+static void fill(omentum_msg_ToolPose* pose, const struct Hand* hand) {
   pose->valid = true;
   pose->position = (omentum_msg_Vec3){hand->at[0], hand->at[1], hand->at[2]};
   pose->linear_velocity = (omentum_msg_Vec3){hand->velocity[0], hand->velocity[1], hand->velocity[2]};
@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
 
   const omentum_msg_DeviceInfo info = {.tool = 0,
                                        .name = "example in C",
-                                       .max_force_n = MAX_FORCE_N,
+                                       .max_force_n = kMaxForce_n,
                                        .max_torque_nm = 0.1,
                                        .max_stiffness_n_m = 2000,
                                        .workspace_min = {-0.2, -0.2, -0.1},
@@ -110,11 +110,11 @@ int main(int argc, char** argv) {
                                        .actuated_axes = 7};
   checked(dds_write(infos, &info), "device_info");
 
-  struct bridge bridge = {.newest = {.seq = 0}};
-  struct hand hand = {.at = {-0.048, -0.015, 0.053}};
+  struct Bridge bridge = {.newest = {.seq = 0}};
+  struct Hand hand = {.at = {-0.048, -0.015, 0.053}};
   omentum_msg_ToolPose pose = {.tool = 0};
   const int64_t begin = now_ns();
-  for (int64_t tick = begin; running; tick += PERIOD_NS) {
+  for (int64_t tick = begin; running; tick += kPeriod_ns) {
     sleep_until_ns(tick);
     take_answers(forces, &bridge);
     pose.answer_seq = bridge_exert(&bridge, now_ns()); /* under it the hand comes to the pose below */

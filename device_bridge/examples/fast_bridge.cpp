@@ -170,19 +170,19 @@ Topic* topic(DomainParticipant& participant, const char* type, const char* messa
   return checked(participant.create_topic(kPrefix + message, type, TopicQos()), message);
 }
 
-void take_answers(DataReader& forces, bridge& bridge) {
+void take_answers(DataReader& forces, Bridge& bridge) {
   ToolForce force;
   SampleInfo info;
   while (forces.take_next_sample(&force, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
     if (!info.valid_data || force.tool != 0) continue;
-    const answer answer{force.seq,           force.echo_seq,
+    const Answer answer{force.seq,           force.echo_seq,
                         force.echo_stamp_ns, {force.force.x, force.force.y, force.force.z},
                         force.valid_for_s,   force.state};
     bridge_take(&bridge, &answer, now_ns());
   }
 }
 
-void fill(ToolPose& pose, const hand& hand) {
+void fill(ToolPose& pose, const Hand& hand) {
   pose.position = {hand.at[0], hand.at[1], hand.at[2]};
   pose.linear_velocity = {hand.velocity[0], hand.velocity[1], hand.velocity[2]};
   pose.orientation[0] = std::cos(hand.roll / 2);
@@ -209,14 +209,14 @@ void run(DomainParticipant& participant) {
                                     quality<DataReaderQos>(false)),
       "forces");
 
-  DeviceInfo info{0, "example in C++", MAX_FORCE_N, 0.1, 2000, 0, {-0.2, -0.2, -0.1}, {0.2, 0.2, 0.3}, 63, 7};
+  DeviceInfo info{0, "example in C++", kMaxForce_n, 0.1, 2000, 0, {-0.2, -0.2, -0.1}, {0.2, 0.2, 0.3}, 63, 7};
   infos.write(&info);
-  bridge bridge{};
-  hand hand{};
+  Bridge bridge{};
+  Hand hand{};
   hand.at[0] = -0.048, hand.at[1] = -0.015, hand.at[2] = 0.053;
   ToolPose pose;
   const std::int64_t begin = now_ns();
-  for (std::int64_t tick = begin; running; tick += PERIOD_NS) {
+  for (std::int64_t tick = begin; running; tick += kPeriod_ns) {
     sleep_until_ns(tick);
     take_answers(forces, bridge);
     pose.answer_seq = bridge_exert(&bridge, now_ns());  // under it the hand comes to the pose below
