@@ -1,7 +1,6 @@
 #include "session_tools/answer_trial.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace omentum::session {
 
@@ -19,11 +18,8 @@ constexpr std::uint64_t kNobodysPose = 1'000'000'007;
 constexpr std::int64_t kNobodysStamp_ns = 1'234'567;
 constexpr int kIntrusionEvery = 10;  // poses
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char line[200];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
+double between_s(std::int64_t begin_ns, std::int64_t end_ns) {
+  return 1e-9 * static_cast<double>(end_ns - begin_ns);
 }
 
 double share(std::uint64_t part, std::uint64_t all) {
@@ -33,7 +29,7 @@ double share(std::uint64_t part, std::uint64_t all) {
 }  // namespace
 
 double AnswerTrial::seconds(std::int64_t now_ns) const {
-  return first_ns_ == 0 ? 0 : 1e-9 * static_cast<double>(now_ns - first_ns_);
+  return first_ns_ == 0 ? 0 : between_s(first_ns_, now_ns);
 }
 
 double AnswerTrial::begin_s(Part part) const {
@@ -70,7 +66,7 @@ std::vector<msg::ToolForce> AnswerTrial::take(const msg::ToolPose& pose, std::in
   if (now == Part::kIntruded)
     if (const auto intruder = intrusion(pose, now_ns)) answers.push_back(*intruder);
   answered_.push_back(pose);
-  while (answered_.size() > 1 && 1e-9 * static_cast<double>(pose.stamp_ns - answered_[1].stamp_ns) > kKept_s)
+  while (answered_.size() > 1 && between_s(answered_[1].stamp_ns, pose.stamp_ns) > kKept_s)
     answered_.pop_front();
   return answers;
 }
@@ -88,7 +84,7 @@ msg::ToolForce AnswerTrial::answer(const msg::ToolPose& pose, std::int64_t now_n
     if (fault_seq_ == 0) fault_seq_ = seq_;
   }
   sent_.push_back({seq_, now_ns});
-  while (1e-9 * static_cast<double>(now_ns - sent_.front().at_ns) > kKept_s) sent_.pop_front();
+  while (between_s(sent_.front().at_ns, now_ns) > kKept_s) sent_.pop_front();
   return answer;
 }
 
@@ -97,7 +93,7 @@ std::optional<msg::ToolForce> AnswerTrial::intrusion(const msg::ToolPose& pose, 
   if (++takes_ % kIntrusionEvery != 0) return std::nullopt;
   msg::ToolForce intruder = answer(pose, now_ns);
   const msg::ToolPose& old = answered_.front();
-  const bool is_old = 1e-9 * static_cast<double>(pose.stamp_ns - old.stamp_ns) > 2 * kOldAnswer_s;
+  const bool is_old = between_s(old.stamp_ns, pose.stamp_ns) > 2 * kOldAnswer_s;
   if (takes_ / kIntrusionEvery % 2 == 0 && is_old) {
     intruder.echo_seq = old.seq;
     intruder.echo_stamp_ns = old.stamp_ns;
@@ -113,7 +109,7 @@ std::optional<msg::ToolForce> AnswerTrial::intrusion(const msg::ToolPose& pose, 
 bool AnswerTrial::is_new(std::uint64_t answer_seq, std::int64_t now_ns) const {
   const auto sent =
       std::find_if(sent_.rbegin(), sent_.rend(), [&](const Sent& one) { return one.seq == answer_seq; });
-  return sent != sent_.rend() && 1e-9 * static_cast<double>(now_ns - sent->at_ns) <= kOldAnswer_s;
+  return sent != sent_.rend() && between_s(sent->at_ns, now_ns) <= kOldAnswer_s;
 }
 
 void AnswerTrial::judge(const msg::ToolPose& pose, std::int64_t now_ns) {
@@ -136,7 +132,7 @@ void AnswerTrial::judge(const msg::ToolPose& pose, std::int64_t now_ns) {
 
 std::vector<Verdict> AnswerTrial::verdicts(double gap_s) const {
   const double allowed_s = kValidFor_s + kDecay_s + kGrace_s + 2 * gap_s;
-  const double held_s = let_go_ns_ == 0 ? 0 : 1e-9 * static_cast<double>(let_go_ns_ - silent_since_ns_);
+  const double held_s = let_go_ns_ == 0 ? 0 : between_s(silent_since_ns_, let_go_ns_);
   return {verdict("answers are exerted", share(followed_, in_felt_) >= kFollowed,
                   text("%.0f %% of the poses are under an answer of the last %.0f ms (expected %.0f %%)",
                        100 * share(followed_, in_felt_), 1e3 * kOldAnswer_s, 100 * kFollowed)),

@@ -21,6 +21,8 @@ struct TrialTimes {
   double intruded_s = 1;   // right answers, and beside them some to poses of nobody, or of long ago
   double fault_s = 0.5;    // a latched fault
   double force_n = 0.3;
+
+  double total_s() const { return listening_s + felt_s + silent_s + intruded_s + fault_s; }
 };
 
 /// Answers one tool's poses through all parts, and judges by their answer_seq which answers are exerted.

@@ -110,11 +110,10 @@ class Check {
     const std::string requirement = "it leaves cleanly";
     if (gone_ns_ == 0) return session::unseen(requirement, "it is still there");
     const double after_s = 1e-9 * static_cast<double>(gone_ns_ - newest_ns_);
-    char detail[120];
-    std::snprintf(detail, sizeof detail,
-                  "missed %.2f s after its last pose (expected at most %.0f; across vendors it takes 2)",
-                  after_s, kLeavesWithin_s);
-    return session::verdict(requirement, after_s <= kLeavesWithin_s, detail);
+    return session::verdict(
+        requirement, after_s <= kLeavesWithin_s,
+        session::text("missed %.2f s after its last pose (expected at most %.0f; across vendors it takes 2)",
+                      after_s, kLeavesWithin_s));
   }
 
   const std::uint32_t tool_;
@@ -184,7 +183,7 @@ bool run(const Options& options) {
                              " came; is the bridge in this domain, with this profile?");
   say("device_check: move and turn the tool; it then feels a small force upwards, let go of for half a "
       "second");
-  wait_for(options.patience_s + 60, stopped, [&] {
+  wait_for(options.times.total_s() + options.patience_s, stopped, [&] {
     check.require_alone();
     return check.over() || check.left();
   });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace omentum::session {
 
@@ -19,13 +18,6 @@ constexpr double kClockTolerance = 0.05;  // a clock of another unit is off by a
 // what a person does who was asked to move and to turn the tool
 constexpr double kMoving_m_s = 0.005, kTurning_rad_s = 0.1;
 constexpr double kAgreement = 0.7, kRatioLow = 0.5, kRatioHigh = 2;
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char line[200];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 bool finite(const msg::Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

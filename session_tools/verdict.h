@@ -1,9 +1,19 @@
 // What became of one requirement.
 #pragma once
 
+#include <cstdio>
 #include <string>
 
 namespace omentum::session {
+
+/// As printf; a line of a verdict, cut off where it is longer than any.
+template <class... Values>
+std::string text(const char* format, Values... values) {
+  constexpr std::size_t kLongest = 200;
+  char line[kLongest];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
 
 struct Verdict {
   enum class Outcome : unsigned char { kPassed, kFailed, kUnseen };

@@ -1,4 +1,4 @@
-// Topics over DDS: the one interface to both vendors. Only transport/ includes DDS headers.
+// Topics over DDS: the one interface to both vendors. Of what we link, only transport/ includes DDS headers.
 #pragma once
 
 #include "transport/messages.h"  // generated from idl/ by idl/generate.py

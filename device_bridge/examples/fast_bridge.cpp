@@ -65,7 +65,7 @@ struct DeviceInfo {
   std::uint32_t sensed_axes = 0, actuated_axes = 0;
 };
 
-// F is Cdr::serialize's or deserialize's way: fields(cdr, message) passes every field in the IDL's order
+// Hands every field of a message to `each`, in the IDL's order: to be written or read.
 template <class F>
 void fields(F&& each, Vec3& v) {
   each(v.x), each(v.y), each(v.z);
