@@ -38,6 +38,9 @@ class HybridCutStep final : public LargeStep {
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override {
     return step_->step(state, external);
   }
+  [[nodiscard]] bool step_again(BodyState& state, std::span<const double> external) noexcept override {
+    return step_->step_again(state, external);
+  }
   double elastic_energy(std::span<const double> u) noexcept override { return step_->elastic_energy(u); }
 
   /// Precondition: each is there; with them gone, supports or masses hold all that is left.
