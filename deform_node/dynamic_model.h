@@ -80,6 +80,8 @@ class DynamicModel final : public OrganModel {
   using Step = decltype(&BodyStepper::step);
   /// False: the energy afterwards cannot be.
   bool run(int steps, Step step) noexcept;
+  bool run_again(int steps) noexcept;
+  double energy_j() noexcept;
   void show() noexcept;
   void look_ahead() const noexcept;
 
