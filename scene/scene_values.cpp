@@ -211,18 +211,22 @@ void add(const HapticsSpec& haptics, Table table) {
   table.add("decay_s", haptics.decay_s);
 }
 
+std::string or_none(const std::string& name) {
+  return name.empty() ? "none" : name;
+}
+
 // one node takes the cut's measure, another one the camera's
 void add(const ScoreSpec& score, Table table) {
-  table.add("exposed_organ", score.exposed_organ);
+  table.add("exposed_organ", or_none(score.exposed_organ));
   table.add("from_s", score.from_s);
-  table.add("line_of", score.line_of);
+  table.add("line_of", or_none(score.line_of));
   for (std::size_t i = 0; i < score.planned_line.size(); ++i)
     table.add("planned_line[" + std::to_string(i) + "]", score.planned_line[i]);
   table.add("line_width_m", score.line_width_m);
   table.add("pull_limit_n", score.pull_limit_n);
   if (!score.camera) return;
   table.add("camera.tool", score.camera->tool);
-  table.add("camera.organ", score.camera->organ);
+  table.add("camera.organ", or_none(score.camera->organ));
   table.add("camera.place", score.camera->place);
   table.add("camera.within_deg", score.camera->within_deg);
 }
