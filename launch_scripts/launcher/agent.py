@@ -3,6 +3,7 @@
 Runs there as `python3 -c BOOTSTRAP`, fed by link.py with messages (wire.py) on its standard input. When that ends, or is
 silent for SILENCE_S, the programs end: nothing goes on without somebody who watches it.
 """
+import fcntl
 import hashlib
 import os
 import pathlib
@@ -49,9 +50,11 @@ class Agent:
         self.store.mkdir(parents=True, exist_ok=True)
         sessions = directory / "sessions"
         sessions.mkdir(exist_ok=True)
+        forget_keys(sessions)
         forget(sessions, SESSION_KEPT_S)
         forget(self.store, FILE_KEPT_S)
         self.session = pathlib.Path(tempfile.mkdtemp(prefix=f"{time.strftime('%Y%m%d-%H%M%S')}-", dir=sessions))
+        self.alive = lock(self.session)
         self.processes, self.claim, self.echo = {}, None, None
         self.writing, self.heard, self.steal = threading.Lock(), time.monotonic(), StealWatch()
 
@@ -215,6 +218,26 @@ class Agent:
 
     def do_probe(self, message):
         return {"heard": reach.probe(message["domain"], message["address"], message["others"])}
+
+
+def lock(folder):
+    """Holds it for as long as the process lives; None where another one does."""
+    held = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(held)
+        return None
+    return held
+
+
+def forget_keys(sessions):
+    """Of sessions whose agent was killed before it could."""
+    for keys in sessions.glob("*/keys"):
+        held = lock(keys.parent)
+        if held is not None:
+            shutil.rmtree(keys, ignore_errors=True)
+            os.close(held)
 
 
 def forget(folder, seconds):

@@ -50,6 +50,9 @@ class Here:
     def facts(self):
         return machine_facts.gather(self.spec.interface if self.spec else None)
 
+    def meet(self):
+        """Before all else."""
+
     def popen(self, command, processors=None, captured=False, results=()):
         """Starts a program. `captured`: its output is the caller's; `results`: files of an earlier run, which go.
         Raises Refusal."""

@@ -30,6 +30,7 @@ class Hosts:
             for spec in table.hosts if table else ():
                 make = Here if spec.here else Elsewhere
                 self.machines[spec.name] = make(spec=spec, environment=environment_of(table, spec))
+            at_once(lambda host: host.meet(), self.machines.values())
         except BaseException:
             self.close()
             raise
@@ -63,19 +64,21 @@ class Hosts:
     # bringing
     def bring(self, options, scene):
         """Programs, organs, the scene and keys, to the machines that need them."""
-        for host in self.others():
-            files = [(options.programs / name, f"bin/{name}") for name in self.programs_of(host)]
-            organs = [(file, f"organs/{number}/{file.name}") for number, file in enumerate(organ_files(scene, host.spec.nodes))]
-            if options.trace and "virtual_device" in host.spec.nodes:
-                files.append((options.trace, f"traces/{options.trace.name}"))
-            host.bring(files + organs)
-            for name in self.programs_of(host):
-                require_runnable(host, host.file(options.programs / name))
-            places = {str(file): host.files[str(file)] for file, _ in organs}
-            host.put(rewritten(scene.read_text(encoding="utf-8"), places).encode(), "scene.toml")
-            host.files[str(scene)] = str(host.session / "scene.toml")
-            if options.keystore:
-                self.bring_keys(host, options)
+        at_once(lambda host: self.bring_to(host, options, scene), self.others())
+
+    def bring_to(self, host, options, scene):
+        files = [(options.programs / name, f"bin/{name}") for name in self.programs_of(host)]
+        organs = [(file, f"organs/{number}/{file.name}") for number, file in enumerate(organ_files(scene, host.spec.nodes))]
+        if options.trace and "virtual_device" in host.spec.nodes:
+            files.append((options.trace, f"traces/{options.trace.name}"))
+        host.bring(files + organs)
+        for name in self.programs_of(host):
+            require_runnable(host, host.file(options.programs / name))
+        places = {str(file): host.files[str(file)] for file, _ in organs}
+        host.put(rewritten(scene.read_text(encoding="utf-8"), places).encode(), "scene.toml")
+        host.files[str(scene)] = str(host.session / "scene.toml")
+        if options.keystore:
+            self.bring_keys(host, options)
 
     def bring_keys(self, host, options):
         """Of the roles that the machine plays, with their vendor, and no others'."""
@@ -113,8 +116,7 @@ class Hosts:
         try:
             for host in machines:
                 ports[host.name] = host.echo_on(domain)
-            with ThreadPoolExecutor() as pool:  # a link each
-                heard = dict(zip(places, pool.map(ask, machines)))
+            heard = dict(zip(places, at_once(ask, machines)))
         except (Refusal, OSError) as error:
             return [f"the network was not looked at: {error}"]
         finally:
@@ -142,6 +144,12 @@ class Hosts:
     def close(self):
         for host in self.machines.values():
             host.close()
+
+
+def at_once(do, hosts):
+    """do(host) of all of them, each over its own link; raises what one of them raised, when all are done."""
+    with ThreadPoolExecutor() as pool:
+        return list(pool.map(do, list(hosts)))
 
 
 def require_runnable(host, program):

@@ -19,6 +19,7 @@ from .host import PR_SET_PDEATHSIG
 from .remote_process import RemoteProcess
 
 PING_S = 1.0
+ANSWER_S = 90.0  # longer than ssh waits for a network
 # the launcher's own modules, unpacked to a place of their own: whatever version another session has there
 BOOTSTRAP = """import io, sys, tarfile, tempfile
 with tempfile.TemporaryDirectory(prefix="omentum-agent-") as place:
@@ -72,7 +73,11 @@ class Link:
     def ask(self, do, payload=b"", **what):
         """The answer to one message; `payload` as wire.write takes it. Raises Refusal, also when the link is lost."""
         self.send(do, payload, **what)
-        answer = self.answers.get()
+        try:
+            answer = self.answers.get(timeout=ANSWER_S)
+        except queue.Empty:
+            self.process.kill()  # the reader finds the end
+            answer = self.answers.get()
         if answer is None:
             self.answers.put(None)
             raise Refusal(f"{self.name} cannot be reached{self.reason()}")

@@ -22,16 +22,42 @@ def digest_of(file):
     return total.hexdigest()
 
 
+class Told:
+    """A file that is read to be sent; says now and then how far it is."""
+
+    def __init__(self, file, size, where):
+        self.file, self.size, self.where, self.read_bytes, self.said = file, size, where, 0, time.monotonic()
+
+    def __enter__(self):
+        self.stream = open(self.file, "rb")
+        return self
+
+    def __exit__(self, *_):
+        self.stream.close()
+
+    def read(self, count):
+        part = self.stream.read(count)
+        self.read_bytes += len(part)
+        if time.monotonic() - self.said > PATIENCE_S:
+            self.said = time.monotonic()
+            name = os.path.basename(self.file)
+            print(f"run: bringing {name} to {self.where}: {self.read_bytes / 1e6:.0f} of {self.size / 1e6:.0f} MB", flush=True)
+        return part
+
+
 class Elsewhere(Here):
-    """`spec`: of the table of hosts. Raises Refusal, as everything here does once the machine cannot be reached."""
+    """`spec`: of the table of hosts. Raises Refusal, as everything here does once the machine cannot be reached; meet() comes first."""
 
     def __init__(self, spec, environment):
         super().__init__(environment)
         self.name, self.spec = spec.name, spec
         self.files, self.results = {}, {}  # a path here -> its path there
         self.link = Link(spec.name, spec.way_there(), spec.directory)
+
+    def meet(self):
+        """Waits until the agent is there and says what machine it is on."""
         try:
-            answer = self.link.ask("facts", interface=spec.interface)
+            answer = self.link.ask("facts", interface=self.spec.interface)
             begin = time.time()
             there = self.link.ask("clock")["time_s"]
         except BaseException:
@@ -50,14 +76,14 @@ class Elsewhere(Here):
         for file, name, digest, size in known:
             if digest in lacks:
                 mode = 0o755 if os.access(file, os.X_OK) else 0o644
-                with open(file, "rb") as content:
+                with Told(file, size, self.name) as content:
                     self.link.ask("put", content, digest=digest, mode=mode, bytes=size)
                 lacks.discard(digest)
                 sent += size
             self.link.ask("link", name=name, digest=digest)
             self.files[str(file)] = str(self.session / name)
         if time.monotonic() - begin > PATIENCE_S:
-            print(f"run: {self.name}: {sent / 1e6:.0f} MB brought there in {time.monotonic() - begin:.1f} s", flush=True)
+            print(f"run: {self.name} has what it needs: {sent / 1e6:.0f} MB brought there in {time.monotonic() - begin:.1f} s", flush=True)
 
     def put(self, content, name, mode=0o600):
         """Bytes of this session alone."""

@@ -93,6 +93,9 @@ class Tables(WithFolder):
         self.refused(TABLE.replace('user =', 'here = true\nuser ='), "hosts[1].user: the launcher's own machine")
         with self.assertRaisesRegex(Refusal, "missing.toml: No such file"):
             host_table.read(self.folder / "missing.toml")
+        told = subprocess.run([REPOSITORY / "launch_scripts" / "launch", self.folder / "missing.toml"], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual((told.returncode, told.stderr.count("\n")), (2, 1), told.stderr)
 
     def test_the_example_is_a_table(self):
         table = host_table.read(REPOSITORY / "launch_scripts" / "hosts_example.toml")
@@ -106,6 +109,7 @@ class Elsewhere(WithFolder):
         spec = host_table.HostSpec("other", "127.0.0.1", directory=str(self.folder / "there"), reach=["sh", "-c"])
         made = remote_host.Elsewhere(spec, {"OMENTUM_WORD": "hello"})
         self.addCleanup(made.close)
+        made.meet()
         return made
 
     def program(self, text):
@@ -155,7 +159,7 @@ class Elsewhere(WithFolder):
     def test_a_machine_that_cannot_be_reached_is_a_refusal_with_the_reason(self):
         spec = host_table.HostSpec("other", "127.0.0.1", reach=["sh", "-c", "echo Permission denied >&2; exit 255"])
         with self.assertRaisesRegex(Refusal, "other cannot be reached: Permission denied"):
-            remote_host.Elsewhere(spec, {})
+            remote_host.Elsewhere(spec, {}).meet()
 
     def test_programs_end_and_keys_go_when_the_launcher_is_killed(self):
         launcher = subprocess.Popen([sys.executable, "-B", "-c", f"""
@@ -163,6 +167,7 @@ import sys, time
 sys.path.insert(0, {str(REPOSITORY / "launch_scripts")!r})
 from launcher import host_table, remote_host
 there = remote_host.Elsewhere(host_table.HostSpec("other", "127.0.0.1", directory={str(self.folder)!r}, reach=["sh", "-c"]), {{}})
+there.meet()
 there.put(b"secret", "keys/fast/haptic_node/key.pem")
 there.popen(["sh", "-c", "trap 'exit 0' TERM; echo $$ >{self.folder}/pid; while :; do sleep 0.01; done"])
 time.sleep({PATIENCE_S})
@@ -176,6 +181,16 @@ time.sleep({PATIENCE_S})
         launcher.kill()
         self.wait_for(lambda: not pathlib.Path(f"/proc/{pid.read_text().strip()}").exists(), "the program outlives its launcher")
         self.wait_for(lambda: not key.exists(), "the key stays")
+
+    def test_keys_of_an_agent_that_was_killed_go_with_the_next_one_and_a_living_ones_stay(self):
+        living, dead = self.machine(), self.machine()
+        for one in (living, dead):
+            one.put(b"secret", "keys/key.pem")
+        dead.link.process.kill()
+        dead.link.process.wait()
+        self.machine()
+        self.assertTrue(pathlib.Path(living.session / "keys" / "key.pem").exists())
+        self.assertFalse(pathlib.Path(dead.session / "keys").exists())
 
     def test_a_domain_that_is_held_there_is_held_for_others(self):
         first, second = self.machine(), self.machine()
