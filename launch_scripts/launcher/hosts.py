@@ -4,7 +4,7 @@ import pathlib
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 
-from . import machine_advice, machine_facts
+from . import machine_advice, packages
 from .errors import Refusal
 from .host import Here
 from .remote_host import Elsewhere, rewritten
@@ -73,7 +73,7 @@ class Hosts:
             files.append((options.trace, f"traces/{options.trace.name}"))
         host.bring(files + organs)
         for name in self.programs_of(host):
-            require_runnable(host, host.file(options.programs / name))
+            require_runnable(host, options.programs / name)
         places = {str(file): host.files[str(file)] for file, _ in organs}
         host.put(rewritten(scene.read_text(encoding="utf-8"), places).encode(), "scene.toml")
         host.files[str(scene)] = str(host.session / "scene.toml")
@@ -153,13 +153,14 @@ def at_once(do, hosts):
 
 
 def require_runnable(host, program):
-    """Refuses with the program's own last words where it lacks a library or the processor lacks an instruction."""
-    process = host.popen([program, "--help"], captured=True)
+    """Refuses with the program's own last words where it lacks a library or the processor lacks an instruction; `program`: here."""
+    process = host.popen([host.file(program), "--help"], captured=True)
     said = process.communicate()[1].strip().splitlines()
-    if process.returncode != 0:
-        why = said[-1] if said else f"{program} ended with code {process.returncode}"
-        hint = " (launch_scripts/packages.txt names the packages)" if "shared librar" in why else ""
-        raise Refusal(f"{host.name}: {why}{hint}")
+    if process.returncode == 0:
+        return
+    why = said[-1] if said else f"{program} ended with code {process.returncode}"
+    needed = packages.needed_by(program) if "shared librar" in why else []
+    raise Refusal(f"{host.name}: {why}" + (f" (there, as root: apt-get install {' '.join(needed)})" if needed else ""))
 
 
 def share_of(host):

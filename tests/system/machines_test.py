@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The launcher's machines: the table of hosts, what is brought there and back, and that nothing outlives who started it."""
-import os
 import pathlib
+import shutil
 import signal
 import stat
 import subprocess
@@ -9,10 +9,11 @@ import sys
 import tempfile
 import time
 import unittest
+from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
-from launcher import domain, host_table, machine_advice, options, reach, remote_host  # noqa: E402 (the launcher is no installed package)
+from launcher import domain, host_table, hosts, machine_advice, options, packages, reach, remote_host  # noqa: E402 (the launcher is no installed package)
 from launcher.errors import Refusal  # noqa: E402
 
 PATIENCE_S = 20
@@ -155,6 +156,19 @@ class Elsewhere(WithFolder):
         with self.assertRaisesRegex(Refusal, "other: no_such_program: No such file"):
             there.popen(["no_such_program"])
         self.assertEqual(there.popen(["true"]).wait(PATIENCE_S), 0)
+
+    def test_a_program_that_lacks_a_library_there_is_told_with_what_to_install(self):
+        there = self.machine()
+        there.bring([(self.program("echo 'error while loading shared libraries: libx.so.1' >&2; exit 127"), "bin/program")])
+        with mock.patch.object(hosts.packages, "needed_by", lambda _: ["libx1"]):
+            with self.assertRaisesRegex(Refusal, r"other: error while loading .* \(there, as root: apt-get install libx1\)"):
+                hosts.require_runnable(there, self.folder / "program")
+
+    @unittest.skipUnless(shutil.which("dpkg-query") and shutil.which("objdump"), "no Debian, or no binutils")
+    def test_packages_are_those_of_the_libraries_that_a_program_names(self):
+        needed = packages.needed_by(options.programs_folder() / "omentum_session")
+        self.assertTrue([name for name in needed if name.startswith("libfastrtps")], needed)
+        self.assertEqual(packages.needed_by(self.program("true")), [])
 
     def test_a_machine_that_cannot_be_reached_is_a_refusal_with_the_reason(self):
         spec = host_table.HostSpec("other", "127.0.0.1", reach=["sh", "-c", "echo Permission denied >&2; exit 255"])
