@@ -206,6 +206,15 @@ time.sleep({PATIENCE_S})
         self.assertTrue(pathlib.Path(living.session / "keys" / "key.pem").exists())
         self.assertFalse(pathlib.Path(dead.session / "keys").exists())
 
+    def test_a_session_that_wrote_nothing_leaves_nothing_and_one_that_nobody_came_for_stays(self):
+        idle, busy = self.machine(), self.machine()
+        idle.put(b"name = 1", "scene.toml")
+        busy.popen(["sh", "-c", 'echo written >"$0"', busy.result(self.folder / "report.json")]).wait(PATIENCE_S)
+        for one in (idle, busy):
+            one.close()
+        self.assertFalse(pathlib.Path(idle.session).exists())
+        self.assertTrue(pathlib.Path(busy.results[str(self.folder / "report.json")]).exists())
+
     def test_a_domain_that_is_held_there_is_held_for_others(self):
         first, second = self.machine(), self.machine()
         free = domain.Domain()
