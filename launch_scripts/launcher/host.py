@@ -75,6 +75,10 @@ class Here:
         """Where a program writes what gather() brings to `path`."""
         return str(path)
 
+    def home(self, there):
+        """Where gather() brings what a program says that it wrote at `there`."""
+        return there
+
     def gather(self):
         """Brings what the programs wrote."""
 

@@ -100,6 +100,12 @@ class Elsewhere(Here):
             self.results[str(path)] = str(self.session / place)
         return self.results[str(path)]
 
+    def home(self, there):
+        for here, place in self.results.items():
+            if pathlib.PurePosixPath(there).is_relative_to(place):
+                return str(pathlib.Path(here) / pathlib.PurePosixPath(there).relative_to(place))
+        return there
+
     def gather(self):
         for here, there in self.results.items():
             place = str(pathlib.PurePosixPath(there).relative_to(self.session))

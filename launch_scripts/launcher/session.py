@@ -229,8 +229,11 @@ class Session:
         merged = report.merge(self.name, seconds, {**machine, "realtime": self.realtime}, self.nodes, self.options.dds)
         if machines:
             merged["hosts"] = machines
+        videos = merged["nodes"].get("render_node", {}).get("videos", [])
+        for one in videos:
+            one["folder"] = self.hosts.of("render_node").home(one["folder"])
         report.write(merged, self.options.out / "report.json")
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)
-        video.make_all(merged["nodes"].get("render_node", {}).get("videos", []))
+        video.make_all(videos)
         return 1 if report.never_answered(merged) else 0

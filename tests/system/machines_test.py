@@ -141,6 +141,9 @@ class Elsewhere(WithFolder):
         self.assertIsNone(process.poll())
         process.send_signal(signal.SIGUSR2)  # which the shell dies of
         self.assertEqual(process.wait(PATIENCE_S), -signal.SIGUSR2)
+        self.assertEqual(there.home(str(written)), str(home))
+        self.assertEqual(there.home(str(written / "video")), str(home / "video"))
+        self.assertEqual(there.home("/elsewhere"), "/elsewhere")
         there.gather()
         self.assertEqual(home.read_text(), "hello\n")
 
