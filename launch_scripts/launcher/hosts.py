@@ -91,10 +91,11 @@ class Hosts:
         host.files[str(options.keystore)] = str(host.session / "keys")
 
     # checking
-    def advice(self, domain):
-        """What a person should change on which machine, a line each; none where all is well."""
+    def advice(self, domain, on_network=True):
+        """What a person should change on which machine, a line each; none where all is well, nor for what nodes say themselves."""
         if not self.table:
-            return machine_advice.of_processors(self.here.facts)
+            facts = self.here.facts
+            return machine_advice.of_processors(facts) + (machine_advice.of_network(facts) if on_network else [])
         lines = [f"{host.name}: {line}" for host in self.machines.values() for line in self.advice_of(host)]
         return lines + self.blocked(domain)
 

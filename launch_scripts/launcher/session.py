@@ -37,7 +37,7 @@ class Session:
         control = hosts.control()
         claim_program = control.file(options.programs / "omentum_domain") if options.profile == "lan" else None
         self.domain = Domain(options.domain, claim_program, hosts.others(), control)
-        for line in hosts.advice(self.domain.number):
+        for line in hosts.advice(self.domain.number, options.profile == "lan"):
             print(f"run: warning: {line}", flush=True)
         self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
         self.headless = options.headless

@@ -251,6 +251,13 @@ class Advice(WithFolder):
             self.assertIn(about, line)
         self.assertIn("the others are told 10.0.0.9", self.of(self.facts(interface="lan0"), address="10.0.0.9")[0])
 
+    def test_a_network_without_a_table_needs_one_interface_with_multicast(self):
+        lo = {"lo": {"address": "127.0.0.1", "up": True, "loopback": True, "multicast": False}}
+        plain = {**lo, "eth0": {"address": "10.0.0.1", "up": True, "loopback": False, "multicast": False}}
+        self.assertEqual(machine_advice.of_network(self.facts()), [])
+        self.assertIn("no interface but the loopback", machine_advice.of_network(self.facts(interfaces=lo))[0])
+        self.assertIn("OMENTUM_DDS_PEERS", machine_advice.of_network(self.facts(interfaces=plain))[0])
+
     def test_the_buffers_are_those_that_the_nodes_ask_for(self):
         self.assertIn("kSocketBufferBytes = 4 * 1024 * 1024;", (REPOSITORY / "transport" / "settings.h").read_text())
         self.assertEqual(machine_advice.SOCKET_BUFFER_BYTES, 4 * 1024 * 1024)
