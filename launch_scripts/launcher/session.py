@@ -7,7 +7,6 @@ import time
 from . import processes, report, video
 from .domain import Domain
 from .keys import Keys
-from .leftovers import Leftovers
 from .machine import StealWatch
 from .messenger import Messenger
 from .options import has_display
@@ -39,7 +38,6 @@ class Session:
         self.stopping = False
         self.realtime = False
         self.restarts = {}
-        self.leftovers = Leftovers()
         if not self.headless and not has_display():
             self.headless = True
             print("run: no display: writing pictures instead (--headless)", flush=True)
@@ -125,7 +123,6 @@ class Session:
                 processes.stop_all(self.nodes)
                 self.messenger.stop()
                 self.domain.release()
-                self.leftovers.remove()
         if code == processes.REFUSED:
             self.clear_out()  # a picture of a session that never was
         else:
@@ -152,12 +149,10 @@ class Session:
         while not self.stopping and any(node.running() for node in self.nodes):
             self.obey(keys.wait(POLL_S))
             self.messenger.poll()
-            self.look_for_leftovers()
             elapsed = time.monotonic() - begin
             for node in self.nodes:
                 if not node.ended_now():
                     continue
-                self.leftovers.remove()
                 if self.ended(node, elapsed) == processes.REFUSED:
                     return processes.REFUSED
             self.restart_due()
@@ -189,11 +184,6 @@ class Session:
                 del self.restarts[node.name]
                 print(f"run: starting {node.name} again", flush=True)
                 node.start()
-
-    def look_for_leftovers(self):
-        for owner in (*self.nodes, self.messenger):
-            if owner.process is not None:
-                self.leftovers.look(owner.process.pid)
 
     def look_at_realtime(self):
         haptic = self.nodes[0]
