@@ -50,7 +50,10 @@ void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool secure
   udp->receiveBufferSize = kSocketBufferBytes;
   udp->maxMessageSize = static_cast<std::uint32_t>(largest_datagram(profile, secured));
   udp->maxInitialPeersRange = kPeerParticipants;
-  if (profile == Profile::kLoopback) udp->interfaceWhiteList = {"127.0.0.1"};
+  if (profile == Profile::kLoopback)
+    udp->interfaceWhiteList = {"127.0.0.1"};
+  else if (const auto interface = interface_from_environment())
+    udp->interfaceWhiteList = {interface->address};
   qos.transport().use_builtin_transports = false;
   qos.transport().send_socket_buffer_size = kSocketBufferBytes;
   qos.transport().listen_socket_buffer_size = kSocketBufferBytes;
