@@ -73,9 +73,10 @@ class Session:
                 for name, extra in own.items()]
 
     def device_options(self):
+        frames = ["--frames", str(self.options.frames)] if self.options.frames else []
         if self.options.trace:
-            return ["--trace", str(self.options.trace)]
-        return ["--mouse"] if self.options.device == "mouse" else []
+            return ["--trace", str(self.options.trace), *frames]
+        return (["--mouse"] if self.options.device == "mouse" else []) + frames
 
     def command(self, name):
         command = [str(self.options.programs / name), "--scene", str(self.scene), "--dds", self.options.dds[name],

@@ -75,5 +75,15 @@ TEST_F(FrameFileTest, WhatCannotBeIsRefusedWithItsLine) {
   expect_refusal("tool = 0\n[[devices]]\ntool = 0\n", "0 again");
 }
 
+TEST_F(FrameFileTest, TheExampleFitsTheLiver) {
+  const std::filesystem::path root = OMENTUM_SOURCE_DIR;
+  const scene::Scene liver = scene::load_scene(root / "scenes/liver.toml");
+  const auto mappings = read_frames(root / "device_bridge/examples/frames.toml", liver.tools);
+  ASSERT_TRUE(mappings.at(0).lever);
+  EXPECT_EQ(mappings.at(0).lever->pivot, *liver.tools[0].trocar);
+  EXPECT_EQ(mappings.at(0).lever->least_outside_m, 0.1);
+  EXPECT_EQ(mappings.at(0).clutch_button, 1U);
+}
+
 }  // namespace
 }  // namespace omentum::device
