@@ -77,9 +77,11 @@ class Session:
                 for name, extra in own.items()]
 
     def device_options(self):
+        host = self.hosts.of("virtual_device")
+        frames = ["--frames", host.file(self.options.frames)] if self.options.frames else []
         if self.options.trace:
-            return ["--trace", self.hosts.of("virtual_device").file(self.options.trace)]
-        return ["--mouse"] if self.options.device == "mouse" else []
+            return ["--trace", host.file(self.options.trace), *frames]
+        return (["--mouse"] if self.options.device == "mouse" else []) + frames
 
     def command(self, name):
         host = self.hosts.of(name)
