@@ -20,11 +20,6 @@ inline constexpr int kCycloneLease_ms = 2000;
 inline constexpr int kFastLease_ms = 10000;
 inline constexpr int kAnnouncementPeriod_ms = 500;
 
-// Who left its shared-memory mailbox unread for so long is dead to Fast DDS: whoever writes to it puts a new
-// mailbox in its place, and a process that was only stopped sometimes never opens that one. A killed node's
-// successor waits for it, too: long beside a busy machine's pauses, short beside a restart.
-inline constexpr int kFastMailbox_ms = 2000;
-
 /// Largest domain whose ports stay below 65536 with some participants in it (7400 + 250 * domain).
 inline constexpr int kMaxDomain = 230;
 

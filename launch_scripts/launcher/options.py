@@ -26,6 +26,7 @@ class Options:
     dds: dict = field(default_factory=dict)  # process -> vendor
     device: str = "virtual"  # virtual, mouse, none or trace
     trace: pathlib.Path = None
+    frames: pathlib.Path = None  # how the devices stand in the scene
     organ: pathlib.Path = None
     scale: float = None
     fixed: str = None
@@ -77,6 +78,7 @@ def build_parser():
         help="fast, cyclone, or haptic=fast,deform=cyclone,render=fast,device=cyclone")
     add("--device", default="virtual", metavar="KIND", help="virtual, mouse, none or trace:FILE (default: virtual). "
         "mouse: the pointer in the window moves the first instrument, key Tab picks the next one (docs/devices.md)")
+    add("--frames", metavar="FILE", help="how devices stand in the scene: axes, scale, clutch, handle (docs/devices.md)")
     add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's first one")
     add("--scale", type=float, metavar="METRES_PER_UNIT", help="of that mesh (default: found from its size)")
     add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them "
@@ -113,6 +115,7 @@ def parse(arguments):
         ui_scale=given.ui_scale, paused=given.paused, restart=given.restart,
         check_only=given.check, prepare_only=given.prepare)
     options.device, options.trace = parse_device(given.device)
+    options.frames = existing(given.frames, "--frames") if given.frames else None
     options.keystore = parse_keystore(given.secure, given.keystore)
     if given.hosts:
         options.hosts, options.profile = host_table.read(given.hosts), "lan"

@@ -8,7 +8,6 @@ from . import processes, report, video
 from .domain import Domain
 from .hosts import Hosts
 from .keys import Keys
-from .leftovers import Leftovers
 from .machine import StealWatch
 from .messenger import Messenger
 
@@ -44,7 +43,6 @@ class Session:
         self.stopping = False
         self.realtime = False
         self.restarts = {}
-        self.leftovers = Leftovers()
         if not self.headless and not hosts.of("render_node").has_display():
             self.headless = True
             print("run: no display: writing pictures instead (--headless)", flush=True)
@@ -79,9 +77,11 @@ class Session:
                 for name, extra in own.items()]
 
     def device_options(self):
+        host = self.hosts.of("virtual_device")
+        frames = ["--frames", host.file(self.options.frames)] if self.options.frames else []
         if self.options.trace:
-            return ["--trace", self.hosts.of("virtual_device").file(self.options.trace)]
-        return ["--mouse"] if self.options.device == "mouse" else []
+            return ["--trace", host.file(self.options.trace), *frames]
+        return (["--mouse"] if self.options.device == "mouse" else []) + frames
 
     def command(self, name):
         host = self.hosts.of(name)
@@ -136,7 +136,6 @@ class Session:
                 self.domain.release()
                 machines = self.hosts.figures()
                 self.hosts.gather()
-                self.leftovers.remove()
         if code == processes.REFUSED:
             self.clear_out()  # a picture of a session that never was
         else:
@@ -163,12 +162,10 @@ class Session:
         while not self.stopping and any(node.running() for node in self.nodes):
             self.obey(keys.wait(POLL_S))
             self.messenger.poll()
-            self.look_for_leftovers()
             elapsed = time.monotonic() - begin
             for node in self.nodes:
                 if not node.ended_now():
                     continue
-                self.leftovers.remove()
                 if self.ended(node, elapsed) == processes.REFUSED:
                     return processes.REFUSED
             self.restart_due()
@@ -200,11 +197,6 @@ class Session:
                 del self.restarts[node.name]
                 print(f"run: starting {node.name} again", flush=True)
                 node.start()
-
-    def look_for_leftovers(self):
-        for owner in (*self.nodes, self.messenger):
-            if owner.process is not None and owner.process.pid:
-                self.leftovers.look(owner.process.pid)
 
     def look_at_realtime(self):
         haptic = self.nodes[0]
