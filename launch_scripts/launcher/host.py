@@ -109,5 +109,8 @@ class Here:
     def forget(self):
         """Removes what the session has there: after gather()."""
 
+    def abandon(self):
+        """Whatever goes on with it ends; nothing of it can be asked any more."""
+
     def close(self):
         """After the last program ended."""

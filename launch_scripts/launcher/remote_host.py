@@ -152,6 +152,9 @@ class Elsewhere(Here):
         """What the session has there beside the kept files: after gather()."""
         self.link.tell("forget")
 
+    def abandon(self):
+        self.link.process.terminate()
+
     def close(self):
         self.link.close()
 
