@@ -79,6 +79,9 @@ class Here:
         """Where gather() brings what a program says that it wrote at `there`."""
         return there
 
+    def fetch(self, here):
+        """Brings what a program wrote for `here` by now."""
+
     def gather(self):
         """Brings what the programs wrote."""
 

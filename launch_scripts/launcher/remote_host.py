@@ -106,14 +106,17 @@ class Elsewhere(Here):
                 return str(pathlib.Path(here) / pathlib.PurePosixPath(there).relative_to(place))
         return there
 
+    def fetch(self, here):
+        """What there is by now of one result."""
+        place = str(pathlib.PurePosixPath(self.results[str(here)]).relative_to(self.session))
+        for name in self.link.ask("list", name=place)["files"]:
+            target = pathlib.Path(here) / pathlib.PurePosixPath(name).relative_to(place)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(b"".join(self.link.ask("get", name=name)["content"]))
+
     def gather(self):
-        for here, there in self.results.items():
-            place = str(pathlib.PurePosixPath(there).relative_to(self.session))
-            for name in self.link.ask("list", name=place)["files"]:
-                rest = pathlib.PurePosixPath(name).relative_to(place)
-                target = pathlib.Path(here) / rest
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(b"".join(self.link.ask("get", name=name)["content"]))
+        for here in self.results:
+            self.fetch(here)
 
     # programs
     def popen(self, command, processors=None, captured=False, results=()):

@@ -1,4 +1,5 @@
 """One run: four processes, of one machine or several, from start to report."""
+import contextlib
 import os
 import pathlib
 import tempfile
@@ -6,6 +7,7 @@ import time
 
 from . import processes, report, video
 from .domain import Domain
+from .errors import Refusal
 from .hosts import Hosts
 from .keys import Keys
 from .machine import StealWatch
@@ -178,6 +180,8 @@ class Session:
         """Somebody may have ended a node on purpose; the others go on in any case. Returns 2 for a refusal."""
         if node.exit == processes.REFUSED and node.starts == 1 and elapsed < REFUSAL_WINDOW_S:
             return processes.REFUSED
+        with contextlib.suppress(Refusal):  # a machine that is lost
+            node.host.fetch(node.report)
         if node.name == "render_node" and report.read_node(node.report, node.name).get("closed"):
             print("run: the window was closed", flush=True)
             self.stop()

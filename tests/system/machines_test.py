@@ -14,7 +14,7 @@ from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "launch_scripts"))
-from launcher import domain, host_table, hosts, options, packages, remote_host  # noqa: E402 (the launcher is no installed package)
+from launcher import domain, host_table, hosts, options, packages, remote_host, session  # noqa: E402 (the launcher is no installed package)
 from launcher.errors import Refusal  # noqa: E402
 
 PATIENCE_S = 20
@@ -155,6 +155,9 @@ class Elsewhere(WithFolder):
         self.assertIsNone(process.poll())
         process.send_signal(signal.SIGUSR2)  # which the shell dies of
         self.assertEqual(process.wait(PATIENCE_S), -signal.SIGUSR2)
+        there.fetch(home)
+        self.assertEqual(home.read_text(), "hello\n", "before the session ends, where it is asked for")
+        home.unlink()
         self.assertEqual(there.home(str(written)), str(home))
         self.assertEqual(there.home(str(written / "video")), str(home / "video"))
         self.assertEqual(there.home("/elsewhere"), "/elsewhere")
@@ -257,11 +260,21 @@ time.sleep({PATIENCE_S})
             there.link.ask("put", content, name="big", mode=0o600, bytes=8 << 30)
         self.wait_for(lambda: not pathlib.Path(there.session).exists(), "the agent stays")
 
+    def test_a_window_that_is_closed_there_ends_the_session(self):
+        report = self.folder / "render_node.json"
+        there = self.shared
+        there.popen(["sh", "-c", 'echo "{\\"closed\\": true}" >"$0"', there.result(report)]).wait(PATIENCE_S)
+        node = mock.Mock(exit=0, starts=1, report=report, host=there)
+        node.name = "render_node"
+        watching = session.Session.__new__(session.Session)
+        watching.options, watching.restarts, watching.stopping = mock.Mock(restart=False), {}, False
+        with mock.patch("builtins.print"):
+            watching.ended(node, elapsed=20.0)
+        self.assertTrue(watching.stopping)
+
     def test_a_domain_that_is_held_there_is_held_for_others(self):
         first, second = self.shared, self.machine()
-        free = domain.Domain()
-        number = free.number
-        free.release()
+        number = next(n for n in range(90, 100) if not domain.has_participant(n))  # sessions beside this test take low ones
         self.assertTrue(first.claim(number, may_join=False))
         self.assertFalse(second.claim(number, may_join=False))
         self.assertTrue(second.claim(number, may_join=True))
