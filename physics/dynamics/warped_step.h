@@ -72,8 +72,11 @@ class WarpedStep final : public JoinableStep {
   Corotational& law() { return law_; }
 
  private:
-  double potential(std::span<const double> v_before, std::span<const double> external) noexcept;
-  bool go_along(std::span<const double> v_before, std::span<const double> external) noexcept;
+  struct Potential {
+    double least_j, own_j;
+  };
+  Potential potential(std::span<const double> v_before, std::span<const double> external) noexcept;
+  bool go_along(std::span<const double> v_before, std::span<const double> external, double most_j) noexcept;
   void count_ties() noexcept;
   void take_off_law(std::span<const geometry::TetId> tetrahedra) noexcept;
   bool is_held(std::size_t c) const noexcept;

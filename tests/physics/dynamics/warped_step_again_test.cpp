@@ -29,6 +29,21 @@ class WarpedStepAgainTest : public testing::Test {
     return step.elastic_energy(state.u) + kinetic_energy(step.mass(), state.v);
   }
 
+  // Five steps that are made again gain nothing. Whether one that is not would have gained.
+  bool try_pull(const Vec3& force) const {
+    const std::vector<double> f = pull(force);
+    WarpedStep once = made(), again = made();
+    BodyState a = state_at_rest(mesh_.positions.size()), b = a;
+    EXPECT_TRUE(once.step(a, f));
+    for (int i = 0; i < 5; ++i) {
+      const double before_j = energy_j(again, b);
+      EXPECT_TRUE(again.step_again(b, f));
+      EXPECT_LE(energy_j(again, b), (before_j + again.work(f, b.v)) * (1 + 1e-3))
+          << force.norm() << ", " << i;
+    }
+    return energy_j(once, a) > once.work(f, a.v);
+  }
+
   geometry::TetraMesh mesh_ = test::make_box_mesh(4, 2, 2, {0.04, 0.02, 0.02});
   Inertia inertia_{lumped_masses(mesh_, kPulledTissue), {}};
   std::size_t corner_ = 0;
@@ -36,19 +51,10 @@ class WarpedStepAgainTest : public testing::Test {
 
 TEST_F(WarpedStepAgainTest, EnergyIsNoMoreThanTheWorkWhereOneLinearizationGivesMore) {
   int beyond = 0;
-  for (const Vec3& way : {Vec3(-1, 0, 0), Vec3(-1, 1, 1), Vec3(0, 1, 0), Vec3(1, 0, 0)}) {
-    for (const double force_n : {0.2, 0.5, 1.0, 2.0}) {
-      const std::vector<double> f = pull(force_n * way);
-      WarpedStep once = made(), again = made();
-      BodyState a = state_at_rest(mesh_.positions.size()), b = a;
-      ASSERT_TRUE(once.step(a, f));
-      beyond += energy_j(once, a) > once.work(f, a.v);
-      for (int i = 0; i < 5; ++i) {
-        const double before_j = energy_j(again, b);
-        ASSERT_TRUE(again.step_again(b, f));
-        ASSERT_LE(energy_j(again, b), (before_j + again.work(f, b.v)) * (1 + 1e-3)) << force_n << ", " << i;
-      }
-    }
+  for (const double damping_s : {0.0, 0.01}) {
+    inertia_.stiffness_damping_s = damping_s;
+    for (const Vec3& way : {Vec3(-1, 0, 0), Vec3(-1, 1, 1), Vec3(0, 1, 0), Vec3(1, 0, 0)})
+      for (const double force_n : {0.2, 0.5, 1.0, 2.0}) beyond += try_pull(force_n * way) ? 1 : 0;
   }
   EXPECT_GT(beyond, 3) << "no pull was hard enough";
 }
