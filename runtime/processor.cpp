@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <utility>
 
 namespace omentum::runtime {
 
@@ -26,18 +25,21 @@ std::string missing(std::span<const char* const> needed, const std::function<boo
 }
 
 #if defined(__x86_64__)
+namespace {
+
+struct InstructionSet {
+  std::string_view name;
+  bool there;
+};
+
+}  // namespace
+
 bool processor_has(const std::string& name) {
   __builtin_cpu_init();
 // the compiler takes a literal only
-#define OMENTUM_HAS(literal)                      \
-  std::pair<std::string_view, bool> {             \
-    literal, __builtin_cpu_supports(literal) != 0 \
-  }
+#define OMENTUM_HAS(literal) (InstructionSet{literal, __builtin_cpu_supports(literal) != 0})
 #ifdef __clang__  // which knows no such names and would refuse the file
-#define OMENTUM_HAS_NEWER(literal)    \
-  std::pair<std::string_view, bool> { \
-    literal, true                     \
-  }
+#define OMENTUM_HAS_NEWER(literal) (InstructionSet{literal, true})
 #else
 #define OMENTUM_HAS_NEWER(literal) OMENTUM_HAS(literal)
 #endif
@@ -73,8 +75,8 @@ bool processor_has(const std::string& name) {
                          OMENTUM_HAS_NEWER("avx512fp16")};
 #undef OMENTUM_HAS_NEWER
 #undef OMENTUM_HAS
-  const auto found = std::ranges::find(known, name, &std::pair<std::string_view, bool>::first);
-  return found != known.end() && found->second;
+  const auto found = std::ranges::find(known, name, &InstructionSet::name);
+  return found != known.end() && found->there;
 }
 #else
 // built for another family, whose programs do not even start elsewhere; -march=native gives no list of names

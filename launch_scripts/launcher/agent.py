@@ -99,7 +99,8 @@ class Agent:
     def leave(self):
         stop_all([entry for entry in self.processes.values() if entry.process is not None])
         # keys are of a session; what it wrote stays for a week where nobody came for it
-        shutil.rmtree(self.session / "keys" if self.processes else self.session, ignore_errors=True)
+        wrote = any(file.is_file() for file in (self.session / "results").rglob("*"))
+        shutil.rmtree(self.session / "keys" if wrote else self.session, ignore_errors=True)
 
     # files
     def do_have(self, message):

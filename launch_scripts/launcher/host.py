@@ -75,6 +75,13 @@ class Here:
         """Where a program writes what gather() brings to `path`."""
         return str(path)
 
+    def home(self, there):
+        """Where gather() brings what a program says that it wrote at `there`."""
+        return there
+
+    def fetch(self, here):
+        """Brings what a program wrote for `here` by now."""
+
     def gather(self):
         """Brings what the programs wrote."""
 
@@ -104,6 +111,9 @@ class Here:
 
     def forget(self):
         """Removes what the session has there: after gather()."""
+
+    def abandon(self):
+        """Whatever goes on with it ends; nothing of it can be asked any more."""
 
     def close(self):
         """After the last program ended."""

@@ -2,7 +2,7 @@
 wrote comes back."""
 import pathlib
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 
 from . import machine_advice, packages
 from .errors import Refusal
@@ -30,7 +30,7 @@ class Hosts:
             for spec in table.hosts if table else ():
                 make = Here if spec.here else Elsewhere
                 self.machines[spec.name] = make(spec=spec, environment=environment_of(table, spec))
-            at_once(lambda host: host.meet(), self.machines.values())
+            at_once(lambda host: host.meet(), self.machines.values(), or_none=True)
         except BaseException:
             self.close()
             raise
@@ -64,7 +64,7 @@ class Hosts:
     # bringing
     def bring(self, options, scene):
         """Programs, organs, the scene and keys, to the machines that need them."""
-        at_once(lambda host: self.bring_to(host, options, scene), self.others())
+        at_once(lambda host: self.bring_to(host, options, scene), self.others(), or_none=True)
 
     def bring_to(self, host, options, scene):
         files = [(options.programs / name, f"bin/{name}") for name in self.programs_of(host)]
@@ -91,10 +91,11 @@ class Hosts:
         host.files[str(options.keystore)] = str(host.session / "keys")
 
     # checking
-    def advice(self, domain):
-        """What a person should change on which machine, a line each; none where all is well."""
+    def advice(self, domain, on_network=True):
+        """What a person should change on which machine, a line each; none where all is well, nor for what nodes say themselves."""
         if not self.table:
-            return machine_advice.of_processors(self.here.facts)
+            facts = self.here.facts
+            return machine_advice.of_processors(facts) + (machine_advice.of_network(facts) if on_network else [])
         lines = [f"{host.name}: {line}" for host in self.machines.values() for line in self.advice_of(host)]
         return lines + self.blocked(domain)
 
@@ -146,10 +147,24 @@ class Hosts:
             host.close()
 
 
-def at_once(do, hosts):
-    """do(host) of all of them, each over its own link; raises what one of them raised, when all are done."""
-    with ThreadPoolExecutor() as pool:
-        return list(pool.map(do, list(hosts)))
+def at_once(do, hosts, or_none=False):
+    """do(host) of all of them, each over its own link; raises what one of them raised. `or_none`: the links of the others are then
+    given up, which may be in the middle of gigabytes; so they are when somebody interrupts."""
+    hosts, pool = list(hosts), ThreadPoolExecutor()
+    try:
+        futures = [pool.submit(do, host) for host in hosts]
+        wait(futures, return_when=FIRST_EXCEPTION)
+        for future in futures:
+            if future.done():
+                future.result()
+        return [future.result() for future in futures]
+    except BaseException:
+        if or_none:
+            for host in hosts:
+                host.abandon()
+        raise
+    finally:
+        pool.shutdown()
 
 
 def require_runnable(host, program):

@@ -131,8 +131,9 @@ class Link:
         elif process.captured:
             process.hear(event["stream"], event["line"])
         else:
-            sys.stderr.write(f"{self.name}: {event['line']}")
-            sys.stderr.flush()
+            own = sys.stdout if event["stream"] == "out" else sys.stderr
+            own.write(f"{self.name}: {event['line']}")
+            own.flush()
 
     def ping(self):
         while not self.closing.wait(PING_S) and not self.lost:

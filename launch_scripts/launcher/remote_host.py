@@ -100,14 +100,23 @@ class Elsewhere(Here):
             self.results[str(path)] = str(self.session / place)
         return self.results[str(path)]
 
+    def home(self, there):
+        for here, place in self.results.items():
+            if pathlib.PurePosixPath(there).is_relative_to(place):
+                return str(pathlib.Path(here) / pathlib.PurePosixPath(there).relative_to(place))
+        return there
+
+    def fetch(self, here):
+        """What there is by now of one result."""
+        place = str(pathlib.PurePosixPath(self.results[str(here)]).relative_to(self.session))
+        for name in self.link.ask("list", name=place)["files"]:
+            target = pathlib.Path(here) / pathlib.PurePosixPath(name).relative_to(place)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(b"".join(self.link.ask("get", name=name)["content"]))
+
     def gather(self):
-        for here, there in self.results.items():
-            place = str(pathlib.PurePosixPath(there).relative_to(self.session))
-            for name in self.link.ask("list", name=place)["files"]:
-                rest = pathlib.PurePosixPath(name).relative_to(place)
-                target = pathlib.Path(here) / rest
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(b"".join(self.link.ask("get", name=name)["content"]))
+        for here in self.results:
+            self.fetch(here)
 
     # programs
     def popen(self, command, processors=None, captured=False, results=()):
@@ -145,6 +154,9 @@ class Elsewhere(Here):
     def forget(self):
         """What the session has there beside the kept files: after gather()."""
         self.link.tell("forget")
+
+    def abandon(self):
+        self.link.process.terminate()
 
     def close(self):
         self.link.close()

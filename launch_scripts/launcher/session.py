@@ -1,4 +1,5 @@
 """One run: four processes, of one machine or several, from start to report."""
+import contextlib
 import os
 import pathlib
 import tempfile
@@ -6,6 +7,7 @@ import time
 
 from . import processes, report, video
 from .domain import Domain
+from .errors import Refusal
 from .hosts import Hosts
 from .keys import Keys
 from .machine import StealWatch
@@ -36,7 +38,7 @@ class Session:
         control = hosts.control()
         claim_program = control.file(options.programs / "omentum_domain") if options.profile == "lan" else None
         self.domain = Domain(options.domain, claim_program, hosts.others(), control)
-        for line in hosts.advice(self.domain.number):
+        for line in hosts.advice(self.domain.number, options.profile == "lan"):
             print(f"run: warning: {line}", flush=True)
         self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
         self.headless = options.headless
@@ -178,6 +180,8 @@ class Session:
         """Somebody may have ended a node on purpose; the others go on in any case. Returns 2 for a refusal."""
         if node.exit == processes.REFUSED and node.starts == 1 and elapsed < REFUSAL_WINDOW_S:
             return processes.REFUSED
+        with contextlib.suppress(Refusal):  # a machine that is lost
+            node.host.fetch(node.report)
         if node.name == "render_node" and report.read_node(node.report, node.name).get("closed"):
             print("run: the window was closed", flush=True)
             self.stop()
@@ -221,8 +225,11 @@ class Session:
         merged = report.merge(self.name, seconds, {**machine, "realtime": self.realtime}, self.nodes, self.options.dds)
         if machines:
             merged["hosts"] = machines
+        videos = merged["nodes"].get("render_node", {}).get("videos", [])
+        for one in videos:
+            one["folder"] = self.hosts.of("render_node").home(one["folder"])
         report.write(merged, self.options.out / "report.json")
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)
-        video.make_all(merged["nodes"].get("render_node", {}).get("videos", []))
+        video.make_all(videos)
         return 1 if report.never_answered(merged) else 0

@@ -7,6 +7,7 @@ Exit code 77: this machine does not allow it; why is said.
 import json
 import os
 import pathlib
+import signal
 import stat
 import subprocess
 import sys
@@ -20,7 +21,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PROGRAMS, SCENE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 NODES = {"theatre": ("haptic_node", "virtual_device"), "cluster": ("deform_node",), "gallery": ("render_node",)}
 CYCLONES = ("deform_node", "virtual_device")
-SECONDS, PATIENCE_S = 5, 60
+PICTURES, PATIENCE_S = 2, 60  # a picture each two seconds: the hand has heard of one by then
 
 
 class Launch(unittest.TestCase):
@@ -47,18 +48,23 @@ class Launch(unittest.TestCase):
         return {(file.parent.parent.name, file.parent.name): stat.S_IMODE(file.stat().st_mode)
                 for file in (self.folder / host / "sessions").glob("*/keys/*/*/key.pem")}
 
+    def wait_for(self, condition, session):
+        deadline = time.monotonic() + PATIENCE_S
+        while not condition() and session.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.02)
+
     def test_one_command_plays_a_secured_session_on_three_machines_and_brings_home_what_they_wrote(self):
         subprocess.run([REPOSITORY / "launch_scripts" / "make_keystore", self.folder / "keys"], check=True, stdout=subprocess.DEVNULL)
         command = [REPOSITORY / "launch_scripts" / "launch", self.table(), SCENE, "--headless", "--log", "--secure", "--keystore",
-                   self.folder / "keys", "--seconds", str(SECONDS), "--out", self.folder / "out"]
+                   self.folder / "keys", "--out", self.folder / "out"]
         session = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                    env={**os.environ, "OMENTUM_BIN": str(PROGRAMS)})
         self.addCleanup(session.stdout.close)
         self.addCleanup(lambda: session.poll() is None and session.kill())
-        deadline = time.monotonic() + PATIENCE_S
-        while ("cyclone", "deform_node") not in self.keys_of("cluster") and session.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.02)
+        self.wait_for(lambda: ("cyclone", "deform_node") in self.keys_of("cluster"), session)
         self.assertEqual(self.keys_of("cluster"), {("cyclone", "deform_node"): 0o600}, "its own key, and nobody else's")
+        self.wait_for(lambda: len(list((self.folder / "gallery").glob("sessions/*/results/*/out/frame_*.png"))) >= PICTURES, session)
+        session.send_signal(signal.SIGINT)
         said = session.communicate(timeout=PATIENCE_S)[0]
         self.assertEqual(session.returncode, 0, said)
 
