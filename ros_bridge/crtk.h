@@ -17,8 +17,9 @@ struct ToolNow {
   std::int64_t pose_ns = 0, force_ns = 0;  // when they came, since 1970
 };
 
-/// Older than this a pose or force is none, s: what haptic_node believes of a pose at most.
-inline constexpr double kFresh_s = 0.025;
+/// Older than this a pose or force is none, s: a device that was killed is missed by then (its lease), and an
+/// observer on a busy machine, who often gets nothing for 25 ms, is not.
+inline constexpr double kFresh_s = 0.1;
 
 /// Messages whose stamp is 0 where there is nothing valid. `frame` must outlive what is returned.
 PoseStamped measured_cp(const ToolNow& tool, std::string& frame);

@@ -1,7 +1,19 @@
 #include "device_bridge/frames/hand_mapping.h"
 
+#include <algorithm>
+
 namespace omentum::device {
 namespace {
+
+// What haptic_node believes of a device (docs/topics.md, "For a device"): of a hand that moves a tool by
+// micrometres the same would be more.
+constexpr double kMostForce_n = 1000, kMostTorque_nm = 100, kMostStiffness_n_m = 1e6, kLeastStiffness_n_m = 1;
+
+// The mapping takes no limit out of these bounds; one that the device itself put there stays there, and is
+// told.
+double believable(double told, double ratio, double least, double most) {
+  return std::clamp(told / ratio, std::min(told, least), std::max(told, most));
+}
 
 bool is_pressed(const std::optional<std::uint32_t>& button, std::uint32_t buttons) {
   return button && (buttons >> *button & 1U) != 0;
@@ -56,9 +68,10 @@ msg::DeviceInfo HandMapping::describe(msg::DeviceInfo info) const {
   // one newton at the tool is so many in the hand, and a metre of it 1 / s of the hand's
   const double force_ratio = spec_.force_scale * spec_.base.scale;
   const double stiffness_ratio = force_ratio * spec_.base.scale * ratio * ratio;
-  info.max_force_n /= force_ratio * ratio;
-  info.max_torque_nm /= spec_.force_scale;
-  info.max_stiffness_n_m /= stiffness_ratio;
+  info.max_force_n = believable(info.max_force_n, force_ratio * ratio, 0, kMostForce_n);
+  info.max_torque_nm = believable(info.max_torque_nm, spec_.force_scale, 0, kMostTorque_nm);
+  info.max_stiffness_n_m =
+      believable(info.max_stiffness_n_m, stiffness_ratio, kLeastStiffness_n_m, kMostStiffness_n_m);
   info.damping_n_s_m /= stiffness_ratio;
   if (spec_.lever) {
     const Vec3 reach = Vec3::Constant(spec_.lever->length_m - spec_.lever->least_outside_m);

@@ -1,4 +1,5 @@
 #include "ros_bridge/wire/ros_port.h"
+#include "transport/arrivals.h"
 #include "transport/cyclone/entities.h"
 
 #include <dds/dds.h>
@@ -34,14 +35,16 @@ class CycloneSubscription final : public Subscription {
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
                                                                               dds_delete_listener);
     dds_lset_data_available(listener.get(), [](dds_entity_t reader, void* self) {
-      static_cast<CycloneSubscription*>(self)->take_all(reader);
+      auto& me = *static_cast<CycloneSubscription*>(self);
+      me.arrivals_.announce([&] { me.take_all(reader); });
     });
     reader_ = cyclone::checked(dds_create_reader(entities.participant, entities.topic(spec, descriptor<M>()),
                                                  cyclone::reader_qos(spec).get(), listener.get()),
                                "a reader of " + topic.name);
   }
   ~CycloneSubscription() override {
-    dds_set_listener(reader_, nullptr);  // waits for one that runs
+    dds_set_listener(reader_, nullptr);
+    arrivals_.close();
     dds_delete(reader_);
   }
 
@@ -57,6 +60,7 @@ class CycloneSubscription final : public Subscription {
   }
 
   std::function<void(const M&)> take_;
+  transport::Arrivals arrivals_;
   dds_entity_t reader_ = 0;
 };
 
@@ -65,13 +69,13 @@ class CyclonePort final : public RosPort {
   explicit CyclonePort(const transport::BusOptions& options) : entities_(options) {}
 
  private:
-#define OMENTUM_MAKES_ENDS(M, name)                                                              \
-  std::unique_ptr<Publisher<M>> make_publisher(const TopicName& topic, M*) override {            \
-    return std::make_unique<CyclonePublisher<M>>(entities_, topic);                              \
-  }                                                                                              \
-  std::unique_ptr<Subscription> make_subscription(const TopicName& topic,                        \
-                                                  std::function<void(const M&)> take) override { \
-    return std::make_unique<CycloneSubscription<M>>(entities_, topic, std::move(take));          \
+#define OMENTUM_MAKES_ENDS(M, name)                                                                   \
+  std::unique_ptr<Publisher<ros::M>> make_publisher(const TopicName& topic, ros::M*) override {       \
+    return std::make_unique<CyclonePublisher<ros::M>>(entities_, topic);                              \
+  }                                                                                                   \
+  std::unique_ptr<Subscription> make_subscription(const TopicName& topic,                             \
+                                                  std::function<void(const ros::M&)> take) override { \
+    return std::make_unique<CycloneSubscription<ros::M>>(entities_, topic, std::move(take));          \
   }
   OMENTUM_FOR_EACH_ROS(OMENTUM_MAKES_ENDS)
 #undef OMENTUM_MAKES_ENDS

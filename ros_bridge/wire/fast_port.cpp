@@ -1,5 +1,6 @@
 #include "ros_bridge/wire/fast_type.h"
 #include "ros_bridge/wire/ros_port.h"
+#include "transport/arrivals.h"
 #include "transport/fast/entities.h"
 
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
@@ -58,20 +59,26 @@ class FastSubscription final : public Subscription, private dds::DataReaderListe
   }
   ~FastSubscription() override {
     reader_->set_listener(nullptr);
+    arrivals_.close();
     entities_.subscriber->delete_datareader(reader_);
   }
 
  private:
   void on_data_available(dds::DataReader* reader) override {
+    arrivals_.announce([&] { take_all(*reader); });
+  }
+
+  void take_all(dds::DataReader& reader) {
     M message{};
     dds::SampleInfo info;
-    while (reader->take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
+    while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
       if (info.valid_data) take_(message);
     dds_sample_free(&message, &descriptor<M>(), DDS_FREE_CONTENTS);
   }
 
   fast::Entities& entities_;
   std::function<void(const M&)> take_;
+  transport::Arrivals arrivals_;
   dds::DataReader* reader_ = nullptr;
 };
 
@@ -80,13 +87,13 @@ class FastPort final : public RosPort {
   explicit FastPort(const transport::BusOptions& options) : entities_(options) {}
 
  private:
-#define OMENTUM_MAKES_ENDS(M, name)                                                              \
-  std::unique_ptr<Publisher<M>> make_publisher(const TopicName& topic, M*) override {            \
-    return std::make_unique<FastPublisher<M>>(entities_, topic);                                 \
-  }                                                                                              \
-  std::unique_ptr<Subscription> make_subscription(const TopicName& topic,                        \
-                                                  std::function<void(const M&)> take) override { \
-    return std::make_unique<FastSubscription<M>>(entities_, topic, std::move(take));             \
+#define OMENTUM_MAKES_ENDS(M, name)                                                                   \
+  std::unique_ptr<Publisher<ros::M>> make_publisher(const TopicName& topic, ros::M*) override {       \
+    return std::make_unique<FastPublisher<ros::M>>(entities_, topic);                                 \
+  }                                                                                                   \
+  std::unique_ptr<Subscription> make_subscription(const TopicName& topic,                             \
+                                                  std::function<void(const ros::M&)> take) override { \
+    return std::make_unique<FastSubscription<ros::M>>(entities_, topic, std::move(take));             \
   }
   OMENTUM_FOR_EACH_ROS(OMENTUM_MAKES_ENDS)
 #undef OMENTUM_MAKES_ENDS

@@ -54,10 +54,10 @@ class RosPort {
   }
 
  private:
-#define OMENTUM_MAKES_ENDS(M, name)                                                         \
-  virtual std::unique_ptr<Publisher<M>> make_publisher(const TopicName& topic, M* tag) = 0; \
-  virtual std::unique_ptr<Subscription> make_subscription(const TopicName& topic,           \
-                                                          std::function<void(const M&)> take) = 0;
+#define OMENTUM_MAKES_ENDS(M, name)                                                                   \
+  virtual std::unique_ptr<Publisher<ros::M>> make_publisher(const TopicName& topic, ros::M* tag) = 0; \
+  virtual std::unique_ptr<Subscription> make_subscription(const TopicName& topic,                     \
+                                                          std::function<void(const ros::M&)> take) = 0;
   OMENTUM_FOR_EACH_ROS(OMENTUM_MAKES_ENDS)
 #undef OMENTUM_MAKES_ENDS
 };

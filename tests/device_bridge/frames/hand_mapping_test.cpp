@@ -189,6 +189,9 @@ TEST(HandMapping, ItDescribesTheDeviceAsTheToolHasIt) {
   EXPECT_NEAR(tool.workspace_min.x, 0.9, 1e-12);
   EXPECT_NEAR(tool.workspace_max.y, 0.05, 1e-12);
   EXPECT_NEAR(tool.workspace_max.z, 0.15, 1e-12);
+  const HandMapping by_micrometres({.base = {.scale = 1e-3}});
+  EXPECT_DOUBLE_EQ(by_micrometres.describe(info).max_force_n, 1000);
+  EXPECT_DOUBLE_EQ(by_micrometres.describe(info).max_stiffness_n_m, 1e6);
   const HandMapping levered({.lever = TrocarLever{.length_m = 0.3, .least_outside_m = 0.1}});
   EXPECT_DOUBLE_EQ(levered.describe(info).max_force_n, 4);
   EXPECT_DOUBLE_EQ(levered.describe(info).max_stiffness_n_m, 500);
