@@ -86,6 +86,10 @@ DynamicParts parts_of(const node::OrganSource& source, const scene::OrganSpec& s
 template <class Step>
 std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
                                  physics::StressLaw stress, Step&& step) {
+  if (source.organ.split && source.organ.split->tie) {
+    throw std::runtime_error(spec.dynamics->where + ": organ " + spec.name +
+                             ": its parts share no nodes; expected the model \"hybrid\"");
+  }
   return std::make_unique<DynamicModel>(parts_of(source, spec, stress, std::forward<Step>(step)));
 }
 
@@ -98,6 +102,7 @@ std::vector<double> components_of(std::span<const Vec3> vectors) {
 // What has no mass and never tears or is cut.
 void set_precomputed(const organ::OrganSplit& split, DynamicParts& parts) {
   parts.precomputed = split.precomputed();
+  parts.covered = split.covered;
   for (std::size_t n = 0; n < parts.body.inertia.mass.size(); ++n)
     if (!split.parts.dynamic.own_node[n].valid()) parts.body.inertia.mass[n] = 0;
   for (std::size_t t = 0; t < parts.tears.size(); ++t)
@@ -160,7 +165,8 @@ std::unique_ptr<OrganModel> make_hybrid(const node::OrganSource& source, const s
         auto step = std::make_unique<physics::HybridStep>(
             physics::HybridBody{split.parts, split.surface, *split.compliance, organ.material, split.fixed,
                                 body.inertia, weights,
-                                turns ? physics::DynamicLaw::kCorotational : physics::DynamicLaw::kLinear},
+                                turns ? physics::DynamicLaw::kCorotational : physics::DynamicLaw::kLinear,
+                                split.tie ? &*split.tie : nullptr},
             dynamics.step_s.value_or(kImplicitStep_s), BodyStepper::kPatchNodes);
         return Stepping{make_large_stepper(organ.mesh.positions.size(), std::move(step))};
       });

@@ -7,8 +7,9 @@ namespace omentum::render {
 using geometry::SurfaceId;
 using geometry::TetId;
 
-OrganCut::OrganCut(const geometry::TetraMesh& mesh, const geometry::Surface& whole)
-    : mesh_(mesh), whole_(whole), editor_(mesh, {.uncut_surface = whole.node}) {}
+OrganCut::OrganCut(const geometry::TetraMesh& mesh, const geometry::Surface& whole,
+                   std::span<const geometry::CoveredFace> covered)
+    : mesh_(mesh), whole_(whole), editor_(mesh, {.uncut_surface = whole.node, .covered = covered}) {}
 
 void OrganCut::set(const RemovedSet& removed) {
   editor_.set_removed(removed.bits);

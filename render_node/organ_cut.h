@@ -21,8 +21,9 @@ struct CutShape {
 /// an organ that was cut. One thread.
 class OrganCut {
  public:
-  /// `mesh` and `whole`, its uncut surface, outlive it.
-  OrganCut(const geometry::TetraMesh& mesh, const geometry::Surface& whole);
+  /// `mesh` and `whole`, its uncut surface, outlive it. `covered`: what is no surface as yet.
+  OrganCut(const geometry::TetraMesh& mesh, const geometry::Surface& whole,
+           std::span<const geometry::CoveredFace> covered = {});
 
   /// From here on exactly these are removed. Precondition: they are of the mesh (known_topologies.h).
   void set(const RemovedSet& removed);

@@ -75,7 +75,7 @@ CutOutcome SurfaceDrawing::cut(const RemovedSet& removed, std::size_t node_count
     return fits ? CutOutcome::kSame : CutOutcome::kMisfit;
   }
   if (!shape_.mesh) return CutOutcome::kMisfit;
-  if (!cut_) cut_.emplace(*shape_.mesh, shape_.surface);
+  if (!cut_) cut_.emplace(*shape_.mesh, shape_.surface, shape_.covered);
   cut_->set(removed);
   if (cut_->node_count() != node_count) return CutOutcome::kMisfit;
   removed_ = removed;
