@@ -10,9 +10,10 @@ namespace omentum::render {
 /// The surface of an organ that was cut. Nodes are numbered as in its states (idl/organ.idl): first the S of
 /// the whole surface, then those that were bared.
 struct CutShape {
-  std::vector<geometry::NodeId> node;     // [S'], of the mesh
-  std::vector<geometry::Vec3> rest;       // [S'], m
-  std::vector<std::uint8_t> gone;         // [F], 1: that triangle of the whole surface is no more
+  std::vector<geometry::NodeId> node;  // [S'], of the mesh
+  std::vector<geometry::Vec3> rest;    // [S'], m
+  // [F + C], 1: that triangle of the whole surface is no more, or that of `covered` no longer covered
+  std::vector<std::uint8_t> gone;
   std::vector<geometry::Triangle> bared;  // outward
   std::vector<float> burnt;               // [S'], 1: a tetrahedron at this node was burnt away; else 0
 };
@@ -32,10 +33,12 @@ class OrganCut {
   CutShape shape() const;
 
  private:
+  bool is_covered(const geometry::CoveredFace& face) const;
   std::vector<float> burnt_nodes() const;
 
   const geometry::TetraMesh& mesh_;
   const geometry::Surface& whole_;
+  std::vector<geometry::CoveredFace> covered_;
   geometry::MeshEditor editor_;
   std::vector<std::uint8_t> burnt_;  // as in RemovedSet
 };
