@@ -26,6 +26,9 @@ class LargeStep : public Yielding {
   /// Tetrahedra go, and all come back (KeptFactor::remove and restore).
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore() noexcept = 0;
+  /// What the next remove() leaves without supports, of a body part of which has no masses: it has some from
+  /// now on.
+  virtual void let_go(std::span<const geometry::TetId> /*tetrahedra*/) noexcept {}
   /// What each node carries now, [N], kg; zero where the step moves it without a mass.
   virtual std::span<const double> mass() const noexcept = 0;
 
