@@ -86,6 +86,10 @@ DynamicParts parts_of(const node::OrganSource& source, const scene::OrganSpec& s
 template <class Step>
 std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
                                  physics::StressLaw stress, Step&& step) {
+  if (source.organ.split && source.organ.split->tie) {
+    throw std::runtime_error(spec.dynamics->where + ": organ " + spec.name +
+                             ": its parts share no nodes; expected the model \"hybrid\"");
+  }
   return std::make_unique<DynamicModel>(parts_of(source, spec, stress, std::forward<Step>(step)));
 }
 
@@ -98,6 +102,7 @@ std::vector<double> components_of(std::span<const Vec3> vectors) {
 // What has no mass and never tears: [T].
 std::vector<std::uint8_t> set_precomputed(const organ::OrganSplit& split, DynamicParts& parts) {
   std::vector<std::uint8_t> precomputed = split.precomputed();
+  parts.covered = split.covered;
   parts.body.inertia.mass =
       physics::masses_of_dynamic(parts.body.mesh, std::move(parts.body.inertia.mass), precomputed);
   for (std::size_t t = 0; t < parts.tears.size(); ++t)
@@ -169,7 +174,7 @@ std::unique_ptr<OrganModel> make_hybrid(const node::OrganSource& source, const s
       parts_of(source, spec, stress, [&](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
         auto step = std::make_unique<physics::HybridStep>(
             physics::HybridBody{split.parts, split.surface, *split.compliance, organ.material, split.fixed,
-                                body.inertia, weights, law},
+                                body.inertia, weights, law, split.tie ? &*split.tie : nullptr},
             dynamics.step_s.value_or(kImplicitStep_s), BodyStepper::kPatchNodes);
         return Stepping{make_large_stepper(organ.mesh.positions.size(), std::move(step))};
       });
@@ -184,6 +189,10 @@ std::unique_ptr<OrganModel> make_hybrid_cut(const node::OrganSource& source, con
     throw geometry::InputError("organ \"" + spec.name +
                                "\": its file has no dynamic part; model \"hybrid-cut\" expects a hybrid "
                                "organ (organ_build --dynamic)");
+  if (organ.split->tie)
+    throw geometry::InputError(
+        "organ \"" + spec.name +
+        "\": its parts share no nodes; model \"hybrid-cut\" expects parts of one mesh");
   const physics::DynamicLaw law = law_of(spec);
   DynamicParts parts = parts_of(
       source, spec, stress_of(law), [&](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {

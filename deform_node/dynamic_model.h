@@ -27,6 +27,7 @@ struct DynamicParts {
   std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
+  std::span<const geometry::CoveredFace> covered{};  // no surface as yet; read at construction alone
   std::vector<std::uint8_t> precomputed{};  // [T] other than 0: nothing takes it away; empty: none is
   physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
   // Always in equilibrium: it weighs nothing that could swing, and for other organs it is a wall that moves.

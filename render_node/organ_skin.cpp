@@ -12,12 +12,20 @@ namespace {
 
 constexpr float kHorizon_m = 0.018f;  // the width of a dent that a tool presses into soft tissue
 
+std::vector<geometry::Triangle> both(std::vector<geometry::Triangle> skin,
+                                     std::span<const geometry::Triangle> lining) {
+  skin.insert(skin.end(), lining.begin(), lining.end());
+  return skin;
+}
+
 }  // namespace
 
-OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest)
-    : triangles_(surface.triangles),
-      left_(triangles_),
-      closed_(triangles_),
+OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest,
+                     std::span<const geometry::Triangle> lining)
+    : skin_count_(surface.triangles.size()),
+      triangles_(both(surface.triangles, lining)),
+      left_(surface.triangles),
+      closed_(surface.triangles),
       gone_(triangles_.size(), 0),
       used_(rest.size(), kSkin),
       normals_(rest.size(), Vec3f::UnitZ()),
@@ -37,7 +45,7 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
   mesh_.triangles = refinement_.triangles();
   mesh_.split = level_;
   mesh_.vertices.resize(refinement_.vertex_count());
-  smooth_normals(triangles_, rest_, normals_);
+  smooth_normals(left_, rest_, normals_);
   rest_normals_ = normals_;
   std::vector<Vec3f> refined_rest(mesh_.vertices.size());
   refinement_.curve(rest_, normals_, refined_rest);
@@ -65,7 +73,7 @@ void OrganSkin::take_away(const std::vector<std::uint8_t>& gone) {
   changed_.clear();
   left_.clear();
   for (std::size_t f = 0; f < gone.size(); ++f) {
-    if (gone[f] == 0) left_.push_back(triangles_[f]);
+    if (gone[f] == 0 && f < skin_count_) left_.push_back(triangles_[f]);
     if (gone[f] == gone_[f]) continue;
     for (std::size_t k = small * f; k < small * (f + 1); ++k)
       mesh_.triangles[k] = gone[f] != 0 ? MeshTriangle{} : refinement_.triangles()[k];

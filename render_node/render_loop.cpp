@@ -27,6 +27,8 @@ constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in
 
 OrganShape shape_of(node::OrganSource source, const std::string& look) {
   std::vector<geometry::SurfaceId> surface_of_file_node = source.organ.surface_of_file_node();
+  std::vector<geometry::CoveredFace> covered;
+  if (source.organ.split) covered = std::move(source.organ.split->covered);
   return {source.kind,
           std::move(source.organ.surface),
           std::move(source.rest),
@@ -34,6 +36,7 @@ OrganShape shape_of(node::OrganSource source, const std::string& look) {
           tissue_material(look),
           bared_material(look),
           std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh)),
+          std::move(covered),
           std::move(source.gut)};
 }
 

@@ -34,6 +34,7 @@ struct DynamicsSpec {
   std::string pieces;
   geometry::Vec3 piece_gravity_m_s2 = geometry::Vec3(0, 0, -9.81);
   std::string dynamic_part;  // of a hybrid organ that is built of a mesh, as organ_build --dynamic takes it
+  std::string dynamic_mesh;  // or that part's own mesh, "phantom:..." or a file: organ_build --dynamic-mesh
   std::string law;           // of a hybrid organ's dynamic part: "linear" or "corotational"; else empty
   std::string where;         // FILE:LINE of the step or of the organ, for what only its mesh can tell
 };

@@ -22,4 +22,9 @@ physics::StaticSolution solve_hybrid(const organ::Organ& organ, const std::files
                                      const CutOrgan& cut, Imposed imposed, const geometry::Vec3& gravity,
                                      Numbering numbering, DynamicLaw law);
 
+/// Throws geometry::InputError for an organ whose parts share no nodes and a model that knows nothing of what
+/// ties them.
+void require_knows_tie(const organ::Organ& organ, const std::filesystem::path& file,
+                       const std::string& model);
+
 }  // namespace omentum::organ_tools

@@ -123,6 +123,7 @@ void solve(const SolveCommand& command) {
   require_offered(command);
   const geometry::Vec3 gravity = parse_gravity(command.gravity);
   const organ::Organ organ = organ::load_organ(command.organ, organ::Load::kMeshOnly);
+  organ_tools::require_knows_tie(organ, command.organ, command.model);
   std::vector<physics::ImposedDisplacement> imposed;
   if (!command.imposed.empty())
     imposed = organ_tools::read_imposed(command.imposed, organ, command.numbering);

@@ -162,6 +162,20 @@ TEST(DynamicsKeys, AHybridOrganSaysWhichPartMovesAndStepsImplicitly) {
   EXPECT_THAT(message_of(with(hybrid + part + "integrator = \"rk4\"")), HasSubstr("one of \"implicit\""));
 }
 
+TEST(DynamicsKeys, AHybridOrgansDynamicPartMayBeAnotherMesh) {
+  const std::string hybrid = "model = \"hybrid\"\n", second = "dynamic_mesh = \"coarse.msh\"\n";
+  const std::string mesh = load_scene(with(hybrid + second)).organs[0].dynamics->dynamic_mesh;
+  EXPECT_THAT(mesh, testing::EndsWith("coarse.msh"));
+  EXPECT_TRUE(std::filesystem::path(mesh).is_absolute()) << "beside the scene";
+  const std::string phantom = "dynamic_mesh = \"phantom:cylinder-lower\"\n";
+  EXPECT_EQ(load_scene(with(hybrid + phantom)).organs[0].dynamics->dynamic_mesh, "phantom:cylinder-lower");
+  EXPECT_THAT(message_of(with(hybrid + "dynamic_mesh = \"phantom:spleen\"\n")),
+              HasSubstr("phantom:cylinder-lower"));
+  EXPECT_THAT(message_of(with(hybrid + second + "dynamic = \"plane:x>0.02\"\n")),
+              HasSubstr("one of the two"));
+  EXPECT_THAT(message_of(with("model = \"tensor-mass\"\n" + second)), HasSubstr("dynamic_mesh"));
+}
+
 TEST(DynamicsKeys, AHybridOrganSaysByWhichLawItsDynamicPartMoves) {
   const std::string hybrid = "model = \"hybrid\"\ndynamic = \"plane:x>0.02\"\n",
                     turned = "law = \"corotational\"";
