@@ -27,6 +27,22 @@ TEST(SheetSkin, IsClosedAndFacesOutwards) {
   EXPECT_GT(test::volume_m3(skin.mesh()), 0);
 }
 
+TEST(SheetSkin, ItsFewTrianglesCoverBothFacesAndFaceAsTheyDo) {
+  const SheetSkin skin(test::gut_shape());
+  const MeshData& mesh = skin.mesh();
+  EXPECT_LE(mesh.few.size(), mesh.triangles.size() / SheetSkin::kAcross);
+  float all_m2 = 0, few_m2 = 0;
+  for (const MeshTriangle& t : mesh.triangles) all_m2 += test::area_of(mesh, t).norm();
+  for (const MeshTriangle& t : mesh.few) {
+    few_m2 += test::area_of(mesh, t).norm();
+    for (const std::uint32_t corner : t)
+      EXPECT_GE(test::area_of(mesh, t).dot(mesh.vertices[corner].normal), 0);
+  }
+  // all but the rim, and what the folds' chords leave out
+  EXPECT_LT(few_m2, all_m2);
+  EXPECT_GT(few_m2, 0.7f * all_m2);
+}
+
 TEST(SheetSkin, IsThinnerThanWhatCollides) {
   const geometry::GutShape gut = test::gut_shape();
   const SheetSkin skin(gut);
