@@ -1,5 +1,7 @@
 #include "render_node/few_triangles.h"
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -22,6 +24,13 @@ std::array<int, 4> cluster_of(const Vertex& vertex, float side_m) {
   return cluster;
 }
 
+// Not so: a triangle without area, or one that moving its corners turned over.
+bool faces_out(const MeshData& mesh, const MeshTriangle& t) {
+  const Vertex &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  const Vec3f area = (b.position - a.position).cross(c.position - a.position);
+  return area.dot(a.normal + b.normal + c.normal) > 0;
+}
+
 }  // namespace
 
 void add_few_triangles(MeshData& mesh, float side_m) {
@@ -32,7 +41,7 @@ void add_few_triangles(MeshData& mesh, float side_m) {
   mesh.few.clear();
   for (const auto& [a, b, c] : mesh.triangles) {
     const MeshTriangle t{stands_for[a], stands_for[b], stands_for[c]};
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.few.push_back(t);
+    if (faces_out(mesh, t)) mesh.few.push_back(t);
   }
   if (static_cast<float>(mesh.few.size()) > kWorth * static_cast<float>(mesh.triangles.size()))
     mesh.few.clear();

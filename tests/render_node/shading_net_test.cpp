@@ -12,8 +12,8 @@ using geometry::Triangle;
 
 constexpr double kBallRadius_m = 0.05;
 constexpr float kHorizonOfBall_m = 0.018f;
-// Kernels of one width but another form: of the light that the deepest hollow keeps out.
-constexpr float kOpennessApart = 0.03f;
+// Kernels of one width but of another form: a twentieth of the light, where a hollow takes a third.
+constexpr float kOpennessApart = 0.05f;
 
 struct Dented {
   explicit Dented(int splits) : ball(test::ball_organ(kBallRadius_m, splits)) {
