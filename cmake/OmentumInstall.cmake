@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-foreach(program haptic_node deform_node render_node virtual_device omentum_domain omentum_session device_check organ_build organ_solve organ_check organ_phantom
+foreach(program haptic_node deform_node render_node virtual_device ros_bridge omentum_domain omentum_session device_check organ_build organ_solve organ_check organ_phantom
     scene_prepare force_map tissue_compare)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)

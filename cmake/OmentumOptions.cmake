@@ -21,7 +21,7 @@ if(CCACHE)
 endif()
 
 option(OMENTUM_NATIVE "compile the numeric kernels for this machine's vector unit" ON)
-set(OMENTUM_SANITIZE "" CACHE STRING "address (with undefined) or thread; empty for none")
+set(OMENTUM_SANITIZE "" CACHE STRING "address (with undefined), fuzzer (of clang) or thread; empty for none")
 
 if(OMENTUM_SANITIZE STREQUAL "address")
   # What a null or misplaced pointer does is seen by the address sanitizer too; to compile these four checks takes half as
@@ -32,8 +32,11 @@ if(OMENTUM_SANITIZE STREQUAL "address")
 elseif(OMENTUM_SANITIZE STREQUAL "thread")
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
   add_link_options(-fsanitize=thread)
+elseif(OMENTUM_SANITIZE STREQUAL "fuzzer")  # clang's; programs of tests/fuzz/ are linked with libFuzzer besides
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
 elseif(OMENTUM_SANITIZE)
-  message(FATAL_ERROR "OMENTUM_SANITIZE is '${OMENTUM_SANITIZE}'; expected address, thread or nothing")
+  message(FATAL_ERROR "OMENTUM_SANITIZE is '${OMENTUM_SANITIZE}'; expected address, fuzzer, thread or nothing")
 endif()
 
 # omentum_precompiled(NAME headers...): parses the headers once for all targets that say REUSE_FROM NAME: parsing is
@@ -79,7 +82,7 @@ function(omentum_library name)
   target_compile_options(omentum_${name} PRIVATE ${OMENTUM_WARNINGS})
   target_precompile_headers(omentum_${name} REUSE_FROM ${OMENTUM_PRECOMPILED})
   # what a program takes of a library would drag along what stands beside it, and the libraries that this needs
-  if(OMENTUM_SANITIZE STREQUAL "address")
+  if(OMENTUM_SANITIZE MATCHES "^(address|fuzzer)$")
     omentum_unity(omentum_${name})
   endif()
 endfunction()

@@ -32,7 +32,9 @@ DeviceBridge::DeviceBridge(const BridgeOptions& options, std::vector<std::unique
   if (log_) loop_.log_to(*log_);
   if (!options.record.empty()) record_ = std::make_unique<TraceLog>(options.record);
   for (auto& device : devices) {
-    channels_.push_back(std::make_unique<ToolChannel>(std::move(device), faults_));
+    const auto mapping = options.mappings.find(device->info().tool);
+    channels_.push_back(std::make_unique<ToolChannel>(
+        std::move(device), faults_, mapping == options.mappings.end() ? MappingSpec{} : mapping->second));
     answers_.serve(channels_.back()->tool());
     status_message_.tools_served |= 1U << channels_.back()->tool();
   }

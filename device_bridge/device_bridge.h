@@ -17,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -30,9 +31,10 @@ inline constexpr double kSlowestRate_hz = 40;
 struct BridgeOptions {
   runtime::NodeOptions node;
   double rate_hz = 1000;
-  std::optional<node::LoadedScene> scene;  // where the hands' tools stand; none: any session will do
-  double seconds = 0;                      // 0: until stopped
-  std::filesystem::path record;            // the poses as a trace; empty: none
+  std::optional<node::LoadedScene> scene;         // where the hands' tools stand; none: any session will do
+  double seconds = 0;                             // 0: until stopped
+  std::filesystem::path record;                   // the poses as a trace; empty: none
+  std::map<std::uint32_t, MappingSpec> mappings;  // by tool; none: the device measures the tool in W itself
   RayInbox* rays = nullptr;  // takes what a window says of its pointer (MouseHand); outlives the bridge
 };
 

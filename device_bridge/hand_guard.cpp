@@ -76,6 +76,8 @@ Wrench HandGuard::limit(const Wrench& asked, std::int64_t now_ns) noexcept {
   }
   const double norm = wrench.force.norm();
   if (norm > max_force_n_) wrench.force *= max_force_n_ / norm;
+  const double torque_norm = wrench.torque.norm();  // a lever makes other ones of it than were answered
+  if (torque_norm > max_torque_nm_) wrench.torque *= max_torque_nm_ / torque_norm;
   exerted_before_ = exerted_;
   return exerted_ = wrench;
 }

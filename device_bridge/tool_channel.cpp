@@ -34,9 +34,11 @@ msg::DeviceInfo checked(const msg::DeviceInfo& info) {
 
 }  // namespace
 
-ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults)
+ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults,
+                         const MappingSpec& mapping)
     : device_(std::move(device)),
-      info_(checked(device_->info())),
+      mapping_(mapping),
+      info_(mapping_.describe(checked(device_->info()))),
       faults_(faults),
       bad_force_("tool " + std::to_string(info_.tool) +
                  ": a force that is not finite arrived and was ignored"),
@@ -46,8 +48,10 @@ ToolChannel::ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& fau
                        ": the device measured a pose that is not finite"),
       old_measurement_("tool " + std::to_string(info_.tool) +
                        ": the device's newest measurement is not of this moment"),
+      off_trocar_("tool " + std::to_string(info_.tool) +
+                  ": the device's handle does not go through the trocar"),
       hold_(info_.max_force_n, info_.max_torque_nm),
-      guard_(info_.max_force_n, info_.max_torque_nm, info_.actuated_axes) {
+      guard_(device_->info().max_force_n, device_->info().max_torque_nm, info_.actuated_axes) {
   pose_.tool = info_.tool;
   pose_.orientation.w = 1;
 }
@@ -65,27 +69,46 @@ const msg::ToolPose& ToolChannel::tick(std::int64_t now_ns) noexcept {
   if (received_.fetch() && !hold_.take(received_.value().answer, received_.value().at_ns)) {
     faults_.raise(bad_force_);
   }
-  const Wrench held = hold_.at(now_ns);
-  const Exerted newest{guard_.limit(held, now_ns), hold_.answer_seq()};
+  const double dt_s = ticked_ns_ == 0 ? 0 : 1e-9 * static_cast<double>(now_ns - ticked_ns_);
+  ticked_ns_ = now_ns;
+  const Wrench asked = mapping_.to_hand(hold_.at(now_ns), dt_s);
+  const Exerted newest{guard_.limit(asked, now_ns), mapping_.share() > 0 ? hold_.answer_seq() : 0};
   device_->command(newest.wrench);
 
   // what moved the hand to where it is measured now
   const Exerted moving = device_->simulates() ? newest : exerted_;
   exerted_ = newest;
   pose_.answer_seq = moving.answer_seq;
-  const Vec3 before = from_message(pose_.position);
-  const double opened_before = pose_.grip;
-  const bool moved_from_there = pose_.valid;
-  const Measurement measured = device_->measure(now_ns);
-  fill(measured, now_ns);
-  guard_.follow(measured, pose_.valid, device_->simulates());
-  if (moved_from_there && pose_.valid) {
-    energy_j_ += moving.wrench.force.dot(from_message(pose_.position) - before) +
-                 moving.wrench.grip_torque * (pose_.grip - opened_before);
-    most_energy_j_ = std::max(most_energy_j_, energy_j_);
+  Measurement hand = device_->measure(now_ns);
+  hand.valid = usable(hand, now_ns);
+  guard_.follow(hand, hand.valid, device_->simulates());
+  account(hand, moving.wrench);
+  Measurement tool = hand;
+  if (hand.valid) {
+    tool = mapping_.to_tool(hand);
+    if (mapping_.off_trocar()) faults_.raise(off_trocar_);
+  } else {
+    mapping_.lose();
   }
+  fill(tool, now_ns);
   gate_.sent(pose_.seq, pose_.stamp_ns);
   return pose_;
+}
+
+void ToolChannel::account(const Measurement& hand, const Wrench& moving) noexcept {
+  if (hand_.valid && hand.valid) {
+    energy_j_ +=
+        moving.force.dot(hand.position - hand_.position) + moving.grip_torque * (hand.grip - hand_.grip);
+    most_energy_j_ = std::max(most_energy_j_, energy_j_);
+  }
+  if (hand.valid) hand_ = hand;  // of one that cannot be used nothing is kept
+  hand_.valid = hand.valid;
+}
+
+bool ToolChannel::usable(const Measurement& hand, std::int64_t now_ns) noexcept {
+  const std::string* fault = hand.valid ? objection(hand, now_ns) : nullptr;
+  if (fault) faults_.raise(*fault);
+  return hand.valid && !fault;
 }
 
 // The fault of a measurement that must not be used; null when it may be. One from the future is of another
@@ -98,10 +121,8 @@ const std::string* ToolChannel::objection(const Measurement& m, std::int64_t now
 }
 
 void ToolChannel::fill(const Measurement& m, std::int64_t now_ns) noexcept {
-  const std::string* fault = m.valid ? objection(m, now_ns) : nullptr;
-  if (fault) faults_.raise(*fault);
   ++pose_.seq;
-  pose_.valid = m.valid && !fault;
+  pose_.valid = m.valid;
   pose_.stamp_ns = pose_.valid ? m.measured_ns : now_ns;
   if (!pose_.valid) return;
   const Quat q = m.orientation.normalized();

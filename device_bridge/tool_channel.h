@@ -4,6 +4,7 @@
 #include "device_bridge/answer_gate.h"
 #include "device_bridge/device.h"
 #include "device_bridge/force_hold.h"
+#include "device_bridge/frames/hand_mapping.h"
 #include "device_bridge/hand_guard.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
@@ -14,13 +15,15 @@
 
 namespace omentum::device {
 
-/// Between a Device and its topics. Reads no clock.
+/// Between a Device and its topics. What guards the hand (limits, rise, the account of energy) stands on the
+/// hand's side of the mapping, what the wire says is the tool's. Reads no clock.
 class ToolChannel {
  public:
   /// `faults` must outlive the channel. Throws std::runtime_error naming what the device's info has wrong.
-  ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults);
+  ToolChannel(std::unique_ptr<Device> device, runtime::FaultList& faults, const MappingSpec& mapping = {});
 
   std::uint32_t tool() const { return info_.tool; }
+  /// What is published: the device as the tool has it.
   const msg::DeviceInfo& info() const { return info_; }
   Device& device() { return *device_; }
   const Device& device() const { return *device_; }
@@ -31,7 +34,7 @@ class ToolChannel {
 
   /// Once a period, the loop's thread: commands the newest force and returns the pose to publish, stamped
   /// with the time of its measurement. A measurement that is not finite, or too old (kOldestMeasurement_s),
-  /// goes out with its valid flag down and raises a fault.
+  /// goes out with its valid flag down and raises a fault; likewise one that the mapping makes no pose of.
   const msg::ToolPose& tick(std::int64_t now_ns) noexcept;
 
   /// Lets the hand go: commands nothing.
@@ -61,19 +64,24 @@ class ToolChannel {
   };
 
   const std::string* objection(const Measurement& measured, std::int64_t now_ns) const noexcept;
-  void fill(const Measurement& measured, std::int64_t now_ns) noexcept;
+  bool usable(const Measurement& hand, std::int64_t now_ns) noexcept;
+  void account(const Measurement& hand, const Wrench& moving) noexcept;
+  void fill(const Measurement& tool, std::int64_t now_ns) noexcept;
 
   std::unique_ptr<Device> device_;
+  HandMapping mapping_;
   msg::DeviceInfo info_;
   runtime::FaultList& faults_;
   // the faults' texts, made beforehand
-  std::string bad_force_, foreign_answer_, bad_measurement_, old_measurement_;
+  std::string bad_force_, foreign_answer_, bad_measurement_, old_measurement_, off_trocar_;
   AnswerGate gate_;
   runtime::Mailbox<Received> received_;
   ForceHold hold_;
   HandGuard guard_;
   Exerted exerted_;  // commanded last
   msg::ToolPose pose_;
+  Measurement hand_;  // the newest; not valid where it could not be used
+  std::int64_t ticked_ns_ = 0;
   double energy_j_ = 0, most_energy_j_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // A simulated hand, a recorded one or a person's mouse on the wire: the example to copy for a real device
 // (docs/devices.md). Replace make_devices() by your own implementation of device_bridge/device.h.
 #include "device_bridge/device_bridge.h"
+#include "device_bridge/frames/frame_file.h"
 #include "device_bridge/mouse_hand.h"
 #include "device_bridge/trace_player.h"
 #include "device_bridge/virtual_hand.h"
@@ -20,7 +21,7 @@ using Devices = std::vector<std::unique_ptr<device::Device>>;
 
 struct Options {
   device::BridgeOptions bridge;
-  std::filesystem::path trace;
+  std::filesystem::path trace, frames;
   bool mouse = false;
 };
 
@@ -39,6 +40,10 @@ Devices make_devices(const Options& options, const scene::Scene& scene, const de
   if (options.mouse && !options.trace.empty()) {
     throw std::runtime_error("--mouse: found --trace beside it, expected one of them");
   }
+  if (options.mouse && !options.frames.empty()) {
+    throw std::runtime_error(
+        "--mouse: found --frames beside it, expected one of them: the tip is where the pointer is");
+  }
   if (!options.trace.empty()) {
     for (auto& [id, trace] : device::read_trace(options.trace)) {
       tool_of(scene, id, options.trace.string());
@@ -52,7 +57,10 @@ Devices make_devices(const Options& options, const scene::Scene& scene, const de
     if (options.mouse) {  // the first one waits for it
       devices.push_back(std::make_unique<device::MouseHand>(hand, tool, rate_hz, rays, devices.empty()));
     } else {
-      devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, rate_hz));
+      const auto& mappings = options.bridge.mappings;
+      const auto found = mappings.find(hand.tool);
+      const auto mapping = found == mappings.end() ? std::nullopt : std::optional(found->second);
+      devices.push_back(std::make_unique<device::VirtualHand>(hand, tool, rate_hz, mapping));
     }
   }
   if (devices.empty()) {
@@ -65,6 +73,7 @@ Devices make_devices(const Options& options, const scene::Scene& scene, const de
 void run(Options& options) {
   const scene::Scene scene = node::load_scene(options.bridge.node);
   options.bridge.scene = node::loaded_scene(scene, {});
+  if (!options.frames.empty()) options.bridge.mappings = device::read_frames(options.frames, scene.tools);
   runtime::take_nice(runtime::kHandNice);
   runtime::RateLoop loop(options.bridge.rate_hz);
   runtime::StopSignal stop_signal([&loop] { loop.stop(); });
@@ -90,6 +99,9 @@ int main(int argc, char** argv) {
       .type_name("FILE");
   line.flag("--mouse", options.mouse,
             "the first hand, and any that key Tab picks, follows the pointer in render_node's window");
+  line.option("--frames", options.frames,
+              "how each device stands in the scene: axes, scale, clutch, handle (docs/devices.md)")
+      .type_name("FILE");
   line.option("--record", options.bridge.record, "record the poses as a trace").type_name("FILE");
   line.option("--rate-hz", options.bridge.rate_hz, "poses per second")
       .between(device::kSlowestRate_hz, 10000.0)

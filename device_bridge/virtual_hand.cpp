@@ -25,14 +25,17 @@ constexpr double kReach_m = 0.5;
 
 }  // namespace
 
-VirtualHand::VirtualHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz)
+VirtualHand::VirtualHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz,
+                         const std::optional<MappingSpec>& mapping)
     : hand_(hand),
       tool_(tool),
       period_s_(1 / rate_hz),
       substeps_(static_cast<int>(std::ceil(period_s_ / kLongestSubstep_s - 1e-9))),
+      mapping_(mapping),
       script_(script_at(hand, 0)),
       target_(target_of(hand, script_)),
       tip_(target_),
+      held_(hand_at(tip_)),
       orientation_(orientation()),
       return_s_(kReturn_s) {}
 
@@ -57,19 +60,33 @@ Measurement VirtualHand::measure(std::int64_t now_ns) noexcept {
   const double dt_s = period_s_ / substeps_;
   for (int i = 0; i < substeps_; ++i) {
     target_ = advance_target(dt_s);
-    tip_ = step_hand(hand_, tip_, target_, wrench_.force, dt_s);
+    held_ = step_hand(hand_, held_, hand_at(target_), wrench_.force, dt_s);
   }
+  tip_ = tip_at(held_);
   const Quat before = orientation_;
   orientation_ = orientation();
   record();
-  return {.valid = true,
-          .measured_ns = now_ns,
-          .position = tip_.position,
-          .orientation = orientation_,
-          .linear_velocity = tip_.velocity,
-          .angular_velocity = angular_velocity(before, orientation_, period_s_),
-          .grip = script_.grip_rad,
-          .buttons = hand_.cut && script_.phase == Phase::kSlide ? msg::BUTTON_CUT : 0};
+  const Measurement tool{.valid = true,
+                         .measured_ns = now_ns,
+                         .position = tip_.position,
+                         .orientation = orientation_,
+                         .linear_velocity = tip_.velocity,
+                         .angular_velocity = angular_velocity(before, orientation_, period_s_),
+                         .grip = script_.grip_rad,
+                         .buttons = hand_.cut && script_.phase == Phase::kSlide ? msg::BUTTON_CUT : 0};
+  return mapping_ ? hand_of(*mapping_, tool) : tool;
+}
+
+Motion VirtualHand::hand_at(const Motion& tip) const noexcept {
+  if (!mapping_) return tip;
+  const Measurement hand = hand_of(*mapping_, {.position = tip.position, .linear_velocity = tip.velocity});
+  return {hand.position, hand.linear_velocity};
+}
+
+Motion VirtualHand::tip_at(const Motion& hand) const noexcept {
+  if (!mapping_) return hand;
+  const Measurement tip = tool_of(*mapping_, {.position = hand.position, .linear_velocity = hand.velocity});
+  return {tip.position, tip.linear_velocity};
 }
 
 Motion VirtualHand::advance_target(double dt_s) noexcept {

@@ -2,16 +2,22 @@
 #pragma once
 
 #include "device_bridge/device.h"
+#include "device_bridge/frames/hand_mapping.h"
 #include "device_bridge/hand_script.h"
 #include "scene/scene.h"
+
+#include <optional>
 
 namespace omentum::device {
 
 /// The hand's motion is integrated, not played: the loop hand - node - hand is closed physically, so that an
-/// unstable force would be seen as an oscillation. Time advances by one period per measure().
+/// unstable force would be seen as an oscillation. Time advances by one period per measure(). The mass is
+/// where the hand holds the instrument: with a mapping it measures and feels on the hand's side of it, and
+/// wants to be where the tip follows the script.
 class VirtualHand : public Device {
  public:
-  VirtualHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz);
+  VirtualHand(const scene::HandSpec& hand, const scene::ToolSpec& tool, double rate_hz,
+              const std::optional<MappingSpec>& mapping = {});
 
   msg::DeviceInfo info() const override;
   void command(const Wrench& wrench) noexcept override { wrench_ = wrench; }
@@ -37,6 +43,8 @@ class VirtualHand : public Device {
   };
 
   Motion advance_target(double dt_s) noexcept;
+  Motion hand_at(const Motion& tip) const noexcept;
+  Motion tip_at(const Motion& hand) const noexcept;
   Quat orientation() const noexcept;
   void record() noexcept;
 
@@ -44,8 +52,10 @@ class VirtualHand : public Device {
   scene::ToolSpec tool_;
   double period_s_;
   int substeps_;
+  std::optional<MappingSpec> mapping_;
   ScriptPoint script_;
-  Motion target_, tip_;
+  Motion target_, tip_;  // in W
+  Motion held_;          // what has the mass, in the device's frame
   Quat orientation_;
   Wrench wrench_;
   bool paused_ = false;

@@ -6,6 +6,7 @@ import sys
 
 from launcher import keystore, options, organs
 from launcher.errors import Refusal
+from launcher.hosts import Hosts
 from launcher.session import Session
 
 
@@ -34,8 +35,16 @@ def run(arguments):
     if chosen.keystore == options.OWN_KEYSTORE and not chosen.keystore.exists():
         print("run: making keys for --secure", flush=True)
         keystore.make(chosen.keystore)
-    session = Session(chosen, scene, name)
+    hosts = Hosts(chosen.hosts)
+    try:
+        hosts.bring(chosen, scene)
+        return play(Session(chosen, scene, name, hosts))
+    finally:
+        hosts.close()
 
+
+def play(session):
+    """Until the session is over, or somebody ends it."""
     def end(number, _):
         if number == signal.SIGHUP:
             sys.stdout = sys.stderr = open(os.devnull, "w", encoding="utf-8")  # nobody reads what is said from here on

@@ -2,8 +2,8 @@
 // answers after a cut.
 #pragma once
 
-#include "geometry/remaining_tetrahedra.h"
 #include "physics/dynamics/kept_factor.h"
+#include "physics/parting.h"
 
 namespace omentum::physics {
 
@@ -11,9 +11,8 @@ namespace omentum::physics {
 /// (KeptFactor without masses): u = K^-1 f is equilibrium, and any block of K^-1 the compliance that force
 /// tensors would have if they were computed anew of the cut mesh (Cotin 1999, section 4). What the rest no
 /// longer holds would make K singular, and a factorization may not notice: it is found by topology before.
-/// Nodes that lose their last tetrahedron are anchored, each by a spring to where it is; a part that goes as
-/// a whole stays in K, anchored at four nodes, since nothing ties it to the rest any more. So the rest is
-/// exact, and a part of any size goes at once.
+/// Nodes that lose their last tetrahedron are anchored, each by a spring to where it is, and so is a part
+/// that goes as a whole (physics/parting.h): the rest is exact.
 ///
 /// All memory is taken at construction; one thread at a time. Vectors are [3N], as KeptFactor's.
 class StaticFactor {
@@ -22,9 +21,6 @@ class StaticFactor {
   /// `mesh`: checked, outlives it.
   StaticFactor(const geometry::TetraMesh& mesh, const MaterialMap& material, const FixedComponents& fixed,
                int most_compliance_nodes = 24);
-
-  StaticFactor(const StaticFactor&) = delete;  // its books refer to each other
-  StaticFactor& operator=(const StaticFactor&) = delete;
 
   /// Takes tetrahedra off. Preconditions: each is there; what is left is held (UnheldPieces), by supports or
   /// by hold(). False: it hangs together so loosely that nothing is known to working precision; to be
@@ -59,21 +55,10 @@ class StaticFactor {
   bool is_held(std::size_t c) const { return kept_.is_held(c); }
 
  private:
-  void part(std::span<const geometry::TetId> gone) noexcept;
-  void keep_piece(geometry::TetId first) noexcept;
-  void anchor(geometry::NodeId n) noexcept;
-
-  geometry::TetraLinks links_;
-  geometry::RemainingTetrahedra left_;
+  Parting parting_;
   double anchor_n_m_;
   KeptFactor kept_;
-  std::vector<geometry::TetId> taken_;                   // off K by this call, capacity T
-  std::vector<geometry::TetId> whole_, piece_;           // goes with all its nodes, likewise
-  std::vector<geometry::NodeId> loose_;                  // to be anchored, capacity N
-  enum class Stay : std::uint8_t { kNo, kFound, kYes };  // kFound: not yet of a piece
-  std::vector<Stay> stays_;                              // [T] of what is gone: in K all the same
-  std::vector<double> residual_, correction_;            // [3N]
-  std::vector<bool> is_settled_;                         // [N] anchored, or of a piece that is
+  std::vector<double> residual_, correction_;  // [3N]
 };
 
 }  // namespace omentum::physics

@@ -1,6 +1,7 @@
 #include "runtime/command_line.h"
 
 #include "files/whole_file.h"
+#include "runtime/processor.h"
 
 #include <CLI/CLI.hpp>
 
@@ -115,6 +116,7 @@ void CommandLine::require_room() const {
 int CommandLine::run(int argc, char** argv, const std::function<void()>& program) {
   const std::string name = std::filesystem::path(argc > 0 ? argv[0] : app_->get_name()).filename().string();
   try {
+    require_processor();
     app_->parse(argc, argv);
     require_room();
     program();

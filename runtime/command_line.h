@@ -65,7 +65,7 @@ class CommandLine {
 
   /// Parses, calls `program`, and turns what happens into an exit code: 0 after program() returns, and for
   /// --help; 2 with one line "NAME: what and where" on stderr for a wrong argument or any std::exception, but
-  /// 3 for MachineLacks.
+  /// 3 for MachineLacks, also of the processor (processor.h).
   int run(int argc, char** argv, const std::function<void()>& program);
 
  private:

@@ -16,8 +16,8 @@ inline constexpr int kPictureNice = 5;
 /// answer is false.
 ///
 /// Linux shares a processor out among sessions first (autogroups, where it has them): in a process that began
-/// its own, as the launcher's nodes do, a value below 0 is the session's share as well. None above: whoever
-/// writes into Fast DDS' shared memory waits for a lock that a reader holds, be it that of a picture.
+/// its own, as the launcher's nodes do, a value below 0 is the session's share as well. None above: a picture
+/// that others left nothing to would stand still.
 bool take_nice(int value) noexcept;
 
 }  // namespace omentum::runtime

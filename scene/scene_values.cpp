@@ -211,6 +211,26 @@ void add(const HapticsSpec& haptics, Table table) {
   table.add("decay_s", haptics.decay_s);
 }
 
+std::string or_none(const std::string& name) {
+  return name.empty() ? "none" : name;
+}
+
+// one node takes the cut's measure, another one the camera's
+void add(const ScoreSpec& score, Table table) {
+  table.add("exposed_organ", or_none(score.exposed_organ));
+  table.add("from_s", score.from_s);
+  table.add("line_of", or_none(score.line_of));
+  for (std::size_t i = 0; i < score.planned_line.size(); ++i)
+    table.add("planned_line[" + std::to_string(i) + "]", score.planned_line[i]);
+  table.add("line_width_m", score.line_width_m);
+  table.add("pull_limit_n", score.pull_limit_n);
+  if (!score.camera) return;
+  table.add("camera.tool", score.camera->tool);
+  table.add("camera.organ", or_none(score.camera->organ));
+  table.add("camera.place", score.camera->place);
+  table.add("camera.within_deg", score.camera->within_deg);
+}
+
 }  // namespace
 
 std::vector<std::string> scene_values(const Scene& scene) {
@@ -220,6 +240,7 @@ std::vector<std::string> scene_values(const Scene& scene) {
   for (std::size_t i = 0; i < scene.tools.size(); ++i) add(scene.tools[i], {"tools", i, values});
   for (std::size_t i = 0; i < scene.hands.size(); ++i) add(scene.hands[i], {"hands", i, values});
   add(scene.haptics, {"haptics", values});
+  add(scene.score, {"score", values});
   return values;
 }
 

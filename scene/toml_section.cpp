@@ -1,5 +1,7 @@
 #include "scene/toml_section.h"
 
+#include "scene/scene_values.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -182,7 +184,8 @@ void TomlSection::refuse_unknown_keys() const {
 
 void TomlSection::refuse(const std::string& key, const std::string& found,
                          const std::string& expected) const {
-  throw std::runtime_error(place(key) + ": " + name_ + key + ": found " + found + ", expected " + expected);
+  throw std::runtime_error(
+      printable(place(key) + ": " + name_ + key + ": found " + found + ", expected " + expected));
 }
 
 std::string TomlSection::place(const std::string& key) const {
@@ -225,7 +228,7 @@ TomlSection open_toml(const std::filesystem::path& file) {
     return {std::make_shared<const toml::table>(toml::parse_file(file.string())), file, ""};
   } catch (const toml::parse_error& e) {
     throw std::runtime_error(file.string() + ":" + std::to_string(e.source().begin.line) + ": " +
-                             std::string(e.description()));
+                             printable(e.description()));
   }
 }
 

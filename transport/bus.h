@@ -14,7 +14,7 @@ namespace omentum::transport {
 
 enum class Vendor { kFast, kCyclone };
 
-/// kLoopback: one machine, messages of up to 64 kB through lo (Fast DDS: through shared memory).
+/// kLoopback: one machine, messages of up to 64 kB through lo.
 /// kLan: messages that fit an Ethernet frame; a larger one would be lost with its first lost fragment.
 enum class Profile { kLoopback, kLan };
 

@@ -1,9 +1,12 @@
 #include "transport/settings.h"
 
 #include <arpa/inet.h>
+#include <ifaddrs.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,6 +28,37 @@ std::vector<std::string> parse_peers(const std::string& list) {
     peers.push_back(word);
   }
   return peers;
+}
+
+std::vector<Interface> interfaces_of_this_machine() {
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return {};
+  const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(first, freeifaddrs);
+  std::vector<Interface> interfaces;
+  for (const ifaddrs* one = first; one; one = one->ifa_next) {
+    if (!one->ifa_addr || one->ifa_addr->sa_family != AF_INET) continue;
+    std::array<char, INET_ADDRSTRLEN> text{};
+    const auto* address = reinterpret_cast<const sockaddr_in*>(one->ifa_addr);
+    inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
+    interfaces.push_back({one->ifa_name, text.data()});
+  }
+  return interfaces;
+}
+
+std::optional<Interface> interface_from_environment() {
+  const char* wanted = std::getenv("OMENTUM_DDS_INTERFACE");
+  return choose_interface(wanted ? wanted : "", interfaces_of_this_machine());
+}
+
+std::optional<Interface> choose_interface(const std::string& wanted, const std::vector<Interface>& present) {
+  if (wanted.empty()) return std::nullopt;
+  std::string known;
+  for (const Interface& one : present) {
+    if (wanted == one.name || wanted == one.address) return one;
+    known += (known.empty() ? "" : ", ") + one.name + " " + one.address;
+  }
+  throw std::runtime_error("OMENTUM_DDS_INTERFACE: found '" + wanted +
+                           "', expected the name or IPv4 address of an interface of this machine: " + known);
 }
 
 std::string receive_buffer_warning(long rmem_max_bytes) {

@@ -3,6 +3,7 @@
 
 #include "transport/bus.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,6 @@ inline constexpr int kCycloneLease_ms = 2000;
 inline constexpr int kFastLease_ms = 10000;
 inline constexpr int kAnnouncementPeriod_ms = 500;
 
-// Who left its shared-memory mailbox unread for so long is dead to Fast DDS: whoever writes to it puts a new
-// mailbox in its place, and a process that was only stopped sometimes never opens that one. A killed node's
-// successor waits for it, too: long beside a busy machine's pauses, short beside a restart.
-inline constexpr int kFastMailbox_ms = 2000;
-
 /// Largest domain whose ports stay below 65536 with some participants in it (7400 + 250 * domain).
 inline constexpr int kMaxDomain = 230;
 
@@ -31,6 +27,18 @@ inline constexpr int kMaxDomain = 230;
 /// that is no IPv4 address.
 std::vector<std::string> peers_from_environment();
 std::vector<std::string> parse_peers(const std::string& list);
+
+/// A network interface of this machine, by its IPv4 address; one that has several is listed with each.
+struct Interface {
+  std::string name;
+  std::string address;
+};
+std::vector<Interface> interfaces_of_this_machine();
+
+/// The interface that OMENTUM_DDS_INTERFACE names, by name or address: profile lan then uses no other; none
+/// when unset. Throws std::runtime_error for one that this machine does not have.
+std::optional<Interface> interface_from_environment();
+std::optional<Interface> choose_interface(const std::string& wanted, const std::vector<Interface>& present);
 
 /// Warns when the kernel's limit of receive buffers (net.core.rmem_max, bytes) is below what large
 /// samples need; empty when it is not. A limit below 0 is unknown and not warned of.

@@ -18,11 +18,9 @@ std::int64_t boot_clock_ns() {
 
 }  // namespace
 
-StandstillWatch::StandstillWatch(std::chrono::nanoseconds longest, std::function<bool()> act,
-                                 std::function<bool()> asks)
+StandstillWatch::StandstillWatch(std::chrono::nanoseconds longest, std::function<bool()> act)
     : standstill_(longest),
       act_(std::move(act)),
-      asks_(std::move(asks)),
       thread_([this](const std::stop_token& stop) { watch(stop); }) {}
 
 void StandstillWatch::watch(const std::stop_token& stop) {
@@ -30,7 +28,6 @@ void StandstillWatch::watch(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     due |= standstill_.found(boot_clock_ns());
-    due |= asks_ && asks_();
     if (due) due = !act_();
     wait_.wait_for(lock, stop, kLookPause, [] { return false; });
   }

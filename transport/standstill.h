@@ -31,14 +31,12 @@ class Standstill {
 };
 
 /// A thread that looks often, and acts once the process goes on after a standstill: a stopped process, a
-/// suspended machine. Or once something else asks for it.
+/// suspended machine.
 class StandstillWatch {
  public:
   /// `act` runs on the watch's thread, which has the scheduling of the one that makes the watch. It must not
-  /// throw; when it returns false it is asked again at the next look. `asks`, where there is one, is called
-  /// at every look and says whether to act too; likewise.
-  StandstillWatch(std::chrono::nanoseconds longest, std::function<bool()> act,
-                  std::function<bool()> asks = {});
+  /// throw; when it returns false it is asked again at the next look.
+  StandstillWatch(std::chrono::nanoseconds longest, std::function<bool()> act);
   /// Waits for a running `act`.
   ~StandstillWatch() = default;
   StandstillWatch(const StandstillWatch&) = delete;
@@ -48,7 +46,7 @@ class StandstillWatch {
   void watch(const std::stop_token& stop);
 
   Standstill standstill_;
-  std::function<bool()> act_, asks_;
+  std::function<bool()> act_;
   std::mutex mutex_;  // nobody else's: a condition wants one
   std::condition_variable_any wait_;
   std::jthread thread_;  // last: ends before what it uses

@@ -28,6 +28,7 @@ ROLES = {
     "virtual_device": ("tool_pose device_info node_status",
                        "tool_force pointer_ray session_command scene_info node_status"),
     "omentum_session": ("session_command", "node_status"),
+    "ros_bridge": ("session_command", "tool_pose tool_force node_status"),
     "omentum_domain": ("node_status", "node_status"),
 }
 DEVICE = ("tool_pose device_info", "tool_force")  # of a maker's own bridge

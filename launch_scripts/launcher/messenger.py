@@ -1,5 +1,5 @@
 """A person's commands to the running nodes."""
-import subprocess
+from .host import Here
 
 SAID = {"reset": "run: reset", "clear-fault": "run: fault cleared", "record": "run: told to record, or to end it"}
 PAUSE = {"paused": "run: paused (p goes on)", "goes on": "run: goes on"}
@@ -9,8 +9,9 @@ class Messenger:
     """Sends one command after the other in the background (finding the nodes takes up to some seconds) and tells what
     became of it, when it did: of a pause, what haptic_node says."""
 
-    def __init__(self, program, arguments):
-        self.program, self.arguments = str(program), arguments
+    def __init__(self, program, arguments, host=Here()):
+        """`host`: the machine on which `program` runs, one of the session's network."""
+        self.program, self.arguments, self.host = str(program), arguments, host
         self.waiting = []  # (word, nodes to wait for, what to do afterwards, whether success is not told)
         self.process = None
 
@@ -23,9 +24,7 @@ class Messenger:
             self.finish()
         if self.waiting and not self.process:
             word, nodes = self.waiting[0][:2]
-            self.process = subprocess.Popen(
-                [self.program, word, *self.arguments, "--nodes", str(nodes)], stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.process = self.host.popen([self.program, word, *self.arguments, "--nodes", str(nodes)], captured=True)
 
     def finish(self):
         out, err = self.process.communicate()

@@ -5,6 +5,7 @@ import pathlib
 import tomllib
 from dataclasses import dataclass, field
 
+from . import host_table
 from .errors import Refusal
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
@@ -25,6 +26,7 @@ class Options:
     dds: dict = field(default_factory=dict)  # process -> vendor
     device: str = "virtual"  # virtual, mouse, none or trace
     trace: pathlib.Path = None
+    frames: pathlib.Path = None  # how the devices stand in the scene
     organ: pathlib.Path = None
     scale: float = None
     fixed: str = None
@@ -34,13 +36,14 @@ class Options:
     log: bool = False
     profile: str = "loopback"
     keystore: pathlib.Path = None  # of a secured session
+    hosts: host_table.HostTable = None  # None: all on this machine
     split: str = None
     map: str = None
     record: float = None  # pictures of a second of video
     ui_scale: float = None
     paused: bool = False
     restart: bool = False
-    programs: pathlib.Path = REPOSITORY / "build" / "release" / "bin"
+    programs: pathlib.Path = None
     check_only: bool = False
     prepare_only: bool = False
 
@@ -75,6 +78,7 @@ def build_parser():
         help="fast, cyclone, or haptic=fast,deform=cyclone,render=fast,device=cyclone")
     add("--device", default="virtual", metavar="KIND", help="virtual, mouse, none or trace:FILE (default: virtual). "
         "mouse: the pointer in the window moves the first instrument, key Tab picks the next one (docs/devices.md)")
+    add("--frames", metavar="FILE", help="how devices stand in the scene: axes, scale, clutch, handle (docs/devices.md)")
     add("--organ", metavar="FILE", help="your own organ (.h5) or mesh (.msh .vtk .vtu .node) instead of the scene's first one")
     add("--scale", type=float, metavar="METRES_PER_UNIT", help="of that mesh (default: found from its size)")
     add("--fixed", metavar="SPEC", help="supports of that mesh, as organ_build takes them "
@@ -83,6 +87,7 @@ def build_parser():
     add("--headless", action="store_true", help="write pictures instead of opening a window")
     add("--domain", type=int, metavar="N", help="DDS domain, 0..230 (default: a free one)")
     add("--profile", default="loopback", choices=("loopback", "lan"), help="QoS for one machine or for a network")
+    add("--hosts", metavar="HOSTS.toml", help="run the nodes on the machines of this table (docs/machines.md), with --profile lan")
     add("--log", action="store_true", help="also write every loop's samples to DIR/PROCESS.csv")
     add("--split", choices=("paper",), help="paper: hand and haptic_node on one processor, organ and picture on the "
         "other, as Cotin 1999 did with two machines")
@@ -110,12 +115,20 @@ def parse(arguments):
         ui_scale=given.ui_scale, paused=given.paused, restart=given.restart,
         check_only=given.check, prepare_only=given.prepare)
     options.device, options.trace = parse_device(given.device)
+    options.frames = existing(given.frames, "--frames") if given.frames else None
     options.keystore = parse_keystore(given.secure, given.keystore)
+    if given.hosts:
+        options.hosts, options.profile = host_table.read(given.hosts), "lan"
+        name_vendors(options)
     options.organ = existing(given.organ, "--organ") if given.organ else None
-    if os.environ.get("OMENTUM_BIN"):
-        options.programs = pathlib.Path(os.environ["OMENTUM_BIN"])
+    options.programs = programs_folder()
     check_values(options)
     return options
+
+
+def programs_folder():
+    """Where the programs are."""
+    return pathlib.Path(os.environ.get("OMENTUM_BIN") or REPOSITORY / "build" / "release" / "bin")
 
 
 def find_scene(given):
@@ -163,6 +176,12 @@ def check_vendor(vendor):
         raise Refusal(f"--dds: unknown vendor '{vendor}', expected {' or '.join(VENDORS)}")
 
 
+def name_vendors(options):
+    """A table of hosts may name them, node by node."""
+    for host in options.hosts.hosts:
+        options.dds.update({name: node.dds for name, node in host.nodes.items() if node.dds})
+
+
 def parse_device(text):
     kind, _, file = text.partition(":")
     if kind == "trace" and file:
@@ -179,7 +198,7 @@ def has_display():
 def check_values(options):
     if options.device == "mouse" and options.headless:
         raise Refusal("--device mouse needs a window to point at; run it without --headless")
-    if options.device == "mouse" and not has_display() and not options.prepare_only:
+    if options.device == "mouse" and not has_display() and not options.hosts and not options.prepare_only:
         raise Refusal("--device mouse needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set")
     if options.seconds is not None and not options.seconds > 0:
         raise Refusal(f"--seconds: found {options.seconds:g}, expected more than 0")
@@ -195,5 +214,7 @@ def check_values(options):
         raise Refusal(f"--ui-scale: found {options.ui_scale:g}, expected 0.5 to 4")
     if (options.scale or options.fixed) and not options.organ:
         raise Refusal("--scale and --fixed describe the mesh of --organ, which is missing")
+    if options.split and options.hosts:
+        raise Refusal("--split shares out one machine's processors; --hosts has several machines")
     if options.split and len(os.sched_getaffinity(0)) < 2:
         raise Refusal("--split paper needs two processors, found one")

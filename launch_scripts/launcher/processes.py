@@ -1,46 +1,31 @@
 """The processes of a session: started, watched, ended by their own ids."""
-import ctypes
-import os
 import shlex
 import signal
 import subprocess
 import time
 
-from .errors import Refusal
+from .host import Here
 
 STOP_PATIENCE_S = 8.0  # a node writes its report, render_node its last pictures
 LEAD_S = 0.15  # the hand lets go before the others end
 REFUSED = 2  # exit code of bad input
 MACHINE_LACKS = 3  # and of a node that this machine has no means for, as a display
-PR_SET_PDEATHSIG = 1
 
 
 class Node:
     """One process of the session. Started again, it keeps its place."""
 
-    def __init__(self, name, command, report, processors=None):
-        self.name, self.command, self.report, self.processors = name, command, report, processors
+    def __init__(self, name, command, report, processors=None, host=Here()):
+        """`report`: the file here that its own report becomes; None: it writes none."""
+        self.name, self.command, self.report, self.processors, self.host = name, command, report, processors, host
         self.process, self.exit, self.starts = None, None, 0
         self.told_to_end = False
 
     def start(self):
         self.exit, self.told_to_end = None, False
         self.starts += 1
-        self.report.unlink(missing_ok=True)  # of the run before: this one may end without one
-        try:
-            # a session of its own, among which Linux shares processors out: a node says how much of them it needs (runtime/niceness.h)
-            self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, start_new_session=True,
-                                            preexec_fn=self.prepare_child)
-        except OSError as error:
-            raise Refusal(f"{self.command[0]}: {error.strerror}") from error
-
-    def prepare_child(self):
-        # whatever ends the launcher ends its nodes
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
-        # a node that does not listen yet is told when it does (runtime/signals.h)
-        signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
-        if self.processors:
-            os.sched_setaffinity(0, self.processors)
+        # the report of the run before goes: this one may end without one
+        self.process = self.host.popen(self.command, processors=self.processors, results=[self.report] if self.report else [])
 
     def running(self):
         return self.process is not None and self.exit is None
@@ -57,6 +42,9 @@ class Node:
         if self.running() and not self.told_to_end and self.process.poll() is None:
             self.told_to_end = True
             self.process.terminate()
+
+    def realtime(self):
+        return self.running() and self.host.realtime(self.process)
 
     def failed(self):
         """A node that was never started, in a session that ended before its turn, did not fail."""
@@ -104,13 +92,3 @@ def stop_all(nodes):
             print(f"run: {node.name} does not end: killed", flush=True)
             node.process.kill()
             node.exit = node.process.wait()
-
-
-def realtime_granted(node):
-    """Whether any thread of the process runs under SCHED_FIFO: the kernel's word, not the node's."""
-    folder = f"/proc/{node.process.pid}/task"
-    try:
-        policies = [os.sched_getscheduler(int(thread)) & ~os.SCHED_RESET_ON_FORK for thread in os.listdir(folder)]
-        return os.SCHED_FIFO in policies
-    except OSError:
-        return False

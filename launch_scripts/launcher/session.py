@@ -1,4 +1,5 @@
-"""One run: four processes from start to report."""
+"""One run: four processes, of one machine or several, from start to report."""
+import contextlib
 import os
 import pathlib
 import tempfile
@@ -6,11 +7,11 @@ import time
 
 from . import processes, report, video
 from .domain import Domain
+from .errors import Refusal
+from .hosts import Hosts
 from .keys import Keys
-from .leftovers import Leftovers
 from .machine import StealWatch
 from .messenger import Messenger
-from .options import has_display
 
 POLL_S = 0.1
 REFUSAL_WINDOW_S = 10.0  # a node that ends with code 2 within this refused to start
@@ -30,22 +31,26 @@ def processors_of(split):
 class Session:
     """Runs until its time is over, somebody asks, or a node refuses to start."""
 
-    def __init__(self, options, scene, name):
-        self.options, self.scene, self.name = options, scene, name
-        on_network = options.profile == "lan"
-        self.domain = Domain(options.domain, options.programs / "omentum_domain" if on_network else None)
+    hosts = Hosts()
+
+    def __init__(self, options, scene, name, hosts=hosts):
+        self.options, self.scene, self.name, self.hosts = options, scene, name, hosts
+        control = hosts.control()
+        claim_program = control.file(options.programs / "omentum_domain") if options.profile == "lan" else None
+        self.domain = Domain(options.domain, claim_program, hosts.others(), control)
+        for line in hosts.advice(self.domain.number, options.profile == "lan"):
+            print(f"run: warning: {line}", flush=True)
         self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
         self.headless = options.headless
         self.stopping = False
         self.realtime = False
         self.restarts = {}
-        self.leftovers = Leftovers()
-        if not self.headless and not has_display():
+        if not self.headless and not hosts.of("render_node").has_display():
             self.headless = True
             print("run: no display: writing pictures instead (--headless)", flush=True)
         self.nodes = self.make_nodes()
-        self.messenger = Messenger(options.programs / "omentum_session", [
-            "--dds", options.dds["haptic_node"], *self.place()])
+        self.messenger = Messenger(control.file(options.programs / "omentum_session"), [
+            "--dds", options.dds["haptic_node"], *self.place(control)], control)
 
     def stop(self):
         self.stopping = True
@@ -53,9 +58,9 @@ class Session:
     # starting
     def make_nodes(self):
         journal = pathlib.Path(self.folder.name) / "cuts.json"  # ends with the session, outlives its nodes
-        own = {"haptic_node": [], "deform_node": ["--journal", str(journal)],
-               "render_node": ["--out", str(self.options.out.resolve())]}
-        if self.options.device != "none":
+        own = {"haptic_node": [], "deform_node": ["--journal", self.hosts.of("deform_node").result(journal)],
+               "render_node": ["--out", self.hosts.of("render_node").result(self.options.out.resolve())]}
+        if self.options.device != "none" and self.hosts.has("virtual_device"):
             own["virtual_device"] = self.device_options()
         if self.options.rate_hz:
             # the loop is stepped by the hand's poses: both keep the rate
@@ -69,24 +74,28 @@ class Session:
             if value:
                 own["render_node"] += [option, f"{value:g}"]
         processors = processors_of(self.options.split)
-        return [processes.Node(name, self.command(name) + extra, self.report_file(name), processors.get(name))
+        return [processes.Node(name, self.command(name) + extra + self.hosts.options_of(name), self.report_file(name),
+                               processors.get(name), self.hosts.of(name))
                 for name, extra in own.items()]
 
     def device_options(self):
+        host = self.hosts.of("virtual_device")
+        frames = ["--frames", host.file(self.options.frames)] if self.options.frames else []
         if self.options.trace:
-            return ["--trace", str(self.options.trace)]
-        return ["--mouse"] if self.options.device == "mouse" else []
+            return ["--trace", host.file(self.options.trace), *frames]
+        return (["--mouse"] if self.options.device == "mouse" else []) + frames
 
     def command(self, name):
-        command = [str(self.options.programs / name), "--scene", str(self.scene), "--dds", self.options.dds[name],
-                   *self.place(), "--report", str(self.report_file(name))]
+        host = self.hosts.of(name)
+        command = [host.file(self.options.programs / name), "--scene", host.file(self.scene), "--dds", self.options.dds[name],
+                   *self.place(host), "--report", host.result(self.report_file(name))]
         if self.options.log:
-            command += ["--log", str(self.options.out.resolve() / f"{name}.csv")]
+            command += ["--log", host.result(self.options.out.resolve() / f"{name}.csv")]
         return command
 
-    def place(self):
+    def place(self, host):
         """Where programs meet, as options of each of them."""
-        keys = ["--secure", str(self.options.keystore)] if self.options.keystore else []
+        keys = ["--secure", host.file(self.options.keystore)] if self.options.keystore else []
         return ["--domain", str(self.domain.number), "--profile", self.options.profile, *keys]
 
     def report_file(self, name):
@@ -103,6 +112,8 @@ class Session:
         vendors = sorted(set(self.options.dds[node.name] for node in self.nodes))
         secured = ", secured" if self.options.keystore else ""
         print(f"run: {self.name}; DDS domain {self.domain.number}, {' and '.join(vendors)}{secured}", flush=True)
+        for line in self.hosts.said():
+            print(f"run: {line}", flush=True)
         if self.options.split:
             sides = {}
             for node in self.nodes:
@@ -125,11 +136,12 @@ class Session:
                 processes.stop_all(self.nodes)
                 self.messenger.stop()
                 self.domain.release()
-                self.leftovers.remove()
+                machines = self.hosts.figures()
+                self.hosts.gather()
         if code == processes.REFUSED:
             self.clear_out()  # a picture of a session that never was
         else:
-            code = self.finish(seconds, steal_share)
+            code = self.finish(seconds, steal_share, machines)
         self.folder.cleanup()
         return code or (1 if any(node.failed() for node in self.nodes) else 0)
 
@@ -152,12 +164,10 @@ class Session:
         while not self.stopping and any(node.running() for node in self.nodes):
             self.obey(keys.wait(POLL_S))
             self.messenger.poll()
-            self.look_for_leftovers()
             elapsed = time.monotonic() - begin
             for node in self.nodes:
                 if not node.ended_now():
                     continue
-                self.leftovers.remove()
                 if self.ended(node, elapsed) == processes.REFUSED:
                     return processes.REFUSED
             self.restart_due()
@@ -170,6 +180,8 @@ class Session:
         """Somebody may have ended a node on purpose; the others go on in any case. Returns 2 for a refusal."""
         if node.exit == processes.REFUSED and node.starts == 1 and elapsed < REFUSAL_WINDOW_S:
             return processes.REFUSED
+        with contextlib.suppress(Refusal):  # a machine that is lost
+            node.host.fetch(node.report)
         if node.name == "render_node" and report.read_node(node.report, node.name).get("closed"):
             print("run: the window was closed", flush=True)
             self.stop()
@@ -190,15 +202,9 @@ class Session:
                 print(f"run: starting {node.name} again", flush=True)
                 node.start()
 
-    def look_for_leftovers(self):
-        for owner in (*self.nodes, self.messenger):
-            if owner.process is not None:
-                self.leftovers.look(owner.process.pid)
-
     def look_at_realtime(self):
         haptic = self.nodes[0]
-        if not self.realtime and haptic.running():
-            self.realtime = processes.realtime_granted(haptic)
+        self.realtime = self.realtime or haptic.realtime()
 
     # keys
     def obey(self, key):
@@ -211,12 +217,19 @@ class Session:
         self.messenger.send(command, sum(node.running() for node in self.nodes))
 
     # the end
-    def finish(self, seconds, steal_share):
-        """1 when hand and node never met, else 0."""
-        machine = {"realtime": self.realtime, "steal_share": round(steal_share, 5)}
-        merged = report.merge(self.name, seconds, machine, self.nodes, self.options.dds)
+    def finish(self, seconds, steal_share, machines):
+        """1 when hand and node never met, else 0. `machines`: of a table of hosts, as the report has them."""
+        machine = {"steal_share": round(steal_share, 5)}
+        if machines:  # the one that the hand is at
+            machine = {key: machines[self.hosts.control().name][key] for key in ("cores", "kernel", "steal_share")}
+        merged = report.merge(self.name, seconds, {**machine, "realtime": self.realtime}, self.nodes, self.options.dds)
+        if machines:
+            merged["hosts"] = machines
+        videos = merged["nodes"].get("render_node", {}).get("videos", [])
+        for one in videos:
+            one["folder"] = self.hosts.of("render_node").home(one["folder"])
         report.write(merged, self.options.out / "report.json")
         print(report.summary(merged), flush=True)
         print(f"run: {self.options.out / 'report.json'}", flush=True)
-        video.make_all(merged["nodes"].get("render_node", {}).get("videos", []))
+        video.make_all(videos)
         return 1 if report.never_answered(merged) else 0

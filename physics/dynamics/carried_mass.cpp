@@ -16,6 +16,8 @@ CarriedMass::CarriedMass(const geometry::TetraMesh& mesh, const MaterialMap& mat
   }
   lightened_.reserve(mass.size());
   lost_.reserve(mass.size());
+  least_.resize(mass.size());
+  restore();
 }
 
 void CarriedMass::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
@@ -24,7 +26,7 @@ void CarriedMass::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
   lost_.clear();
   for (const geometry::TetId t : tetrahedra) {
     for (const geometry::NodeId n : mesh_.tetrahedra[t]) {
-      const double left = std::max(mass_[n] - quarter_[t], kLeastShare * uncut_[n]);
+      const double left = std::max(mass_[n] - quarter_[t], least_[n]);
       if (left >= mass_[n]) continue;
       if (place_[n] < 0) {
         place_[n] = static_cast<std::int32_t>(lightened_.size());
@@ -37,8 +39,16 @@ void CarriedMass::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
   }
 }
 
+void CarriedMass::give(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    mass_[nodes[i]] += kg[i];
+    least_[nodes[i]] += kLeastShare * kg[i];
+  }
+}
+
 void CarriedMass::restore() noexcept {
   std::ranges::copy(uncut_, mass_.begin());
+  for (std::size_t n = 0; n < least_.size(); ++n) least_[n] = kLeastShare * uncut_[n];
 }
 
 }  // namespace omentum::physics

@@ -22,6 +22,8 @@ class CarriedMass {
   /// Precondition: each is there. Allocates nothing.
   void remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   void restore() noexcept;
+  /// Nodes that differ carry more from now on, kg[i] of tissue that is around nodes[i]; until restore().
+  void give(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept;
 
   std::span<const double> kg() const noexcept { return mass_; }  // [N]
   /// The nodes that the last remove() took some from, each once, and how much, kg.
@@ -32,6 +34,7 @@ class CarriedMass {
   const geometry::TetraMesh& mesh_;
   std::vector<double> quarter_;      // [T], kg
   std::vector<double> uncut_;        // [N], kg
+  std::vector<double> least_;        // [N], kg, what stays
   std::vector<double> mass_;         // [N], kg
   std::vector<std::int32_t> place_;  // [N] among lightened_; -1: not there
   std::vector<geometry::NodeId> lightened_;

@@ -93,6 +93,18 @@ bool ImplicitStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept 
   return factor_.take_mass(carried_.lightened(), carried_.lost_kg()) && definite;
 }
 
+// What goes as a whole moves on by itself, of which nobody hears.
+bool ImplicitStep::part(const PartedTetrahedra& parted, double anchor_kg) noexcept {
+  const bool is_anchored = factor_.add_mass(parted.loose, anchor_kg);
+  return remove(parted.taken) && is_anchored;
+}
+
+bool ImplicitStep::give_masses(std::span<const geometry::TetId> /*tetrahedra*/,
+                               std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept {
+  carried_.give(nodes, kg);
+  return factor_.add_masses(nodes, kg);
+}
+
 void ImplicitStep::restore() noexcept {
   factor_.restore();
   carried_.restore();

@@ -59,7 +59,10 @@ class ImplicitStep final : public JoinableStep {
   void turn(std::span<const geometry::NodeId> /*nodes*/, std::span<float> /*block*/) const noexcept override {
   }
 
-  KeptFactor& factor() { return factor_; }
+  bool part(const PartedTetrahedra& parted, double anchor_kg) noexcept override;
+  bool give_masses(std::span<const geometry::TetId> tetrahedra, std::span<const geometry::NodeId> nodes,
+                   std::span<const double> kg) noexcept override;
+  KeptFactor& factor() noexcept override { return factor_; }
 
  private:
   void look_ahead(const BodyState& state) noexcept;

@@ -151,30 +151,31 @@ RankSix KeptFactor::root_of_masses(std::span<const geometry::NodeId> nodes, std:
 
 bool KeptFactor::add_mass(std::span<const geometry::NodeId> nodes, double mass) noexcept {
   const std::array<double, 2> of_pair{mass, mass};
-  for (const geometry::NodeId n : nodes) mass_[n] += mass;
-  return change_masses(nodes.size(), [&](std::size_t from, std::size_t count) {
-    return root_of_masses(nodes.subspan(from, count), of_pair, true);
-  });
+  return change_masses(nodes, of_pair, true);
+}
+
+bool KeptFactor::add_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept {
+  return change_masses(nodes, kg, true);
 }
 
 bool KeptFactor::take_mass(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept {
-  for (std::size_t i = 0; i < nodes.size(); ++i) mass_[nodes[i]] -= kg[i];
-  return change_masses(nodes.size(), [&](std::size_t from, std::size_t count) {
-    return root_of_masses(nodes.subspan(from, count), kg.subspan(from, count), false);
-  });
+  return change_masses(nodes, kg, false);
 }
 
-template <class RootOfPair>
-bool KeptFactor::change_masses(std::size_t nodes, RootOfPair&& root_of_pair) noexcept {
+// By pairs; `kg`: of each node, or of a pair that all are like.
+bool KeptFactor::change_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg,
+                               bool is_added) noexcept {
   bool definite = true;
   known_blocks_.forget();
   std::array<RankSix, FactorDowndate::kMost> roots;
-  for (std::size_t next = 0; next < nodes;) {
+  for (std::size_t next = 0; next < nodes.size();) {
     std::size_t count = 0;
-    for (; count < roots.size() && next < nodes; ++count) {
-      const std::size_t pair = std::min<std::size_t>(nodes - next, 2);
-      roots[count] = root_of_pair(next, pair);
-      next += pair;
+    for (; count < roots.size() && next < nodes.size(); ++count) {
+      const auto pair = nodes.subspan(next, std::min<std::size_t>(nodes.size() - next, 2));
+      const auto own = kg.size() == nodes.size() ? kg.subspan(next, pair.size()) : kg.first(pair.size());
+      roots[count] = root_of_masses(pair, own, is_added);
+      for (std::size_t i = 0; i < pair.size(); ++i) mass_[pair[i]] += is_added ? own[i] : -own[i];
+      next += pair.size();
     }
     definite &= apply({roots.data(), count});
   }

@@ -44,6 +44,8 @@ class KeptFactor {
   /// Puts more mass on nodes, kg each, positive; on the factor too. Precondition: nodes differ. False as
   /// remove().
   [[nodiscard]] bool add_mass(std::span<const geometry::NodeId> nodes, double mass) noexcept;
+  /// Each of them its own.
+  [[nodiscard]] bool add_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept;
   /// Takes mass off nodes that differ, kg[i] off nodes[i], less than each has. False as remove().
   [[nodiscard]] bool take_mass(std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept;
   /// As constructed.
@@ -83,8 +85,8 @@ class KeptFactor {
   RankSix root_of(geometry::TetId t) const noexcept;
   RankSix root_of_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg,
                          bool is_added) const noexcept;
-  template <class RootOfPair>
-  bool change_masses(std::size_t nodes, RootOfPair&& root_of_pair) noexcept;
+  bool change_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg,
+                     bool is_added) noexcept;
   bool apply(std::span<const RankSix> roots) noexcept;
   void mark_ways(std::span<const geometry::NodeId> nodes) noexcept;
   void clear_columns(std::size_t width) noexcept;

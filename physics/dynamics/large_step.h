@@ -14,6 +14,11 @@ class LargeStep : public Yielding {
  public:
   /// One step under `external` forces, N. False: the result is not finite.
   [[nodiscard]] virtual bool step(BodyState& state, std::span<const double> external) noexcept = 0;
+  /// The same more exactly, for a state in which step() ended with more energy than was done to it; of what
+  /// is linear there is nothing more exact. False also then.
+  [[nodiscard]] virtual bool step_again(BodyState& /*state*/, std::span<const double> /*external*/) noexcept {
+    return false;
+  }
   /// J, with what is left.
   virtual double elastic_energy(std::span<const double> u) noexcept = 0;
   /// J, of forces that were held over a step which ended with velocities `v`.
@@ -26,6 +31,9 @@ class LargeStep : public Yielding {
   /// Tetrahedra go, and all come back (KeptFactor::remove and restore).
   [[nodiscard]] virtual bool remove(std::span<const geometry::TetId> tetrahedra) noexcept = 0;
   virtual void restore() noexcept = 0;
+  /// What the next remove() leaves without supports, of a body part of which has no masses: it has some from
+  /// now on.
+  virtual void let_go(std::span<const geometry::TetId> /*tetrahedra*/) noexcept {}
   /// What each node carries now, [N], kg; zero where the step moves it without a mass.
   virtual std::span<const double> mass() const noexcept = 0;
 

@@ -41,6 +41,7 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
       carried_(mesh, material, inertia.mass),
       law_(std::move(law)),
       added_(options.added),
+      linear_(mesh, material, options.linear),
       options_(options),
       factor_(mesh, material, inertia.fixed, inertia.mass, weights_of(inertia, options.step_s),
               options.most_compliance_nodes, options.added),
@@ -48,7 +49,8 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
       stands_(inertia.fixed.begin(), inertia.fixed.end()),
       ties_(inertia.mass.size()),
       rotation_(inertia.mass.size(), Eigen::Matrix3d::Identity()),
-      linear_at_(state_at_rest(inertia.mass.size())),
+      again_(state_at_rest(inertia.mass.size())),
+      linear_at_(again_),
       ahead_(3 * inertia.mass.size()),
       forces_(ahead_.size()),
       change_(ahead_.size()),
@@ -60,6 +62,9 @@ WarpedStep::WarpedStep(const geometry::TetraMesh& mesh, const MaterialMap& mater
       lacking_(ahead_.size()),
       residual_(ahead_.size()) {
   options_.added = {};
+  options_.linear = {};
+  for (std::size_t t = 0; t < left_.size(); ++t)
+    if (linear_.has(geometry::TetId(t))) law_.remove(geometry::TetId(t));
   for (const geometry::NodeId n : added_.nodes()) stands_[n] = 1;
   count_ties();
 }
@@ -117,8 +122,10 @@ void WarpedStep::linearize(const BodyState& state) noexcept {
 void WarpedStep::find_forces(std::span<const double> v) noexcept {
   law_.forces(ahead_, forces_);
   added_.add_product(-1, ahead_, forces_);
+  linear_.add_product(-1, ahead_, forces_);
   law_.product(v, product_);
   added_.add_product(1, v, product_);
+  linear_.add_product(1, v, product_);
   for (std::size_t c = 0; c < forces_.size(); ++c) {
     forces_[c] -= inertia_.mass_damping_per_s * carried_.kg()[c / 3] * v[c] +
                   inertia_.stiffness_damping_s * product_[c];
@@ -151,6 +158,7 @@ void WarpedStep::add_impulse(std::span<const double> external, std::span<double>
 void WarpedStep::multiply(std::span<const double> x, std::span<double> y) noexcept {
   law_.product(x, y);
   added_.add_product(1, x, y);
+  linear_.add_product(1, x, y);
   const SystemWeights& weights = factor_.weights();
   for (std::size_t c = 0; c < y.size(); ++c) {
     y[c] = is_held(c) ? 0.0 : weights.mass * carried_.kg()[c / 3] * x[c] + weights.stiffness * y[c];
@@ -201,13 +209,41 @@ bool WarpedStep::solve(double enough, std::span<double> lacking, std::span<doubl
   return std::isfinite(left2);
 }
 
-bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
+void WarpedStep::take_off_law(std::span<const geometry::TetId> tetrahedra) noexcept {
   is_linear_ = false;
   for (const geometry::TetId t : tetrahedra) {
-    law_.remove(t);
+    if (linear_.has(t)) {
+      linear_.remove(t);
+    } else {
+      law_.remove(t);
+    }
     if (std::exchange(left_[static_cast<std::size_t>(t)], std::uint8_t{0}) == 0) continue;
     for (const geometry::NodeId n : mesh_.tetrahedra[t]) --ties_[n];
   }
+}
+
+// What goes as a whole stays in the factor, which only says where to look for a solution.
+bool WarpedStep::part(const PartedTetrahedra& parted, double anchor_kg) noexcept {
+  take_off_law(parted.whole);
+  carried_.remove(parted.whole);
+  const bool is_anchored = factor_.add_mass(parted.loose, anchor_kg);
+  return remove(parted.taken) && is_anchored;
+}
+
+bool WarpedStep::give_masses(std::span<const geometry::TetId> tetrahedra,
+                             std::span<const geometry::NodeId> nodes, std::span<const double> kg) noexcept {
+  is_linear_ = false;
+  for (const geometry::TetId t : tetrahedra) {
+    if (!linear_.has(t)) continue;
+    linear_.remove(t);
+    law_.add(t);
+  }
+  carried_.give(nodes, kg);
+  return factor_.add_masses(nodes, kg);
+}
+
+bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
+  take_off_law(tetrahedra);
   // the factor, which only says where to look for a solution, keeps the mass: that is a removal less for each
   // node
   carried_.remove(tetrahedra);
@@ -217,8 +253,12 @@ bool WarpedStep::remove(std::span<const geometry::TetId> tetrahedra) noexcept {
 void WarpedStep::restore() noexcept {
   is_linear_ = false;
   for (std::size_t t = 0; t < left_.size(); ++t) {
-    if (left_[t] == 0) law_.add(geometry::TetId(t));
+    const geometry::TetId id(t);
+    const bool has = left_[t] != 0 && !linear_.has(id);
+    if (has && linear_.had(id)) law_.remove(id);
+    if (!has && !linear_.had(id)) law_.add(id);
   }
+  linear_.restore();
   std::ranges::fill(left_, 1);
   count_ties();
   for (auto* kept : {&residual_, &change_, &foreseen_}) std::ranges::fill(*kept, 0.0);

@@ -1,6 +1,7 @@
 #include "physics/hybrid/hybrid_step.h"
 
 #include "physics/direct_solve.h"
+#include "physics/dynamics/carried_mass.h"
 #include "physics/dynamics/implicit_step.h"
 #include "physics/dynamics/warped_step.h"
 
@@ -20,20 +21,6 @@ std::size_t at(NodeId n) {
   return 3 * static_cast<std::size_t>(n);
 }
 
-// Of the dynamic part, in its own nodes.
-std::vector<NodeId> connection_of(const MeshSplit& split) {
-  std::vector<NodeId> own;
-  for (const NodeId n : split.connection) own.push_back(split.dynamic.own_node[n]);
-  return own;
-}
-
-std::vector<SurfaceId> connection_on_surface(const HybridBody& body) {
-  std::vector<SurfaceId> found;
-  for (const NodeId n : body.split.connection)
-    found.push_back(body.surface.of_node[body.split.precomputed.own_node[n]]);
-  return found;
-}
-
 // Where the precomputed part's surface rests under its own nodes' weights, without the dynamic part.
 std::vector<Vec3> sag_of(const HybridBody& body) {
   const MeshPart& part = body.split.precomputed;
@@ -51,24 +38,36 @@ std::vector<Vec3> sag_of(const HybridBody& body) {
   return sag;
 }
 
-Inertia inertia_of(const HybridBody& body) {
+Inertia inertia_of(const HybridBody& body, const Connection& connection) {
   Inertia own = body.inertia;
   own.fixed = supports_of(body.split.dynamic, body.inertia.fixed);
   own.mass.clear();
   for (const NodeId n : body.split.dynamic.node) own.mass.push_back(body.inertia.mass[n]);
+  if (!connection.is_tied()) return own;
+  std::vector<double> mass;
+  for (const SurfaceId s : connection.nodes())
+    mass.push_back(body.inertia.mass[body.split.precomputed.node[body.surface.node[s]]]);
+  const std::vector<double> carried = connection.carried(mass);
+  for (std::size_t m = 0; m < carried.size(); ++m) {
+    double& sum = own.mass[connection.leaders()[m]];
+    sum = std::max(sum + carried[m], CarriedMass::kLeastShare * sum);
+  }
   return own;
 }
 
-std::unique_ptr<JoinableStep> dynamic_step_of(const HybridBody& body, const AddedStiffness& added,
-                                              double step_s, int most_compliance_nodes) {
+std::unique_ptr<JoinableStep> dynamic_step_of(const HybridBody& body, const Connection& connection,
+                                              const Eigen::MatrixXd& S, double step_s,
+                                              int most_compliance_nodes) {
+  const AddedStiffness added = connection.added(S);
+  Inertia inertia = inertia_of(body, connection);
   const geometry::TetraMesh& mesh = body.split.dynamic.mesh;
   if (body.law == DynamicLaw::kLinear) {
     return std::make_unique<ImplicitStep>(
-        mesh, body.material, inertia_of(body),
+        mesh, body.material, std::move(inertia),
         ImplicitOptions{.step_s = step_s, .most_compliance_nodes = most_compliance_nodes, .added = added});
   }
   return std::make_unique<WarpedStep>(
-      mesh, body.material, inertia_of(body), Corotational(mesh, body.material),
+      mesh, body.material, std::move(inertia), Corotational(mesh, body.material),
       WarpedOptions{.step_s = step_s, .most_compliance_nodes = most_compliance_nodes, .added = added});
 }
 
@@ -78,17 +77,17 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
     : node_(body.split.dynamic.node),
       own_node_(body.split.dynamic.own_node),
       own_tetrahedron_(body.split.dynamic.own_tetrahedron),
-      connection_(connection_of(body.split)),
+      connection_(body.split, body.surface, body.tie),
       surface_of_(own_node_.size()),
       viscosity_s_(body.inertia.stiffness_damping_s),
-      part_(body.compliance, connection_on_surface(body), sag_of(body)),
-      dynamic_(dynamic_step_of(body, {connection_, part_.stiffness()}, step_s, most_compliance_nodes)),
+      part_(body.compliance, {connection_.nodes().begin(), connection_.nodes().end()}, sag_of(body)),
+      dynamic_(dynamic_step_of(body, connection_, part_.stiffness(), step_s, most_compliance_nodes)),
       mass_(own_node_.size()),
       own_(state_at_rest(node_.size())),
       own_external_(own_.u.size()),
       own_yield_(own_.u.size()),
       own_ahead_(own_.u.size()),
-      f_c_(3 * connection_.size()),
+      f_c_(3 * connection_.nodes().size()),
       w_c_(f_c_.size()),
       w_(3 * static_cast<std::size_t>(part_.mobile_count())),
       known_(most_compliance_nodes) {
@@ -105,7 +104,8 @@ HybridStep::HybridStep(HybridBody body, double step_s, int most_compliance_nodes
   const auto most = static_cast<std::size_t>(most_compliance_nodes);
   touched_.reserve(most);
   turned_.reserve(most);
-  support_.reserve(connection_.size() + most);
+  support_.reserve(connection_.leaders().size() + most);
+  led_.resize(3 * connection_.leaders().size());
   passed_on_.resize(static_cast<Eigen::Index>(f_c_.size()), 3 * most_compliance_nodes);
   held_.resize(3 * most_compliance_nodes, 3 * most_compliance_nodes);
   rows_.resize(9 * support_.capacity() * most);
@@ -146,26 +146,38 @@ void HybridStep::condense(std::span<const double> forces, Sag sag) noexcept {
   collect_loads(forces, sag);
   gather(forces, own_external_);
   part_.condense(loads(), sag, f_c_);
-  for (std::size_t k = 0; k < connection_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i) own_external_[at(connection_[k]) + i] += f_c_[3 * k + i];
+  connection_.add_gathered(f_c_, own_external_);
 }
 
 // w_c = u_c + b v_c, which the precomputed part has to follow.
 void HybridStep::lead(std::span<const double> u, std::span<const double> v) noexcept {
-  for (std::size_t k = 0; k < connection_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      w_c_[3 * k + i] = u[at(connection_[k]) + i] + viscosity_s_ * v[at(connection_[k]) + i];
+  connection_.lead(u, v, viscosity_s_, w_c_);
+}
+
+// Nodes that are held to be somewhere are there, beyond what floats make of it: no gap at the border.
+void HybridStep::follow(Sag sag) noexcept {
+  part_.follow(w_c_, loads(), sag, f_c_, w_);
+  for (std::size_t k = 0; k < connection_.nodes().size(); ++k)
+    std::copy_n(w_c_.data() + 3 * k, 3, w_.data() + 3 * static_cast<std::size_t>(connection_.nodes()[k]));
 }
 
 bool HybridStep::step(BodyState& state, std::span<const double> external) noexcept {
+  return move(state, external, &LargeStep::step);
+}
+
+bool HybridStep::step_again(BodyState& state, std::span<const double> external) noexcept {
+  return move(state, external, &LargeStep::step_again);
+}
+
+bool HybridStep::move(BodyState& state, std::span<const double> external, Step step) noexcept {
   gather(state.u, own_.u);
   gather(state.v, own_.v);
   condense(external, Sag::kWith);
-  if (!dynamic_->step(own_, own_external_)) return false;
+  if (!(dynamic_.get()->*step)(own_, own_external_)) return false;
   scatter(own_.u, state.u);
   scatter(own_.v, state.v);
   lead(own_.u, own_.v);
-  part_.follow(w_c_, loads(), Sag::kWith, f_c_, w_);
+  follow(Sag::kWith);
   for (std::size_t s = 0; s < surface_node_.size(); ++s) {
     if (!surface_of_[surface_node_[s]].valid()) continue;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -185,7 +197,7 @@ void HybridStep::foresee(const BodyState& state, std::span<const double> externa
   dynamic_->foresee(own_, own_external_, own_ahead_);
   for (std::size_t c = 0; c < own_ahead_.size(); ++c) own_.v[c] = (own_ahead_[c] - own_.u[c]) / step_s();
   lead(own_ahead_, own_.v);
-  part_.follow(w_c_, loads(), Sag::kWith, f_c_, w_);
+  follow(Sag::kWith);
   std::ranges::copy(state.u, u.begin());
   scatter(own_ahead_, u);
   const double share = step_s() / (step_s() + viscosity_s_);
@@ -203,9 +215,9 @@ void HybridStep::yield_to(std::span<const double> forces, std::span<double> yiel
   gather(yield, own_yield_);
   dynamic_->yield_to(own_external_, own_yield_);
   const double share = step_s() / (step_s() + viscosity_s_);
-  for (std::size_t k = 0; k < connection_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i) w_c_[3 * k + i] = own_yield_[at(connection_[k]) + i] / share;
-  part_.follow(w_c_, loads(), Sag::kWithout, f_c_, w_);
+  connection_.lead(own_yield_, own_yield_, 0, w_c_);
+  for (double& w : w_c_) w /= share;
+  follow(Sag::kWithout);
   std::ranges::fill(yield, 0.0);
   scatter(own_yield_, yield);
   for (std::size_t s = 0; s < surface_node_.size(); ++s) {
@@ -241,10 +253,10 @@ void HybridStep::restore() noexcept {
   find_mass();
 }
 
-// Each touched node's displacement by those of dynamic nodes, and these nodes: connection nodes first.
+// Each touched node's displacement by those of dynamic nodes, and these nodes: leaders first.
 void HybridStep::find_rows(std::span<const NodeId> nodes) noexcept {
   touched_.clear();
-  support_.assign(connection_.begin(), connection_.end());
+  support_.assign(connection_.leaders().begin(), connection_.leaders().end());
   for (const NodeId n : nodes)
     if (!own_node_[n].valid()) touched_.push_back(surface_of_[n]);
   part_.passed_on(touched_, passed_on_.leftCols(static_cast<Eigen::Index>(3 * touched_.size())));
@@ -254,9 +266,11 @@ void HybridStep::find_rows(std::span<const NodeId> nodes) noexcept {
   for (std::size_t p = 0; p < nodes.size(); ++p) {
     const NodeId own = own_node_[nodes[p]];
     if (!own.valid()) {
-      for (std::size_t i = 0; i < 3; ++i, ++column)
-        for (std::size_t c = 0; c < f_c_.size(); ++c)
-          rows_[c * width + 3 * p + i] = static_cast<float>(passed_on_(static_cast<Eigen::Index>(c), column));
+      for (std::size_t i = 0; i < 3; ++i, ++column) {
+        connection_.gather(std::span(passed_on_.col(column).data(), f_c_.size()), led_);
+        for (std::size_t m = 0; m < led_.size(); ++m)
+          rows_[m * width + 3 * p + i] = static_cast<float>(led_[m]);
+      }
       continue;
     }
     const auto found = static_cast<std::size_t>(std::ranges::find(support_, own) - support_.begin());
@@ -281,8 +295,8 @@ void HybridStep::add_yield_held(std::span<const NodeId> nodes, std::span<float> 
   }
 }
 
-// What is known is of the rest shape. A column of the precomputed part's goes by connection nodes alone,
-// which do not turn; each other node's turns with it.
+// What is known is of the rest shape. A column of the precomputed part's goes by the connection's leaders
+// alone, which do not turn; each other node's turns with it.
 void HybridStep::compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept {
   if (!known_.find(nodes, block)) {
     find_rows(nodes);

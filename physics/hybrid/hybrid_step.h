@@ -4,6 +4,7 @@
 #include "geometry/surface.h"
 #include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/known_blocks.h"
+#include "physics/hybrid/connection.h"
 #include "physics/hybrid/mesh_split.h"
 #include "physics/hybrid/precomputed_part.h"
 
@@ -17,7 +18,7 @@ enum class DynamicLaw {
   kCorotational,  // WarpedStep: what is pulled, turned and lifted away
 };
 
-/// What a hybrid step is of; all of it outlives the step, but for `inertia` and `weights`.
+/// What a hybrid step is of; all of it outlives the step, but for `inertia`, `weights` and `tie`.
 struct HybridBody {
   const MeshSplit& split;
   const geometry::Surface& surface;     // of the precomputed part, in its own nodes
@@ -27,6 +28,7 @@ struct HybridBody {
   Inertia inertia;               // of the whole, [N]; what the precomputed part's own nodes weigh is not read
   std::vector<double> weights;   // [3N], N, that always act on the precomputed part's own nodes
   DynamicLaw law = DynamicLaw::kLinear;
+  const BorderTie* tie = nullptr;  // of parts that share no nodes: how they hold together
 };
 
 /// The tissue of the precomputed part is that of the dynamic one without its mass: K (u + b v) = f at all of
@@ -35,6 +37,12 @@ struct HybridBody {
 /// one step old would make it unstable. So the whole is one implicit step of all tissue, and stable for any
 /// dt. With the co-rotational law the dynamic part may turn as far as it likes, the precomputed one not: S
 /// takes a turn of the border for a strain, and holds against it.
+///
+/// Parts that share no nodes are two meshes in one, as `whole` is numbered. Their connection nodes are the
+/// precomputed part's own and follow nodes of the dynamic one, w_c = P (u + b v), which take P^T S P, P^T f_c
+/// and the lumped masses P^T m_c in return: still one implicit step, of less freedom. A leading node that
+/// loses all its tetrahedra goes on to lead: the precomputed part's bared border keeps to the shapes that P
+/// has.
 ///
 /// Vectors are [3N] of the whole mesh. Nodes inside the precomputed part have no tensors: theirs stay as they
 /// are, and forces on them beside `weights` do nothing. Only tetrahedra of the dynamic part are removed,
@@ -46,6 +54,7 @@ class HybridStep final : public LargeStep {
 
   double step_s() const override { return dynamic_->step_s(); }
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
+  [[nodiscard]] bool step_again(BodyState& state, std::span<const double> external) noexcept override;
   /// Of the dynamic part, and of the precomputed one as far as its connection nodes deform it: no more than
   /// what work() has done.
   double elastic_energy(std::span<const double> u) noexcept override;
@@ -68,23 +77,26 @@ class HybridStep final : public LargeStep {
   using Sag = PrecomputedPart::Sag;
 
   PrecomputedPart::Loads loads() const { return {loaded_, loads_}; }
+  using Step = decltype(&LargeStep::step);
+  bool move(BodyState& state, std::span<const double> external, Step step) noexcept;
   void collect_loads(std::span<const double> forces, Sag sag) noexcept;
   void condense(std::span<const double> forces, Sag sag) noexcept;
   void gather(std::span<const double> whole, std::span<double> own) const noexcept;
   void scatter(std::span<const double> own, std::span<double> whole) const noexcept;
   void find_mass() noexcept;
   void lead(std::span<const double> u, std::span<const double> v) noexcept;
+  void follow(Sag sag) noexcept;
   void find_rows(std::span<const geometry::NodeId> nodes) noexcept;
   void add_yield_held(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept;
 
   std::vector<geometry::NodeId> node_;            // [d] of the whole, each dynamic node
   std::vector<geometry::NodeId> own_node_;        // [N] of the dynamic part; invalid: none of it
   std::vector<geometry::TetId> own_tetrahedron_;  // [T] of the dynamic part
-  std::vector<geometry::NodeId> connection_;      // [c] of the dynamic part
-  std::vector<geometry::NodeId> surface_node_;    // [mobile] of the whole, each of the precomputed surface
-  std::vector<SurfaceId> surface_of_;             // [N] of the precomputed part's own; invalid: none
-  std::vector<double> weights_;                   // [3N]
-  double viscosity_s_;                            // b
+  Connection connection_;
+  std::vector<geometry::NodeId> surface_node_;  // [mobile] of the whole, each of the precomputed surface
+  std::vector<SurfaceId> surface_of_;           // [N] of the precomputed part's own; invalid: none
+  std::vector<double> weights_;                 // [3N]
+  double viscosity_s_;                          // b
   PrecomputedPart part_;
   std::unique_ptr<JoinableStep> dynamic_;
   std::vector<double> mass_;          // [N], kg
@@ -99,8 +111,9 @@ class HybridStep final : public LargeStep {
   std::vector<geometry::TetId> removed_;  // workspace, capacity of the dynamic part
   // workspace of compliance(): p nodes, of them q of the precomputed part's own
   std::vector<SurfaceId> touched_;         // [q]
-  std::vector<geometry::NodeId> support_;  // connection, then other dynamic nodes
+  std::vector<geometry::NodeId> support_;  // leaders of the connection, then other dynamic nodes
   Eigen::MatrixXd passed_on_, held_;       // [3c x 3q], [3q x 3q]
+  std::vector<double> led_;                // [3m]
   std::vector<float> rows_;                // [3 support][3p]
   std::vector<geometry::NodeId> turned_;   // [p] of the dynamic part; invalid: none of it
   KnownBlocks known_;

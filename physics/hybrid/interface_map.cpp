@@ -13,6 +13,8 @@ using Triangle = std::array<std::int32_t, 3>;
 
 // Each edge of a face in so many pieces: what is integrated has kinks at the other mesh's edges.
 constexpr int kPieces = 8;
+// Of a place on a face, the share of the corner behind it.
+constexpr double kNoWeight = 1e-12;
 
 // Places in the coarse tissue, by tetrahedra behind its boundary.
 class Behind {
@@ -53,6 +55,8 @@ class Rows {
 
   void add(Eigen::Index row, const geometry::Tetrahedron& t, const Eigen::Vector4d& weights) {
     for (std::size_t i = 0; i < 4; ++i) {
+      if (std::abs(weights[static_cast<Eigen::Index>(i)]) <= kNoWeight * weights.cwiseAbs().maxCoeff())
+        continue;
       auto [found, fresh] = columns_.try_emplace(t[i]);
       if (fresh) found->second = Eigen::VectorXd::Zero(count_);
       found->second[row] += weights[static_cast<Eigen::Index>(i)];

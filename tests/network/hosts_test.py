@@ -5,63 +5,23 @@ Usage: hosts_test.py PROGRAMS SCENE [--long]      the folder of the programs; a 
 Exit code 77: this machine does not allow it; why is said.
 """
 import json
-import os
 import pathlib
-import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
+from namespaces import SKIPPED, Network, obstacle
+
 PROGRAMS, SCENE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 HOST_OF = {"haptic_node": "theatre", "virtual_device": "theatre", "deform_node": "cluster", "render_node": "gallery"}
-HOSTS = ("theatre", "cluster", "gallery")
 ENDING = ("virtual_device", "haptic_node", "deform_node", "render_node")  # the hand lets go first
 FAST, CYCLONE = dict.fromkeys(HOST_OF, "fast"), dict.fromkeys(HOST_OF, "cyclone")
 BOUND_J = 0.01  # what a hand may be given (docs/devices.md)
 START_S = 3  # until everybody has found everybody
 ORGANS_TOLD_HZ = 18  # a node's status, which echoes the newest pose, comes so often
 MIXED = {**FAST, "deform_node": "cyclone", "virtual_device": "cyclone"}
-
-
-def obstacle():
-    """What this machine does not allow, or nothing."""
-    if os.geteuid() != 0:
-        return "namespaces need root"
-    if not shutil.which("ip"):
-        return "the program ip is not installed (package iproute2)"
-    name = f"omentum-{os.getpid()}-try"
-    if subprocess.run(["ip", "netns", "add", name], capture_output=True, check=False).returncode != 0:
-        return "ip netns add is not allowed here"
-    subprocess.run(["ip", "netns", "del", name], check=True)
-    return None if os.access("/dev/net/tun", os.W_OK) else "/dev/net/tun is not there"
-
-
-class Network:
-    """Three hosts and the hub between them; gone at the end, with all that runs there."""
-
-    def __init__(self, *hub):
-        self.spaces = {host: f"omentum-{os.getpid()}-{host}" for host in HOSTS}
-        for space in self.spaces.values():
-            subprocess.run(["ip", "netns", "add", space], check=True)
-        ports = [f"{space}=10.77.0.{number}/24" for number, space in enumerate(self.spaces.values(), 1)]
-        self.hub = subprocess.Popen([PROGRAMS / "lossy_hub", *hub, *ports], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        if self.hub.stdout.readline() != b"ready\n":
-            self.close()
-            raise RuntimeError("no hub")
-
-    def start(self, host, command):
-        return subprocess.Popen(["ip", "netns", "exec", self.spaces[host], *map(str, command)], stdin=subprocess.DEVNULL,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-    def close(self):
-        self.hub.stdin.close()
-        self.hub.stdout.close()
-        self.hub.wait()
-        for space in self.spaces.values():
-            subprocess.run(["ip", "netns", "del", space], check=True)
 
 
 class Hosts(unittest.TestCase):
@@ -72,7 +32,7 @@ class Hosts(unittest.TestCase):
 
     def play(self, vendors, seconds, *hub):
         """The programs' reports."""
-        network = Network(*hub)
+        network = Network(PROGRAMS, *hub)
         nodes = {}
         try:
             for name, host in HOST_OF.items():
@@ -119,5 +79,5 @@ if __name__ == "__main__":
     why = obstacle()
     if why:
         print(f"skipped: {why}")
-        sys.exit(77)
+        sys.exit(SKIPPED)
     unittest.main(argv=sys.argv[:1])

@@ -9,6 +9,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(Scene, WhatIsNotWrittenKeepsItsDefault) {
   const auto file = write_scene(kGood);
@@ -54,7 +55,7 @@ target = [4, 5, 6]
 TEST(Scene, AnOrgansModelSaysItsKind) {
   for (const OrganModelWord& model : kOrganModels) {
     if (model.kind != OrganKind::kTetrahedralMesh) continue;  // intestine_keys_test.cpp
-    const std::string part = model.word == "hybrid" ? "\ndynamic = \"plane:x>0\"" : "";
+    const std::string part = model.word.starts_with("hybrid") ? "\ndynamic = \"plane:x>0\"" : "";
     const Scene scene = load_scene(write_scene(
         with("name = \"liver\"", "name = \"liver\"\nmodel = \"" + std::string(model.word) + "\"" + part)));
     EXPECT_EQ(scene.organs[0].model, model.word);
@@ -95,6 +96,12 @@ TEST(Scene, AByteOrderMarkIsPassedOver) {
 TEST(Scene, AMissingFileIsNamed) {
   EXPECT_THAT(message_of("/nonexistent/x.toml"),
               AllOf(HasSubstr("/nonexistent/x.toml"), HasSubstr("no such file")));
+}
+
+// toml++ quotes what it stumbled over as it is.
+TEST(Scene, ARefusalIsOfOneLineWhateverTheFileHolds) {
+  for (const std::string text : {"tru\n = 1", "level = t\n", "\"a\\nb\" = 1\n", "name = [\n1]\n"})
+    EXPECT_THAT(message_of(write_scene(text)), Not(HasSubstr("\n"))) << text;
 }
 
 TEST(Scene, TheProjectsOwnScenesAreValid) {

@@ -40,7 +40,7 @@ TEST(SceneValues, AreOnePerLineUnderTheNamesOfTheFile) {
 }
 
 // What is computed with, by the last bit.
-TEST(SceneValues, EveryDifferenceThatIsFeltChangesTheHash) {
+TEST(SceneValues, EveryDifferenceThatIsFeltOrScoredChangesTheHash) {
   const std::vector<std::function<void(Scene&)>> changes = {
       [](Scene& s) { s.organs[0].young_pa = std::nextafter(s.organs[0].young_pa, 1e9); },
       [](Scene& s) { s.organs[0].name += " "; },
@@ -55,6 +55,12 @@ TEST(SceneValues, EveryDifferenceThatIsFeltChangesTheHash) {
         s.tools[0].edge = {{0, 0, 0}, {0, 0, 0.01}};
       },
       [](Scene& s) { s.haptics.max_force_n = 4; },
+      [](Scene& s) { s.score.exposed_organ = "liver"; },
+      [](Scene& s) {
+        s.score.planned_line = {{0, 0, 0}, {0, 0, 0.01}};
+      },
+      [](Scene& s) { s.score.pull_limit_n = 1; },
+      [](Scene& s) { s.score.camera.emplace(); },
   };
   const std::string hash = scene_hash(scene_values(small_scene()));
   EXPECT_EQ(hash.size(), 64u);

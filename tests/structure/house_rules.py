@@ -21,7 +21,7 @@ FLOORS = {
     "node_common": {"geometry", "organ", "idl", "transport", "runtime", "scene"},
 }
 STANDING_ON = set(FLOORS)
-PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "session_tools", "organ_tools"}
+PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "ros_bridge", "session_tools", "organ_tools"}
 FREE = {"tests", "benchmarks"}  # may look into every room
 ROOMS = set(FLOORS) | PROGRAMS | FREE
 NO_ROOMS = ("build", "install", "cmake", ".")  # how the folders are called that may hold sources without being a room
@@ -29,7 +29,7 @@ GENERATED = {"messages": "idl"}  # folders of generated headers, and the room th
 
 # (pattern of a header, the folders that may include it, what it is)
 VENDORS = [
-    (re.compile(r"(fastdds|fastrtps|fastcdr|dds|ddsc|idlc|ddscxx)/"), ("transport/", "device_bridge/examples/"), "a DDS header"),
+    (re.compile(r"(fastdds|fastrtps|fastcdr|dds|ddsc|idlc|ddscxx)/"), ("transport/", "device_bridge/examples/", "ros_bridge/wire/"), "a DDS header"),
     (re.compile(r"(epoxy|GL|GLES\d?|EGL|GLFW|KHR)/|(.*/)?imgui_impl_"), ("render_node/gl/",), "an OpenGL or window header"),
     (re.compile(r"(linux/(input|hidraw|uinput|joystick)|libevdev|hidapi|libusb|HD|HDU|libudev|dhdc|drdc)\b"),
      ("device_bridge/",), "a device's header"),

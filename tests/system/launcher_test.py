@@ -808,6 +808,12 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertEqual(options.parse([str(HOLD), "--record"]).record, 25)
         self.assertIsNone(options.parse([str(HOLD)]).record)
 
+    def test_how_devices_stand_is_asked_of_virtual_device_alone(self):
+        frames = REPOSITORY / "device_bridge" / "examples" / "frames.toml"
+        self.assertEqual(self.nodes_asked("--frames", str(frames)), ["virtual_device"])
+        with self.assertRaisesRegex(Refusal, "--frames: missing.toml: no such file"):
+            options.parse([str(HOLD), "--frames", "missing.toml"])
+
     def test_what_an_earlier_session_recorded_goes_and_nothing_else_does(self):
         for name in ("video/000000.png", "video_2/000001.png", "video_2/mine.png", "videos/000000.png", "video/notes/000000.png"):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)

@@ -77,6 +77,8 @@ class SessionOnTrial {
     for (const std::string& name : names) start(name);
   }
   Process& operator[](const std::string& name) { return *processes_.at(name); }
+  /// From its next start on.
+  void set_vendor(const std::string& name, const std::string& vendor) { vendors_[name] = vendor; }
   void kill(const std::string& name) { processes_.at(name)->end(SIGKILL); }
 
   /// A person's command, through the real program. Its exit code.

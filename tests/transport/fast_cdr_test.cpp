@@ -42,6 +42,16 @@ TEST(Cdr, BytesAreThoseOfTheStandard) {
   EXPECT_EQ(bytes_of(command), expected);
 }
 
+// The two vendors' nodes hear the same; and what was heard can be said.
+TEST(Cdr, AZeroByteEndsAText) {
+  std::vector<char> bytes = bytes_of(msg::SessionCommand{.argument = "abcd"});
+  bytes[bytes.size() - 3] = 0;  // for the c
+  msg::SessionCommand decoded;
+  ASSERT_TRUE(decode(bytes.data(), bytes.size(), false, decoded));
+  EXPECT_EQ(decoded.argument, "ab");
+  EXPECT_TRUE(within_bounds(decoded));
+}
+
 TEST(Cdr, MembersAreAlignedToTheirOwnSize) {
   // behind the encapsulation: tool 4, organ 4, seq 8, tick 8, cause 4 + 4 + 8 + 8, version 8, three empty
   // sequences 4 each, grasping 1 + 3, count 8, cutting 1 + 7, count 8, two edges 48 each

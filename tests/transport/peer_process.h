@@ -2,11 +2,9 @@
 #pragma once
 
 #include "tests/support/process.h"
-#include "tests/support/shared_memory_folder.h"
 #include "transport/bus.h"
 
 #include <fcntl.h>
-#include <grp.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <signal.h>
@@ -15,7 +13,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -44,19 +41,16 @@ inline bool has_lan() {
   return found;
 }
 
-/// How a peer lives on this machine, where it is not as this process does.
-struct PeerLife {
-  uid_t user = geteuid();                  // root may start another user's
-  bool has_own_shared_memory = false;      // as in a container; see SharedMemoryFolder
-  std::filesystem::path messages_to = {};  // a file for its stderr
-  std::string keystore = {}, role = {};    // of a secured one
+/// The key store of a secured peer, and its part there; empty: unsecured.
+struct PeerKeys {
+  std::string keystore = {}, role = {};
 };
 
 /// The peer (peer.cpp), from the moment its writers exist until this object's end.
 class PeerProcess {
  public:
   PeerProcess(const std::string& what, transport::Vendor vendor, int domain,
-              transport::Profile profile = transport::Profile::kLoopback, const PeerLife& life = {}) {
+              transport::Profile profile = transport::Profile::kLoopback, const PeerKeys& keys = {}) {
     int to_peer[2], from_peer[2];
     if (pipe2(to_peer, O_CLOEXEC) != 0 || pipe2(from_peer, O_CLOEXEC) != 0)
       throw std::runtime_error("no pipe");
@@ -66,10 +60,9 @@ class PeerProcess {
     if (pid_ == 0) {
       dup2(to_peer[0], STDIN_FILENO);
       dup2(from_peer[1], STDOUT_FILENO);
-      if (!begin(life)) _exit(127);
       // an empty keystore ends the arguments: unsecured
       execl(program.c_str(), program.c_str(), what.c_str(), word(vendor), number.c_str(), word(profile),
-            life.keystore.empty() ? nullptr : life.keystore.c_str(), life.role.c_str(), nullptr);
+            keys.keystore.empty() ? nullptr : keys.keystore.c_str(), keys.role.c_str(), nullptr);
       _exit(127);
     }
     close(to_peer[0]);
@@ -93,11 +86,25 @@ class PeerProcess {
     pid_ = 0;
     return exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  /// Stops it for a while, as a debugger or a laptop's lid does.
+  /// While it lives the process is stopped, as by a debugger or a laptop's lid. Returns once it stands.
+  class Stop {
+   public:
+    explicit Stop(const PeerProcess& peer) : pid_(peer.pid_) {
+      kill(pid_, SIGSTOP);
+      int status = 0;
+      waitpid(pid_, &status, WUNTRACED);
+    }
+    ~Stop() { kill(pid_, SIGCONT); }
+    Stop(const Stop&) = delete;
+    Stop& operator=(const Stop&) = delete;
+
+   private:
+    pid_t pid_;
+  };
+  /// Stops it for a while.
   void freeze(std::chrono::milliseconds time) {
-    kill(pid_, SIGSTOP);
+    const Stop stop(*this);
     std::this_thread::sleep_for(time);
-    kill(pid_, SIGCONT);
   }
   void kill_it() {
     kill(pid_, SIGKILL);
@@ -105,18 +112,6 @@ class PeerProcess {
   }
 
  private:
-  // in the new process
-  static bool begin(const PeerLife& life) {
-    constexpr const char* kRoomForAll = "size=256m";
-    if (life.has_own_shared_memory && !SharedMemoryFolder::mount_here(kRoomForAll)) return false;
-    if (!life.messages_to.empty())
-      dup2(open(life.messages_to.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    if (life.user == geteuid()) return true;
-    const auto group = static_cast<gid_t>(life.user);
-    return setgroups(0, nullptr) == 0 && setresgid(group, group, group) == 0 &&
-           setresuid(life.user, life.user, life.user) == 0;
-  }
-
   pid_t pid_ = 0;
   int input_ = -1;
   int exit_code_ = 0;

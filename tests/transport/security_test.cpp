@@ -60,7 +60,7 @@ class Security : public testing::TestWithParam<Sides> {
   }
   std::unique_ptr<PeerProcess> peer(const std::string& what, const std::string& keystore = kOurs) const {
     return std::make_unique<PeerProcess>(what, GetParam().device, domain_, Profile::kLoopback,
-                                         test::PeerLife{.keystore = keystore, .role = kDevice});
+                                         test::PeerKeys{.keystore = keystore, .role = kDevice});
   }
 
   const int domain_ = test::domain_of_test();

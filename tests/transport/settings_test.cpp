@@ -34,5 +34,23 @@ TEST(Peers, ARefusedWordIsNamed) {
   }
 }
 
+TEST(Interfaces, AreChosenByNameOrAddressAndOthersRefusedWithWhatThereIs) {
+  const std::vector<Interface> present{{"lo", "127.0.0.1"}, {"lan0", "10.77.0.1"}};
+  EXPECT_EQ(choose_interface("lan0", present).value().address, "10.77.0.1");
+  EXPECT_EQ(choose_interface("10.77.0.1", present).value().name, "lan0");
+  EXPECT_FALSE(choose_interface("", present));
+  try {
+    choose_interface("wlan0", present);
+    FAIL() << "an interface that is not there was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("wlan0"));
+    EXPECT_THAT(error.what(), HasSubstr("lo 127.0.0.1, lan0 10.77.0.1"));
+  }
+}
+
+TEST(Interfaces, OfThisMachineIncludeTheLoopback) {
+  EXPECT_TRUE(choose_interface("127.0.0.1", interfaces_of_this_machine()));
+}
+
 }  // namespace
 }  // namespace omentum::transport

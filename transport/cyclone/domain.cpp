@@ -45,12 +45,14 @@ std::string milliseconds(int count) {
   return std::to_string(count) + "ms";
 }
 
-std::string general(Profile profile) {
+std::string general(Profile profile, const std::optional<Interface>& interface) {
   std::string text = element("MaxMessageSize", bytes(max_message_bytes(profile))) +
                      element("FragmentSize", bytes(fragment_bytes(profile)));
   // lo has no MULTICAST flag, and without multicast Cyclone finds no Fast DDS process started later
   if (profile == Profile::kLoopback)
     text += element("Interfaces", R"(<NetworkInterface name="lo" multicast="true"/>)");
+  else if (interface)
+    text += element("Interfaces", "<NetworkInterface address=\"" + interface->address + "\"/>");
   return element("General", text);
 }
 
@@ -82,11 +84,12 @@ void require_alike(const OpenDomain& open, const BusOptions& options) {
 
 }  // namespace
 
-std::string configuration(Profile profile, const std::vector<std::string>& peers) {
+std::string configuration(Profile profile, const std::vector<std::string>& peers,
+                          const std::optional<Interface>& interface) {
   // a "min" would refuse to start where the kernel allows less; Bus::warning() says so instead
   const std::string buffers = "<SocketReceiveBufferSize max=\"" + bytes(kSocketBufferBytes) + "\"/>";
   const auto used_peers = profile == Profile::kLan ? peers : std::vector<std::string>{};
-  return element("CycloneDDS", "<Domain Id=\"any\">" + general(profile) + discovery(used_peers) +
+  return element("CycloneDDS", "<Domain Id=\"any\">" + general(profile, interface) + discovery(used_peers) +
                                    element("Internal", buffers) + "</Domain>");
 }
 
@@ -100,9 +103,10 @@ Domain::Domain(const BusOptions& options) : id_(options.domain) {
     ++found->second.users;
     return;
   }
+  const bool lan = options.profile == Profile::kLan;
   const std::string text =
-      configuration(options.profile,
-                    options.profile == Profile::kLan ? peers_from_environment() : std::vector<std::string>{});
+      configuration(options.profile, lan ? peers_from_environment() : std::vector<std::string>{},
+                    lan ? interface_from_environment() : std::nullopt);
   const dds_entity_t entity = dds_create_domain(static_cast<dds_domainid_t>(id_), text.c_str());
   if (entity < 0)
     throw std::runtime_error("Cyclone DDS refused domain " + std::to_string(id_) + ": " +

@@ -2,14 +2,17 @@
 #pragma once
 
 #include "transport/bus.h"
+#include "transport/settings.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace omentum::transport::cyclone {
 
-/// Cyclone's configuration (XML) for a profile; peers are used on kLan.
-std::string configuration(Profile profile, const std::vector<std::string>& peers);
+/// Cyclone's configuration (XML) for a profile; peers and interface are used on kLan.
+std::string configuration(Profile profile, const std::vector<std::string>& peers,
+                          const std::optional<Interface>& interface);
 
 /// Holds a domain with our configuration open. Cyclone has one configuration per domain and process, so that
 /// the domain is shared by all participants that the process opens in it and closed with the last. It also

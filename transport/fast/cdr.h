@@ -9,6 +9,7 @@
 #include <fastcdr/exceptions/BadParamException.h>
 #include <fastcdr/exceptions/Exception.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -114,6 +115,7 @@ class Decoder {
   void get(std::string& text, std::size_t bound, std::size_t) {
     cdr_.deserialize(text);
     if (text.size() > bound) throw eprosima::fastcdr::exception::BadParamException("string over its bound");
+    text.resize(std::min(text.size(), text.find('\0')));  // as Cyclone DDS hears it, in C
   }
   template <class T>
   void get(std::vector<T>& values, std::size_t bound, std::size_t element_bound) {

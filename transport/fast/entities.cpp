@@ -1,18 +1,15 @@
 #include "transport/fast/entities.h"
 
-#include "transport/complaints.h"
 #include "transport/fast/complaints.h"
 #include "transport/keystore.h"
 #include "transport/settings.h"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 namespace omentum::transport::fast {
@@ -22,11 +19,6 @@ namespace {
 namespace rtps = eprosima::fastdds::rtps;
 using eprosima::fastrtps::Duration_t;
 
-// Two states of the largest size (3 MB) in flight between processes, and all else; a full segment loses
-// samples.
-constexpr std::uint32_t kSharedSegmentBytes = 8 * 1024 * 1024;
-// Of 52 kB each: two of our own, and two of each process that we write to.
-constexpr std::uint32_t kSharedPortsBytes = 1024 * 1024;
 // A reader that lost a sample learns of it within this; the default of 3 s would stall durable topics.
 constexpr int kHeartbeat_ms = 50;
 // How many participants of one peer machine are looked for, by their ports.
@@ -50,23 +42,22 @@ std::size_t largest_datagram(Profile profile, bool secured) {
   return secured ? std::max(kHandshakeBytes, max_message_bytes(profile)) : max_message_bytes(profile);
 }
 
-void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool secured, bool shares_memory) {
+// UDP alone, on one machine too: whoever writes through Fast DDS' shared memory takes a lock that each reader
+// takes, and waits for as long as a reader of lower priority is kept from its processor, or is stopped.
+void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool secured) {
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
   udp->maxMessageSize = static_cast<std::uint32_t>(largest_datagram(profile, secured));
   udp->maxInitialPeersRange = kPeerParticipants;
-  if (profile == Profile::kLoopback) udp->interfaceWhiteList = {"127.0.0.1"};
+  if (profile == Profile::kLoopback)
+    udp->interfaceWhiteList = {"127.0.0.1"};
+  else if (const auto interface = interface_from_environment())
+    udp->interfaceWhiteList = {interface->address};
   qos.transport().use_builtin_transports = false;
   qos.transport().send_socket_buffer_size = kSocketBufferBytes;
   qos.transport().listen_socket_buffer_size = kSocketBufferBytes;
   qos.transport().user_transports.push_back(udp);
-  if (shares_memory) {
-    auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
-    shared_memory->segment_size(kSharedSegmentBytes);
-    shared_memory->healthy_check_timeout_ms(kFastMailbox_ms);
-    qos.transport().user_transports.push_back(shared_memory);
-  }
 }
 
 void add_peers(dds::DomainParticipantQos& qos, const std::vector<std::string>& peers) {
@@ -99,18 +90,14 @@ void secure(dds::DomainParticipantQos& qos, const Credentials& credentials) {
   set("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
 }
 
-dds::DomainParticipantQos participant_qos(const BusOptions& options, bool shares_memory) {
+dds::DomainParticipantQos participant_qos(const BusOptions& options) {
   dds::DomainParticipantQos qos;
   qos.name(options.name);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = duration(kFastLease_ms);
   discovery.leaseDuration_announcementperiod = duration(kAnnouncementPeriod_ms);
   discovery.initial_announcements.count = kFirstAnnouncements;
-  set_transports(qos, options.profile, !options.keystore.empty(), shares_memory);
-  if (shares_memory) {
-    const std::string mark = SharedMemory().mark();  // see Neighbours
-    qos.user_data().data_vec({mark.begin(), mark.end()});
-  }
+  set_transports(qos, options.profile, !options.keystore.empty());
   if (options.profile == Profile::kLan) add_peers(qos, peers_from_environment());
   if (!options.keystore.empty()) secure(qos, find_credentials(options.keystore, Vendor::kFast, options.name));
   return qos;
@@ -146,39 +133,14 @@ void set_common(Qos& qos, const TopicSpec& spec) {
   }
 }
 
-void tell_of_udp(const BusOptions& options, const std::string& reason) {
-  tell_once(options.name.empty() ? "Fast DDS" : options.name, "no shared memory",
-            "Fast DDS sends over UDP, not through shared memory: " + reason);
-}
-
-// removes what the dead left, and looks whether there is room among the living
-bool can_share_memory(const BusOptions& options) {
-  const SharedMemory memory;
-  memory.remove_leftovers();
-  const std::string obstacle = memory.obstacle(options.domain, kSharedSegmentBytes + kSharedPortsBytes);
-  if (!obstacle.empty()) tell_of_udp(options, obstacle);
-  return obstacle.empty();
-}
-
 }  // namespace
 
-void tell_of_neighbour(const BusOptions& options) {
-  tell_of_udp(options, "another process of this domain is another user's, or has a /dev/shm of its own");
-}
-
-Entities::Entities(const BusOptions& options, bool may_share_memory) : profile(options.profile) {
+Entities::Entities(const BusOptions& options) : profile(options.profile) {
   tell_complaints_once();
   turn_off_delivery_inside_the_process();
-  std::optional<SharedMemoryTurn> turn;
-  if (may_share_memory && profile == Profile::kLoopback) {
-    turn.emplace();
-    shares_memory = can_share_memory(options);
-  }
   auto* factory = dds::DomainParticipantFactory::get_instance();
   participant = factory->create_participant(static_cast<std::uint32_t>(options.domain),
-                                            participant_qos(options, shares_memory),
-                                            shares_memory ? &neighbours : nullptr, dds::StatusMask::none());
-  turn.reset();
+                                            participant_qos(options), nullptr, dds::StatusMask::none());
   if (!participant)
     throw std::runtime_error("Fast DDS refused a participant in domain " + std::to_string(options.domain));
   publisher = participant->create_publisher(dds::PublisherQos());

@@ -1,7 +1,6 @@
 // The Fast DDS objects behind a participant, and how topics.h reads in Fast DDS' terms.
 #pragma once
 
-#include "transport/fast/neighbours.h"
 #include "transport/topics.h"
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -24,9 +23,8 @@ namespace dds = eprosima::fastdds::dds;
 
 /// Owns the participant; deletes everything it contains at its end.
 struct Entities {
-  /// may_share_memory: on kLoopback, where nothing speaks against it (shared_memory.h); else all goes over
-  /// UDP, and why is told once in this process.
-  explicit Entities(const BusOptions& options, bool may_share_memory = true);
+  /// Throws std::runtime_error when Fast DDS refuses.
+  explicit Entities(const BusOptions& options);
   ~Entities();
   Entities(const Entities&) = delete;
   Entities& operator=(const Entities&) = delete;
@@ -35,8 +33,6 @@ struct Entities {
   dds::Topic* topic(const TopicSpec& spec, const dds::TypeSupport& type);
 
   Profile profile;
-  bool shares_memory = false;
-  Neighbours neighbours;  // outlives the participant, which tells it
   dds::DomainParticipant* participant = nullptr;
   dds::Publisher* publisher = nullptr;
   dds::Subscriber* subscriber = nullptr;
@@ -45,9 +41,6 @@ struct Entities {
   std::mutex mutex_;  // guards topics_
   std::map<std::string, dds::Topic*> topics_;
 };
-
-/// Tells, once in this process, that a neighbour is out of shared memory's reach.
-void tell_of_neighbour(const BusOptions& options);
 
 /// max_bytes: an upper bound of the type's samples.
 dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_t max_bytes);

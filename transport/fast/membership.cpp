@@ -28,20 +28,12 @@ bool Membership::renew() noexcept {
       for (Endpoint* endpoint : endpoints_) endpoint->leave(*entities_);
       entities_.reset();
     }
-    entities_ = std::make_unique<Entities>(options_, may_share_memory_);
+    entities_ = std::make_unique<Entities>(options_);
     for (Endpoint* endpoint : endpoints_) endpoint->join(*entities_);
     return true;
   } catch (const std::exception&) {
     return false;
   }
-}
-
-bool Membership::must_do_without_shared_memory() {
-  const std::lock_guard lock(mutex_);
-  if (!may_share_memory_ || !entities_ || !entities_->neighbours.out_of_reach()) return false;
-  may_share_memory_ = false;
-  tell_of_neighbour(options_);
-  return true;
 }
 
 }  // namespace omentum::transport::fast

@@ -37,14 +37,9 @@ class Membership {
   /// attempt.
   bool renew() noexcept;
 
-  /// Whether this one shares memory and somebody in the domain is not reached by that: it must be renewed,
-  /// and the next ones are on UDP alone. To be asked from time to time.
-  bool must_do_without_shared_memory();
-
  private:
   BusOptions options_;
   std::mutex mutex_;  // guards the rest, also while endpoints join and leave
-  bool may_share_memory_ = true;
   std::unique_ptr<Entities> entities_;
   std::vector<Endpoint*> endpoints_;
 };

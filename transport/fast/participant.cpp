@@ -9,6 +9,7 @@
 #include "transport/settings.h"
 #include "transport/standstill.h"
 
+#include <algorithm>
 #include <atomic>
 #include <shared_mutex>
 #include <stdexcept>
@@ -25,10 +26,8 @@ WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication
   return id;
 }
 
-// A process that stood still for so long may have lost its mailbox, or been forgotten by some and not by
-// others.
-constexpr auto kForgottenAfter = std::chrono::milliseconds(kFastMailbox_ms) * 3 / 4;
-static_assert(kFastMailbox_ms < kFastLease_ms);
+// A process that stood still for so long forgot some others and not all, or they it.
+constexpr auto kForgottenAfter = std::chrono::milliseconds(std::min(kCycloneLease_ms, kFastLease_ms)) * 3 / 4;
 
 template <class M>
 class FastWriter final : public Writer<M>, private Endpoint {
@@ -189,9 +188,7 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
 
 Participant::Participant(const BusOptions& options)
     : membership_(std::make_unique<Membership>(options)),
-      watch_(std::make_unique<StandstillWatch>(
-          kForgottenAfter, [this] { return membership_->renew(); },
-          [this] { return membership_->must_do_without_shared_memory(); })) {}
+      watch_(std::make_unique<StandstillWatch>(kForgottenAfter, [this] { return membership_->renew(); })) {}
 
 Participant::~Participant() = default;
 

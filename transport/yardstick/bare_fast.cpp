@@ -1,7 +1,6 @@
 #include "transport/yardstick/bare_link.h"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -86,13 +85,12 @@ class BareFast final : public BareLink, private dds::DataReaderListener {
 
  private:
   static dds::DomainParticipantQos participant_qos() {
-    // the default transports, but UDP on lo only: by default it hears no discovery there
+    // as ours (fast/entities.cpp), and on lo only: by default it hears no discovery there
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {"127.0.0.1"};
     dds::DomainParticipantQos qos;
     qos.transport().use_builtin_transports = false;
-    qos.transport().user_transports = {
-        udp, std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>()};
+    qos.transport().user_transports = {udp};
     return qos;
   }
 

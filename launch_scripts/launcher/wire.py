@@ -1,0 +1,31 @@
+"""Messages between the launcher and its agent on another machine: a line of JSON each, and bytes that follow it."""
+import json
+
+CHUNK_BYTES = 1 << 20
+
+
+def write(stream, message, payload=b""):
+    """`payload`: bytes, or a file of which message["bytes"] are sent. One thread at a time."""
+    if isinstance(payload, bytes):
+        stream.write(json.dumps({**message, "bytes": len(payload)}).encode() + b"\n" + payload)
+    else:
+        stream.write(json.dumps(message).encode() + b"\n")
+        for part in parts(payload, message["bytes"]):
+            stream.write(part)
+    stream.flush()
+
+
+def read(stream):
+    """The next message, whose bytes are still to be read; None at the end, a torn line included."""
+    line = stream.readline()
+    return json.loads(line) if line.endswith(b"\n") else None
+
+
+def parts(stream, count):
+    """`count` bytes in pieces. Raises EOFError where they end before."""
+    while count > 0:
+        part = stream.read(min(count, CHUNK_BYTES))
+        if not part:
+            raise EOFError(f"{count} bytes are missing")
+        count -= len(part)
+        yield part

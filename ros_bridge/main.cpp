@@ -1,0 +1,101 @@
+// Shows a session's tools to ROS 2 (docs/devices.md, "Seen from ROS 2").
+#include "node_common/node_identity.h"
+#include "ros_bridge/republisher.h"
+#include "runtime/command_line.h"
+#include "runtime/rate_loop.h"
+#include "runtime/signals.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <stdexcept>
+
+namespace {
+
+using namespace omentum;
+
+struct Options {
+  transport::BusOptions bus{.name = "ros_bridge"}, ros{.name = "ros_bridge"};
+  ros::RepublisherOptions tools;
+  std::vector<std::string> names;
+  double rate_hz = 200;
+};
+
+// "1=PSM2" names the topics of tool 1.
+void name_tools(const std::vector<std::string>& names, ros::RepublisherOptions& tools) {
+  for (std::size_t id = 0; id < tools.names.size(); ++id) tools.names[id] = "tool" + std::to_string(id);
+  for (const std::string& text : names) {
+    const bool is_pair = text.size() > 2 && text[1] == '=' && text[0] >= '0' && text[0] <= '7';
+    if (!is_pair || !ros::is_namespace(text.substr(2)))
+      throw std::runtime_error(
+          "--name: found " + text +
+          ", expected TOOL=NAME with a tool from 0 to 7 and a name of letters, digits and _");
+    tools.names[static_cast<std::size_t>(text[0] - '0')] = text.substr(2);
+  }
+  for (std::size_t i = 0; i < tools.names.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (tools.names[i] == tools.names[j])
+        throw std::runtime_error("--name: found " + tools.names[i] + " twice, expected a name for each tool");
+}
+
+std::int64_t wall_now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+void run(Options& options) {
+  name_tools(options.names, options.tools);
+  runtime::RateLoop loop(options.rate_hz);
+  const runtime::StopSignal stop([&loop] { loop.stop(); });
+  const auto bus = transport::Bus::open(options.bus);
+  const auto port = ros::RosPort::open(options.ros);
+  ros::Republisher republisher(options.tools, *bus, *port, loop);
+  while (loop.wait() != runtime::Pace::Cause::kStopped) {
+    republisher.tick(wall_now_ns());
+    loop.finish_tick();
+  }
+  if (republisher.refused() > 0)
+    std::cerr << "ros_bridge: " << republisher.refused() << " messages could not be sent" << std::endl;
+}
+
+int ros_domain() {
+  const char* set = std::getenv("ROS_DOMAIN_ID");
+  return set ? std::atoi(set) : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  runtime::CommandLine line("ros_bridge",
+                            "Shows the tools of a running session to ROS 2, as CRTK names their topics: "
+                            "NAME/measured_cp, measured_cs, spatial/servo_cf and operating_state");
+  Options options;
+  options.ros.domain = ros_domain();
+  std::string dds = "fast", profile = "loopback", ros_profile = "lan";
+  line.needs(runtime::kRoomForDds);
+  line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
+  line.option("--domain", options.bus.domain, "the session's DDS domain").between(0, 230).show_default();
+  line.option("--profile", profile, "the session's: loopback (one machine) or lan")
+      .one_of({"loopback", "lan"})
+      .show_default();
+  line.option("--secure", options.bus.keystore, "the session's DDS Security key store").type_name("KEYSTORE");
+  line.option("--ros-domain", options.ros.domain, "of ROS (default: ROS_DOMAIN_ID, or 0)").between(0, 230);
+  line.option("--ros-profile", ros_profile, "of ROS: lan, or loopback for ROS nodes on lo alone")
+      .one_of({"loopback", "lan"})
+      .show_default();
+  line.option("--name", options.names, "the topics of a tool begin with this (default: tool0, tool1, ...)")
+      .type_name("TOOL=NAME");
+  line.option("--frame", options.tools.frame, "frame_id of the scene's frame W").show_default();
+  line.option("--rate-hz", options.rate_hz, "messages per second of each topic")
+      .between(1.0, 1000.0)
+      .show_default();
+  line.flag("--obey", options.tools.obeys,
+            "take NAME/state_command: pause, resume, and enable, which clears a latched fault");
+  return line.run(argc, argv, [&] {
+    options.bus.vendor = options.ros.vendor = transport::parse_vendor(dds);
+    options.bus.profile = transport::parse_profile(profile);
+    options.ros.profile = transport::parse_profile(ros_profile);
+    run(options);
+  });
+}

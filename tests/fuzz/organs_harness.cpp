@@ -1,0 +1,33 @@
+// An organ file: what is read of it can be used, whoever wrote it.
+#include "tests/fuzz/input_file.h"
+#include "tests/organ/hostile_organ.h"
+#include "tests/support/process.h"
+
+namespace omentum::fuzz {
+
+namespace {
+
+struct Checks : organ::HostileOrganTest {
+  void TestBody() override {}
+  using HostileOrganTest::expect_all_in_range;
+  using HostileOrganTest::file;
+};
+
+}  // namespace
+
+void try_input(std::span<const std::uint8_t> input) {
+  const InputFile file(text_of(input));
+  try {
+    Checks::expect_all_in_range(organ::load_organ(file.path(), organ::Load::kWithTensors));
+    if (testing::Test::HasFailure()) broken("an index of an organ is out of range");
+  } catch (const geometry::InputError& refusal) {
+    check_refusal(refusal.what(), file.path());
+  }
+}
+
+std::vector<std::string> seeds() {
+  const Checks honest;
+  return {test::read_text(honest.file)};
+}
+
+}  // namespace omentum::fuzz
