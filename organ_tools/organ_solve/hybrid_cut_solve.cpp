@@ -32,6 +32,10 @@ physics::StaticSolution solve_hybrid_cut(const organ::Organ& organ, const CutOrg
     throw InputError(
         "--law corotational: --remove names tetrahedra of the precomputed part; expected those of "
         "the dynamic part, or the linear law");
+  if (organ.split->tie)
+    throw InputError(
+        "--remove: names tetrahedra of the precomputed part, which shares no nodes with the dynamic one; "
+        "expected those of the dynamic part");
   physics::HybridCutStep step(tissue_of(organ, cut, imposed), kRestStep_s, 0);
   if (!step.remove(cut.removed))
     throw InputError("--remove: what is left hangs together too loosely to be solved");
