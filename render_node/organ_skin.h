@@ -5,6 +5,7 @@
 #include "render_node/bleeding.h"
 #include "render_node/organ_cut.h"
 #include "render_node/pallor.h"
+#include "render_node/shading_net.h"
 
 namespace omentum::render {
 
@@ -74,6 +75,7 @@ class OrganSkin {
   std::vector<Vec3f> drawn_;  // positions_, without the teeth of a cut
   std::vector<float> openness_;
   int level_;
+  ShadingNet net_, closed_net_;  // of left_ and of closed_
   SurfaceRefinement refinement_;
   BaredSkin bared_;
   MeshData mesh_;

@@ -101,6 +101,7 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
     s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
     read_supports(s, organ);
     if (organ.model == "hybrid") read_dynamic_part(s, scene, *organ.dynamics);
+    if (organ.model == "hybrid-cut") s.read("dynamic", organ.dynamics->dynamic_part, kRequired);
   }
   // a scene that is prepared names the file, and says what that is of
   const TomlSection::Need need = is_organ_file(organ.mesh) && !s.has("file") ? kOptional : kRequired;

@@ -48,6 +48,7 @@ class Agent:
         self.source, self.sink = source, sink
         self.store = directory / "files"
         self.store.mkdir(parents=True, exist_ok=True)
+        require_own(self.store)
         sessions = directory / "sessions"
         sessions.mkdir(exist_ok=True)
         forget_keys(sessions)
@@ -117,24 +118,29 @@ class Agent:
     def do_put(self, message):
         """A file into the store, by its hash, or into the session, by its name."""
         digest, name = message.get("digest"), message.get("name")
-        final = self.store / digest if digest else self.session / name
-        final.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        part = final.with_name(final.name + f".part{os.getpid()}")
-        total, pieces = hashlib.sha256(), wire.parts(self.source, message["bytes"])
+        pieces = wire.parts(self.source, message["bytes"])
         try:
-            with open(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, message["mode"]), "wb") as file:
-                for piece in pieces:
-                    self.heard = time.monotonic()
-                    total.update(piece)
-                    file.write(piece)
+            self.keep(self.store / digest if digest else self.session / name, message["mode"], pieces, digest)
         except OSError:
             for _ in pieces:
                 pass  # what follows in the stream is the next message
             raise
-        if digest and total.hexdigest() != digest:
-            part.unlink()
-            raise Refusal(f"{final}: arrived with the hash {total.hexdigest()}")
-        part.rename(final)
+
+    def keep(self, final, mode, pieces, digest):
+        """Whole or not at all: a disk that was full does not stay so for a part of a file."""
+        final.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        part, total = final.with_name(final.name + f".part{os.getpid()}"), hashlib.sha256()
+        try:
+            with open(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, mode), "wb") as file:
+                for piece in pieces:
+                    self.heard = time.monotonic()
+                    total.update(piece)
+                    file.write(piece)
+            if digest and total.hexdigest() != digest:
+                raise Refusal(f"{final}: arrived with the hash {total.hexdigest()}")
+            part.rename(final)
+        finally:
+            part.unlink(missing_ok=True)
 
     def do_link(self, message):
         """A file of the store under a name of the session: a program is called by its own name, an organ found by it."""
@@ -252,6 +258,23 @@ def forget(folder, seconds):
             entry.unlink(missing_ok=True)
 
 
+def require_own(folder):
+    """Programs are started from there that are known by name and size: whoever else writes there would choose them."""
+    if folder.stat().st_uid != os.geteuid():
+        raise Refusal(f"{folder}: belongs to another user, expected a directory of this one's own")
+
+
+def begin(source, sink, directory):
+    """The agent, or the end of it, with a line that the launcher passes on."""
+    os.umask(os.umask(0o022) | 0o022)
+    try:
+        return Agent(source, sink, pathlib.Path(directory).expanduser().absolute())
+    except OSError as error:
+        sys.exit(f"{error.filename or directory}: {error.strerror}")
+    except (Refusal, RuntimeError) as error:  # RuntimeError: of a user who is not known here
+        sys.exit(str(error) if isinstance(error, Refusal) else f"{directory}: {error}")
+
+
 def main(directory):
     def end(*_):
         # as if the launcher had left: a read that the signal interrupts goes on here. Nothing is raised, which would leave half
@@ -263,4 +286,4 @@ def main(directory):
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the launcher says when it is over
     sink = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever else prints must not speak to the launcher
-    Agent(sys.stdin.buffer, sink, pathlib.Path(directory).expanduser().absolute()).serve()
+    begin(sys.stdin.buffer, sink, directory).serve()

@@ -92,7 +92,7 @@ def shown(value):
 
 
 def is_text(value):
-    return isinstance(value, str) and bool(value)
+    return isinstance(value, str) and bool(value) and "\0" not in value
 
 
 def is_flag(value):
@@ -105,7 +105,8 @@ def is_name(value):
 
 def is_address(value):
     try:
-        return isinstance(value, str) and ipaddress.IPv4Address(value) is not None
+        address = ipaddress.IPv4Address(value if isinstance(value, str) else "")
+        return not (address.is_unspecified or address.is_multicast or address.is_reserved)
     except ValueError:
         return False
 
@@ -119,7 +120,8 @@ def are_words(value):
 
 
 def are_variables(value):
-    return isinstance(value, dict) and all(isinstance(text, str) for text in value.values())
+    return isinstance(value, dict) and all(is_text(name) and "=" not in name and isinstance(text, str) and "\0" not in text
+                                           for name, text in value.items())
 
 
 def read_node(section):
@@ -142,7 +144,7 @@ def read_host(section):
         reach=section.take("reach", lambda value: are_words(value) and value, "a list of words, a command that runs a line of shell there"),
         interface=section.take("interface", is_text, "the name or address of a network interface"),
         peers=section.take("peers", are_addresses, "a list of IPv4 addresses"),
-        environment=section.take("environment", are_variables, "a table of texts", default={}))
+        environment=section.take("environment", are_variables, "a table of texts, and names without =", default={}))
     for key, given in (("user", host.user), ("reach", host.reach)):
         if host.here and given:
             raise section.refusal(key, "the launcher's own machine (here = true) has none")

@@ -69,8 +69,8 @@ class Hosts:
     def bring_to(self, host, options, scene):
         files = [(options.programs / name, f"bin/{name}") for name in self.programs_of(host)]
         organs = [(file, f"organs/{number}/{file.name}") for number, file in enumerate(organ_files(scene, host.spec.nodes))]
-        if options.trace and "virtual_device" in host.spec.nodes:
-            files.append((options.trace, f"traces/{options.trace.name}"))
+        if "virtual_device" in host.spec.nodes:
+            files += [(file, f"{kind}/{file.name}") for kind, file in (("traces", options.trace), ("frames", options.frames)) if file]
         host.bring(files + organs)
         for name in self.programs_of(host):
             require_runnable(host, options.programs / name)

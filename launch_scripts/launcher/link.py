@@ -21,13 +21,14 @@ from .remote_process import RemoteProcess
 PING_S = 1.0
 ANSWER_S = 90.0  # longer than ssh waits for a network
 # the launcher's own modules, unpacked to a place of their own: whatever version another session has there
-BOOTSTRAP = """import io, sys, tarfile, tempfile
+BOOTSTRAP = """import io, signal, sys, tarfile, tempfile
+signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
 with tempfile.TemporaryDirectory(prefix="omentum-agent-") as place:
     size = int(sys.stdin.buffer.readline())
     tarfile.open(fileobj=io.BytesIO(sys.stdin.buffer.read(size))).extractall(place)
     sys.path.insert(0, place)
     from launcher import agent
-    agent.main(sys.argv[1])
+agent.main(sys.argv[1])
 """
 
 
@@ -45,7 +46,7 @@ class Link:
 
     def __init__(self, name, reach, directory):
         """`reach`: the words that, with a line of shell behind them, run it on the machine `name`. Raises Refusal."""
-        self.name, self.lost = name, False
+        self.name, self.lost, self.misheard = name, False, None
         self.answers, self.started, self.numbers = queue.Queue(), {}, itertools.count(1)
         self.writing, self.closing = threading.Lock(), threading.Event()
         line = f"exec python3 -B -c {shlex.quote(BOOTSTRAP)} {shlex.quote(directory)}"
@@ -99,6 +100,8 @@ class Link:
 
     def reason(self):
         """What ssh, or the other side, said last."""
+        if self.misheard:
+            return f": {self.misheard} where its agent should speak: a login without a terminal must print nothing"
         self.errors.seek(0)
         lines = self.errors.read().strip().splitlines()
         return f": {lines[-1]}" if lines else ""
@@ -113,6 +116,8 @@ class Link:
                     self.answers.put({"content": list(wire.parts(self.process.stdout, message["bytes"]))})
                 else:
                     self.answers.put(message)
+        except wire.Foreign as error:
+            self.misheard = str(error)
         except (EOFError, ValueError, OSError):
             pass
         self.lost = True

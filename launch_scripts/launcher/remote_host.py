@@ -5,6 +5,7 @@ import os
 import pathlib
 import time
 
+from .errors import Refusal
 from .host import Here
 from .link import Link
 from .remote_process import RemoteProcess
@@ -110,9 +111,16 @@ class Elsewhere(Here):
         """What there is by now of one result."""
         place = str(pathlib.PurePosixPath(self.results[str(here)]).relative_to(self.session))
         for name in self.link.ask("list", name=place)["files"]:
-            target = pathlib.Path(here) / pathlib.PurePosixPath(name).relative_to(place)
+            target = pathlib.Path(here) / self.below(place, name)
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_bytes(b"".join(self.link.ask("get", name=name)["content"]))
+
+    def below(self, place, name):
+        """What `name` is called within `place`: a machine that lies must not write elsewhere here."""
+        named = pathlib.PurePosixPath(name)
+        if not named.is_relative_to(place) or ".." in named.parts:
+            raise Refusal(f"{self.name}: {name}: found in place of a file of {place}")
+        return named.relative_to(place)
 
     def gather(self):
         for here in self.results:

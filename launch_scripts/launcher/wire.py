@@ -2,6 +2,11 @@
 import json
 
 CHUNK_BYTES = 1 << 20
+SHOWN_BYTES = 60  # of what is no message
+
+
+class Foreign(ValueError):
+    """A line that no end of a link wrote."""
 
 
 def write(stream, message, payload=b""):
@@ -16,9 +21,17 @@ def write(stream, message, payload=b""):
 
 
 def read(stream):
-    """The next message, whose bytes are still to be read; None at the end, a torn line included."""
+    """The next message, whose bytes are still to be read; None at the end, a torn line included. Raises Foreign."""
     line = stream.readline()
-    return json.loads(line) if line.endswith(b"\n") else None
+    if not line.endswith(b"\n"):
+        return None
+    try:
+        message = json.loads(line)
+    except ValueError:
+        message = None
+    if not isinstance(message, dict):
+        raise Foreign(f"found '{line[:SHOWN_BYTES].decode(errors='replace').strip()}'")
+    return message
 
 
 def parts(stream, count):

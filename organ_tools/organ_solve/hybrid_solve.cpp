@@ -233,18 +233,10 @@ class HybridRest {
   std::vector<Vec3> sag_;         // [n] under them, without the dynamic part
 };
 
-void require_dynamic(const organ::Organ& organ, const std::filesystem::path& file, const CutOrgan& cut,
-                     Numbering numbering) {
-  if (!organ.split) {
-    throw InputError(file.string() +
-                     ": has no dynamic part; --model hybrid expects an organ of organ_build --dynamic");
-  }
-  const geometry::FileNumbers names(organ.mesh.tetrahedron_numbers, organ.mesh.tetrahedra.size(), numbering);
-  for (const TetId t : cut.removed) {
-    if (organ.split->dynamic[t] != 0) continue;
-    throw InputError("--remove: tetrahedron " + std::to_string(names.of(static_cast<std::size_t>(t))) +
-                     " is of the precomputed part; --model hybrid expects those of the dynamic part");
-  }
+void require_dynamic(const organ::Organ& organ, const std::filesystem::path& file) {
+  if (organ.split) return;
+  throw InputError(file.string() +
+                   ": has no dynamic part; --model hybrid expects an organ of organ_build --dynamic");
 }
 
 }  // namespace
@@ -259,7 +251,7 @@ void require_knows_tie(const organ::Organ& organ, const std::filesystem::path& f
 physics::StaticSolution solve_hybrid(const organ::Organ& organ, const std::filesystem::path& file,
                                      const CutOrgan& cut, Imposed imposed, const Vec3& gravity,
                                      Numbering numbering, DynamicLaw law) {
-  require_dynamic(organ, file, cut, numbering);
+  require_dynamic(organ, file);
   const organ::StoredTensors tensors = organ::map_tensors(file, organ);
   organ::require_whole(tensors, file);
   const std::vector<Vec3> weights = weights_of(organ, cut, gravity);

@@ -73,6 +73,20 @@ TEST(DynamicsKeys, OneInEquilibriumSaysWhatBecomesOfItsPieces) {
   EXPECT_THAT(message_of(with("model = \"tensor-mass\"\npieces = \"fall\"")), HasSubstr("unknown key"));
 }
 
+TEST(DynamicsKeys, AHybridThatIsCutAnywhereSwingsAndSaysWhatBecomesOfItsPieces) {
+  const std::string hybrid = "dynamic = \"plane:x>0\"\nmodel = \"hybrid",
+                    cut = hybrid + "-cut\"\nlaw = \"corotational\"\nmass_damping_per_s = 3\n";
+  const OrganSpec organ = load_scene(with(cut)).organs[0];
+  EXPECT_EQ(organ.dynamics->law, "corotational");
+  EXPECT_EQ(organ.dynamics->mass_damping_per_s, 3);
+  EXPECT_EQ(organ.dynamics->dynamic_part, "plane:x>0");
+  EXPECT_EQ(organ.dynamics->pieces, "fall") << "as what has masses always did";
+  EXPECT_EQ(load_scene(with(cut + "pieces = \"drop\"")).organs[0].dynamics->pieces, "drop");
+  EXPECT_THAT(message_of(with(cut + "piece_gravity_m_s2 = [0, 0, -2]")), HasSubstr("unknown key"));
+  EXPECT_THAT(message_of(with(cut + "integrator = \"rk4\"")), HasSubstr("\"implicit\""));
+  EXPECT_THAT(message_of(with(hybrid + "\"\npieces = \"drop\"")), HasSubstr("unknown key"));
+}
+
 TEST(DynamicsKeys, ADynamicModelHasThemAndAPrecomputedOneDoesNot) {
   const auto file = with(
       "model = \"tensor-mass\"\nintegrator = \"rk4\"\nstep_s = 0.001\ngravity_m_s2 = [0, 0, -9.81]\n"

@@ -93,6 +93,11 @@ class Tables(WithFolder):
         self.refused(TABLE + "  [hosts.nodes.haptic_node]\n", "hosts[1].nodes.haptic_node: hosts[0] has it already")
         self.refused(TABLE.replace("--rate-hz", "--domain"), "hosts[0].nodes.haptic_node.options: found --domain, which the launcher gives")
         self.refused(TABLE.replace('user =', 'here = true\nuser ='), "hosts[1].user: the launcher's own machine")
+        self.refused(TABLE.replace("10.0.0.2", "0.0.0.0"), "hosts[1].address: found '0.0.0.0', expected an IPv4 address")
+        self.refused(TABLE.replace("10.0.0.2", "239.255.0.1"), "hosts[1].address: found '239.255.0.1'")
+        self.refused(TABLE.replace('user =', 'environment = {"A=B" = "x"}\nuser ='), "hosts[1].environment: found")
+        self.refused(TABLE.replace('user =', 'environment = {A = "x\\u0000"}\nuser ='), "hosts[1].environment: found")
+        self.refused(TABLE.replace('"500"', '"\\u0000"'), "hosts[0].nodes.haptic_node.options: found")
         with self.assertRaisesRegex(Refusal, "missing.toml: No such file"):
             host_table.read(self.folder / "missing.toml")
         told = subprocess.run([REPOSITORY / "launch_scripts" / "launch", self.folder / "missing.toml"], capture_output=True, text=True,
