@@ -118,8 +118,7 @@ std::vector<std::vector<TetId>> behind_of(const BoundedMesh& of, std::span<const
       }
     }
     std::ranges::sort(found);
-    const auto again = std::ranges::unique(found);
-    found.erase(again.begin(), again.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
   }
   return behind;
 }

@@ -268,7 +268,7 @@ SurfacePoint DeformedSurface::slide(const SurfacePoint& from, const Vec3& p) noe
     const auto [here, point] = walk_to(surface_, triangle, p, closest_on);
     return {here, point.barycentric};
   };
-  const SurfacePoint here = walk_from(from.triangle);
+  SurfacePoint here = walk_from(from.triangle);
   bool inside = here.barycentric.minCoeff() > kOnEdge;
   for (int v = 0; v < 3; ++v) {
     const auto node =

@@ -89,7 +89,7 @@ void tie_split(OrganSplit& split, BorderFaces border, const std::string& where) 
   if (faces.empty()) throw InputError(where + "no face of the precomputed part is at the border");
   for (std::vector<TriangleId>* list : {&faces, &of_dynamic}) {
     std::ranges::sort(*list);
-    list->erase(std::ranges::unique(*list).begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   split.tie = physics::tie_border(split.parts, split.surface, boundary, std::move(faces));
   require_coarser(led_by.size(), split.tie->slaves.size(), where);
