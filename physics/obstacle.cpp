@@ -9,7 +9,7 @@ namespace omentum::physics {
 namespace {
 
 // A force or a gap below this part of the largest one is zero.
-constexpr double kRounding = 1e-10;
+constexpr double kSolveRounding = 1e-10;
 // Whole blocks are exchanged that often without getting nearer before Murty's rule, one at a time, takes
 // over.
 constexpr int kBlockTries = 5;
@@ -60,8 +60,8 @@ class Pivoting {
   // Where the obstacle would have to pull, or the body is inside it.
   std::vector<std::size_t> wrong_places() const {
     const Eigen::VectorXd gap = compliance_ * force_ - depth_;
-    const double least_force = -kRounding * force_.cwiseAbs().maxCoeff();
-    const double least_gap = -kRounding * depth_.cwiseAbs().maxCoeff();
+    const double least_force = -kSolveRounding * force_.cwiseAbs().maxCoeff();
+    const double least_gap = -kSolveRounding * depth_.cwiseAbs().maxCoeff();
     std::vector<std::size_t> wrong;
     for (std::size_t i = 0; i < touches_.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);

@@ -17,7 +17,7 @@ constexpr std::int32_t kLeafSize = 4;  // as many as one box is worth
 constexpr int kDeepest = 64;  // halves of 2^31 are one after 31 branchings, and each leaves one waiting
 // Two projections that touch may come out as far apart as this share of their size: sums and products of
 // three terms.
-constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
+constexpr double kAxisRounding = 32 * std::numeric_limits<double>::epsilon();
 
 constexpr std::array<std::array<int, 3>, 4> kFaces{{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
 
@@ -43,7 +43,7 @@ struct Separation {
 
   bool separated_along(const Vec3& axis) const {
     const Interval a = project(triangle, axis), b = project(tetrahedron, axis);
-    const double slack = kRounding * size * axis.lpNorm<1>();
+    const double slack = kAxisRounding * size * axis.lpNorm<1>();
     return a.low > b.high + slack || b.low > a.high + slack;
   }
 };

@@ -8,13 +8,13 @@ namespace {
 using geometry::Vec3;
 
 // Ways that exceed the bound by rounding are left as they are.
-constexpr double kRounding = 1e-12;
+constexpr double kBoundRounding = 1e-12;
 
 // Whether it had to.
 bool bound(const Vec3& before, const Vec3& v_before, double most_m, double step_s, Vec3& x, Vec3& v) {
   const Vec3 way = x - before;
   const double squared = way.squaredNorm();
-  if (squared <= most_m * most_m * (1 + kRounding) && v.allFinite()) return false;
+  if (squared <= most_m * most_m * (1 + kBoundRounding) && v.allFinite()) return false;
   const double length = std::sqrt(squared);
   const Vec3 kept =
       std::isfinite(length) && length > 0 ? Vec3(way * std::min(1.0, most_m / length)) : Vec3(Vec3::Zero());

@@ -12,7 +12,7 @@ using geometry::Vec3;
 
 // Two that meet at a root of the cubic are this near each other, m: a hundred times the rounding of the root.
 constexpr double kMeeting_m = 1e-9;
-constexpr double kRounding = 1e-9;  // of a way
+constexpr double kWayRounding = 1e-9;  // of a way
 
 // ((c - a) x (d - a)) . (b - a) along the ways, as c0 + c1 t + c2 t^2 + c3 t^3.
 std::array<double, 4> volume(const Way& a, const Way& b, const Way& c, const Way& d) {
@@ -125,7 +125,7 @@ std::int64_t count_crossings(const GutParts& parts, std::span<const Vec3> from, 
       if (!parts.may_touch(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j))) continue;
       ++pairs;
       if (!boxes[i].intersects(boxes[j])) continue;
-      const double both = (1 + kRounding) * (ways[i] + ways[j]) + kMeeting_m;
+      const double both = (1 + kWayRounding) * (ways[i] + ways[j]) + kMeeting_m;
       if (squared_distance(parts.masses[i], parts.masses[j], from) > both * both) continue;
       crossings += parts_meet(parts.masses[i], parts.masses[j], from, to) ? 1 : 0;
     }
