@@ -5,6 +5,8 @@
 //   whole, whole/pressed  all tetrahedra with masses
 //   remove           one dynamic tetrahedron
 //   patch            the compliance of 24 nodes across the border, anew
+//   anywhere...      the same of an organ that is cut in either part (physics/hybrid/hybrid_cut_step.h)
+//   static/remove    as anywhere/remove, of an organ without masses (physics/static_factor.h)
 // Mesh: benchmarks/bench_mesh.h; 18 % of the tetrahedra are dynamic, as in Cotin 1998, section 6.3. Counters:
 // connection nodes, dynamic nodes.
 #include "benchmarks/bench_mesh.h"
@@ -14,7 +16,8 @@
 #include "physics/blas_threads.h"
 #include "physics/dynamics/implicit_step.h"
 #include "physics/dynamics/imposed_press.h"
-#include "physics/hybrid/hybrid_step.h"
+#include "physics/hybrid/hybrid_cut_step.h"
+#include "physics/static_factor.h"
 
 #include <benchmark/benchmark.h>
 
@@ -83,7 +86,13 @@ struct Body {
   std::vector<double> weights = std::vector<double>(3 * organ.mesh.positions.size());
   std::vector<TetId> order = split.parts.dynamic.tetrahedron;
 
-  Body() { std::ranges::shuffle(order, std::mt19937(1)); }
+  std::vector<TetId> anywhere;  // of both parts
+  std::vector<std::uint8_t> precomputed = split.precomputed();
+
+  Body() {
+    for (std::size_t t = 0; t < precomputed.size(); ++t) anywhere.emplace_back(t);
+    for (auto* mixed : {&order, &anywhere}) std::ranges::shuffle(*mixed, std::mt19937(1));
+  }
 
   // Nodes of the whole surface, the nearest to a place first.
   std::vector<NodeId> nearest(const Vec3& place, std::size_t count) const {
@@ -120,6 +129,15 @@ void removals(benchmark::State& state, const Body& body, LargeStep& stepper) {
   stepper.restore();
 }
 
+// Of both parts alike, and of an organ that is in equilibrium throughout (quasi-static-cut).
+template <class Cut>
+void removals_anywhere(benchmark::State& state, const Body& body, Cut& cut) {
+  cut.restore();
+  std::size_t next = 0;
+  for (auto _ : state) require(state, cut.remove({&body.anywhere[next++], 1}));
+  cut.restore();
+}
+
 void patches(benchmark::State& state, const Body& body, LargeStep& stepper) {
   std::vector<std::vector<NodeId>> all;
   for (std::size_t i = 0; i < 20; ++i) all.push_back(body.nearest(body.on_border(i), kPatchNodes));
@@ -135,6 +153,10 @@ void run(const Body& body) {
       kStep_s, kPatchNodes);
   const auto whole = std::make_shared<ImplicitStep>(body.organ.mesh, kLiver, body.inertia,
                                                     ImplicitOptions{.step_s = kStep_s});
+  const auto cut = std::make_shared<HybridCutStep>(
+      HybridTissue{body.organ.mesh, body.organ.material, body.inertia, body.precomputed}, kStep_s,
+      kPatchNodes);
+  const auto still = std::make_shared<StaticFactor>(body.organ.mesh, body.organ.material, body.organ.fixed);
   const auto add = [&](const char* name, int count, std::function<void(benchmark::State&)> what) {
     benchmark::RegisterBenchmark(
         name,
@@ -157,6 +179,11 @@ void run(const Body& body) {
     steps(s, body, *hybrid, false);
     hybrid->restore();
   });
+  add("anywhere", 500, [=, &body](auto& s) { steps(s, body, *cut, false); });
+  add("anywhere/pressed", 500, [=, &body](auto& s) { steps(s, body, *cut, true); });
+  add("anywhere/remove", kRemoved, [=, &body](auto& s) { removals_anywhere(s, body, *cut); });
+  add("anywhere/patch", 100, [=, &body](auto& s) { patches(s, body, *cut); });
+  add("static/remove", kRemoved, [=, &body](auto& s) { removals_anywhere(s, body, *still); });
   add("patch", 100, [=, &body](auto& s) { patches(s, body, *hybrid); });
   add("whole/patch", 100, [=, &body](auto& s) { patches(s, body, *whole); });
 }
@@ -178,5 +205,9 @@ int main(int argc, char** argv) {
   results.compare("step/cut", "whole");
   results.compare("remove", "whole/remove");
   results.compare("patch", "whole/patch");
+  results.compare("anywhere", "step");
+  results.compare("anywhere/pressed", "step/pressed");
+  results.compare("anywhere/remove", "static/remove");
+  results.compare("anywhere/patch", "patch");
   results.write();
 }

@@ -42,8 +42,14 @@ class LargeStepper final : public BodyStepper {
     loads.act(imposed_.impose(*large_, loads.presses(), state));
     return large_->work(loads.external(), state.v);
   }
+  Work step_shorter(BodyState& state, BodyLoads& loads) noexcept override {
+    if (!large_->step_again(state, loads.external())) return {};
+    return large_->work(loads.external(), state.v);
+  }
+  bool shortens() const noexcept override { return false; }
   double elastic_energy(std::span<const double> u) noexcept override { return large_->elastic_energy(u); }
   bool remove(std::span<const TetId> tetrahedra) noexcept override { return large_->remove(tetrahedra); }
+  void let_go(std::span<const TetId> tetrahedra) noexcept override { large_->let_go(tetrahedra); }
   void restore(std::span<const TetId> /*removed*/) noexcept override { large_->restore(); }
   void compliance(std::span<const NodeId> nodes, std::span<float> block) noexcept override {
     large_->compliance(nodes, block);

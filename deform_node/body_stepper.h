@@ -36,10 +36,13 @@ class BodyStepper {
   /// One step under `loads`, which are told how strong presses became. Their work, J; nothing where the
   /// result is not finite.
   virtual std::optional<double> step(physics::BodyState& state, BodyLoads& loads) noexcept = 0;
-  /// The same in kShorter steps; nothing also where the step's length is in the factor.
+  /// The same in kShorter steps, or in one that is more exact, under the forces that step() found; nothing
+  /// also where there is neither.
   virtual std::optional<double> step_shorter(physics::BodyState& /*state*/, BodyLoads& /*loads*/) noexcept {
     return {};
   }
+  /// Whether that was in shorter steps: whoever watches is told.
+  virtual bool shortens() const noexcept { return true; }
   /// J, of what is left.
   virtual double elastic_energy(std::span<const double> u) noexcept = 0;
 

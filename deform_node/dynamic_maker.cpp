@@ -7,7 +7,7 @@
 #include "physics/dynamics/spring_mesh.h"
 #include "physics/dynamics/stable_step.h"
 #include "physics/dynamics/tensor_mass.h"
-#include "physics/hybrid/hybrid_step.h"
+#include "physics/hybrid/hybrid_cut_step.h"
 
 #include <cstdio>
 #include <utility>
@@ -86,6 +86,10 @@ DynamicParts parts_of(const node::OrganSource& source, const scene::OrganSpec& s
 template <class Step>
 std::unique_ptr<OrganModel> make(const node::OrganSource& source, const scene::OrganSpec& spec,
                                  physics::StressLaw stress, Step&& step) {
+  if (source.organ.split && source.organ.split->tie) {
+    throw std::runtime_error(spec.dynamics->where + ": organ " + spec.name +
+                             ": its parts share no nodes; expected the model \"hybrid\"");
+  }
   return std::make_unique<DynamicModel>(parts_of(source, spec, stress, std::forward<Step>(step)));
 }
 
@@ -95,13 +99,24 @@ std::vector<double> components_of(std::span<const Vec3> vectors) {
   return components;
 }
 
-// What has no mass and never tears or is cut.
-void set_precomputed(const organ::OrganSplit& split, DynamicParts& parts) {
-  parts.precomputed = split.precomputed();
-  for (std::size_t n = 0; n < parts.body.inertia.mass.size(); ++n)
-    if (!split.parts.dynamic.own_node[n].valid()) parts.body.inertia.mass[n] = 0;
+// What has no mass and never tears: [T].
+std::vector<std::uint8_t> set_precomputed(const organ::OrganSplit& split, DynamicParts& parts) {
+  std::vector<std::uint8_t> precomputed = split.precomputed();
+  parts.covered = split.covered;
+  parts.body.inertia.mass =
+      physics::masses_of_dynamic(parts.body.mesh, std::move(parts.body.inertia.mass), precomputed);
   for (std::size_t t = 0; t < parts.tears.size(); ++t)
-    if (parts.precomputed[t] != 0) parts.tears[t] = {};
+    if (precomputed[t] != 0) parts.tears[t] = {};
+  return precomputed;
+}
+
+physics::DynamicLaw law_of(const scene::OrganSpec& spec) {
+  return spec.dynamics->law == "corotational" ? physics::DynamicLaw::kCorotational
+                                              : physics::DynamicLaw::kLinear;
+}
+
+StressLaw stress_of(physics::DynamicLaw law) {
+  return law == physics::DynamicLaw::kCorotational ? StressLaw::kTurned : StressLaw::kLinear;
 }
 
 template <class Law>
@@ -153,19 +168,41 @@ std::unique_ptr<OrganModel> make_hybrid(const node::OrganSource& source, const s
   const organ::OrganSplit& split = *organ.split;
   const std::vector<double> weights =
       components_of(physics::body_forces(organ.mesh, organ.material, spec.dynamics->gravity_m_s2));
-  const bool turns = spec.dynamics->law == "corotational";
-  const StressLaw stress = turns ? StressLaw::kTurned : StressLaw::kLinear;
+  const physics::DynamicLaw law = law_of(spec);
+  const StressLaw stress = stress_of(law);
   DynamicParts parts =
       parts_of(source, spec, stress, [&](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
         auto step = std::make_unique<physics::HybridStep>(
             physics::HybridBody{split.parts, split.surface, *split.compliance, organ.material, split.fixed,
-                                body.inertia, weights,
-                                turns ? physics::DynamicLaw::kCorotational : physics::DynamicLaw::kLinear},
+                                body.inertia, weights, law, split.tie ? &*split.tie : nullptr},
             dynamics.step_s.value_or(kImplicitStep_s), BodyStepper::kPatchNodes);
         return Stepping{make_large_stepper(organ.mesh.positions.size(), std::move(step))};
       });
-  set_precomputed(split, parts);
+  parts.precomputed = set_precomputed(split, parts);
   parts.gauge = [&organ, weights, stress] { return std::make_unique<HybridGauge>(organ, weights, stress); };
+  return std::make_unique<DynamicModel>(std::move(parts));
+}
+
+std::unique_ptr<OrganModel> make_hybrid_cut(const node::OrganSource& source, const scene::OrganSpec& spec) {
+  const organ::Organ& organ = source.organ;
+  if (!organ.split)
+    throw geometry::InputError("organ \"" + spec.name +
+                               "\": its file has no dynamic part; model \"hybrid-cut\" expects a hybrid "
+                               "organ (organ_build --dynamic)");
+  if (organ.split->tie)
+    throw geometry::InputError(
+        "organ \"" + spec.name +
+        "\": its parts share no nodes; model \"hybrid-cut\" expects parts of one mesh");
+  const physics::DynamicLaw law = law_of(spec);
+  DynamicParts parts = parts_of(
+      source, spec, stress_of(law), [&](const SteppedBody& body, const scene::DynamicsSpec& dynamics) {
+        auto step = std::make_unique<physics::HybridCutStep>(
+            physics::HybridTissue{body.mesh, body.material, body.inertia, organ.split->precomputed(), law},
+            dynamics.step_s.value_or(kImplicitStep_s), BodyStepper::kPatchNodes);
+        return Stepping{make_large_stepper(organ.mesh.positions.size(), std::move(step))};
+      });
+  parts.massless = set_precomputed(*organ.split, parts);
+  if (parts.piece_gravity_m_s2) parts.piece_gravity_m_s2 = parts.gravity_m_s2;
   return std::make_unique<DynamicModel>(std::move(parts));
 }
 

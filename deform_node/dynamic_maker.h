@@ -21,5 +21,8 @@ std::unique_ptr<OrganModel> make_spring_mass(const node::OrganSource& source, co
 /// section 6): one body to hands, cuts and pictures. Precondition: `source` was loaded with the part's
 /// tensors.
 std::unique_ptr<OrganModel> make_hybrid(const node::OrganSource& source, const scene::OrganSpec& spec);
+/// The same organ cut in either part: no tensors are read. Throws geometry::InputError for one that has no
+/// dynamic part.
+std::unique_ptr<OrganModel> make_hybrid_cut(const node::OrganSource& source, const scene::OrganSpec& spec);
 
 }  // namespace omentum::deform

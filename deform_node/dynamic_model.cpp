@@ -15,20 +15,12 @@ using geometry::TetId;
 namespace {
 
 constexpr std::size_t kPatchNodes = BodyStepper::kPatchNodes;
-// As often as a screen shows it.
-constexpr double kTearCheck_s = 1.0 / 60;
-// Of one check: a crack runs by hundreds of tetrahedra a second, and each check leaves time for a step.
-constexpr std::size_t kMostTorn = 4;
 // Below this no eye and no hand finds a motion, J: a gram at 1 mm/s.
 constexpr double kUnnoticed_j = 5e-10;
+// What a step that is exact may seem to gain, by what its equation may lack.
+constexpr double kGained = 1e-2;
 // A step is taken when all but this share of it has passed, so that rounding of the clock loses none.
 constexpr double kRounding = 1e-9;
-
-double volume_of(const geometry::TetraMesh& mesh, TetId t) {
-  const auto& [a, b, c, d] = mesh.tetrahedra[t];
-  const auto& x = mesh.positions;
-  return geometry::signed_volume(x[a], x[b], x[c], x[d]);
-}
 
 Vec3 at(const std::vector<double>& components, NodeId n) {
   return Eigen::Map<const Vec3>(components.data() + 3 * n);
@@ -43,7 +35,8 @@ DynamicModel::DynamicModel(DynamicParts parts)
       gauge_(std::move(parts.gauge)),
       editor_(mesh_, {.smallest_piece_m3 = parts.smallest_piece_m3,
                       .uncut_surface = parts.uncut_surface,
-                      .kept = parts.precomputed}),
+                      .kept = parts.precomputed,
+                      .covered = parts.covered}),
       loads_(mesh_, parts.body.material, parts.gravity_m_s2),
       state_(physics::state_at_rest(mesh_.positions.size())),
       before_(state_),
@@ -53,7 +46,10 @@ DynamicModel::DynamicModel(DynamicParts parts)
       precomputed_(std::move(parts.precomputed)),
       burning_(mesh_.tetrahedra.size(), parts.cut_delay_s, parts.cut_rate_per_s),
       tearing_(mesh_, parts.body.material, parts.tears),
-      parted_(parts.is_static ? std::make_unique<PartedTissue>(mesh_, parts.body.inertia.fixed) : nullptr),
+      is_static_(parts.is_static),
+      parted_(parts.is_static || !parts.massless.empty()
+                  ? std::make_unique<PartedTissue>(mesh_, parts.body.inertia.fixed, std::move(parts.massless))
+                  : nullptr),
       piece_gravity_(parts.piece_gravity_m_s2),
       reach_m_(node::reach_m(mesh_.positions)),
       burnt_((mesh_.tetrahedra.size() + 7) / 8),
@@ -93,90 +89,6 @@ void DynamicModel::step(const TickLoads& loads, double dt_s) noexcept {
   show();
 }
 
-void DynamicModel::cut(std::span<const CutStroke> strokes, double dt_s) noexcept {
-  status_.cuts.tools = 0;
-  if (!strokes.empty()) swept_.follow(state_.u);
-  for (const CutStroke& stroke : strokes) {
-    const std::span<const TetId> met = those_that_can_go(swept_.find({stroke.from, stroke.to}));
-    burning_.meet(met, editor_);
-    if (met.empty()) continue;
-    status_.cuts.way_m += (stroke.to[0] + stroke.to[1] - stroke.from[0] - stroke.from[1]).norm() / 2;
-    status_.cuts.tools |= 1U << stroke.tool % 32;
-  }
-  const std::span<const TetId> burnt = burning_.burn(dt_s, editor_);
-  for (const TetId t : burnt) burnt_[t / 8] = static_cast<std::uint8_t>(burnt_[t / 8] | 1 << t % 8);
-  for (const TetId t : remove(burnt)) status_.cuts.lost_m3 += volume_of(mesh_, t);
-}
-
-std::span<const TetId> DynamicModel::those_that_can_go(std::span<const TetId> met) noexcept {
-  if (precomputed_.empty()) return met;
-  met_.clear();
-  std::ranges::copy_if(met, std::back_inserter(met_), [&](TetId t) { return can_go(t); });
-  return met_;
-}
-
-void DynamicModel::check(double dt_s) noexcept {
-  until_check_s_ -= dt_s;
-  if (until_check_s_ > 0) return;
-  until_check_s_ = std::max(until_check_s_ + kTearCheck_s, 0.0);
-  remove(tearing_.check(state_.u, editor_.removed_bits(), kMostTorn));
-  drop_what_fell();
-}
-
-void DynamicModel::drop_what_fell() noexcept {
-  const auto is_gone = [&](NodeId n) { return !(at(state_.u, n).squaredNorm() < reach_m_ * reach_m_); };
-  fallen_.clear();
-  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
-    if (can_go(TetId(t)) && !editor_.is_removed(TetId(t)) &&
-        std::ranges::any_of(mesh_.tetrahedra[t], is_gone))
-      fallen_.push_back(TetId(t));
-  remove(fallen_);
-}
-
-std::span<const TetId> DynamicModel::remove(std::span<const TetId> tetrahedra) noexcept {
-  if (tetrahedra.empty()) return {};
-  gone_.clear();
-  add_gone(editor_.remove(tetrahedra));
-  if (gone_.empty()) return {};
-  ++version_;
-  part_unheld();
-  return gone_;
-}
-
-// By topology, before anything is solved of what is left.
-void DynamicModel::part_unheld() noexcept {
-  const std::span<const TetId> pieces = parted_ ? parted_->find(editor_) : std::span<const TetId>();
-  const bool fall = piece_gravity_ && !pieces.empty();
-  const double held_j = fall ? stepper_->elastic_energy(state_.u) : 0;
-  if (fall) let_go(pieces);
-  if (!fall && !pieces.empty()) add_gone(editor_.remove(pieces));
-  forgo_gone();
-  // the law by which they go on may say more of the same shape: that is no divergence
-  if (fall) watch_.add_work(std::max(0.0, stepper_->elastic_energy(state_.u) - held_j));
-}
-
-void DynamicModel::let_go(std::span<const TetId> pieces) noexcept {
-  stepper_->let_go(pieces);
-  loads_.let_go(pieces, *piece_gravity_);
-  parted_->let_go(pieces, state_.v);
-}
-
-void DynamicModel::add_gone(const geometry::Removal& removal) noexcept {
-  gone_.insert(gone_.end(), removal.asked.begin(), removal.asked.end());
-  gone_.insert(gone_.end(), removal.repaired.begin(), removal.repaired.end());
-  gone_.insert(gone_.end(), removal.dropped.begin(), removal.dropped.end());
-  status_.repaired_tetrahedra += static_cast<std::uint32_t>(removal.repaired.size());
-}
-
-void DynamicModel::forgo_gone() noexcept {
-  status_.removed_tetrahedra = static_cast<std::uint32_t>(editor_.removed_count());
-  if (!stepper_->remove(gone_)) status_.diverged = true;
-  loads_.lighten(gone_, editor_);
-  for (const TetId t : gone_)
-    for (const NodeId n : mesh_.tetrahedra[t])
-      if (editor_.uses(n) == 0) Eigen::Map<Vec3>(state_.v.data() + 3 * n).setZero();
-}
-
 void DynamicModel::advance(int steps) noexcept {
   meeting_->act(steps * stepper_->step_s(), editor_, loads_);
   std::ranges::copy(state_.u, before_.u.begin());
@@ -187,8 +99,7 @@ void DynamicModel::advance(int steps) noexcept {
   if (status_.diverged) {
     std::swap(state_, before_);
     watch_ = watch;
-    status_.diverged = !run(steps, &BodyStepper::step_shorter);
-    if (!status_.diverged) status_.fault = "would diverge, goes on in shorter steps";
+    status_.diverged = !run_again(steps);
   }
   loads_.put_down();
   status_.simulated_s += steps * stepper_->step_s();
@@ -201,24 +112,30 @@ bool DynamicModel::run(int steps, Step step) noexcept {
     if (!work_j) return false;
     watch_.add_work(*work_j);
   }
-  const double energy_j =
-      stepper_->elastic_energy(state_.u) + physics::kinetic_energy(stepper_->mass(), state_.v);
-  return watch_.accepts(energy_j, steps * stepper_->step_s());
+  return watch_.accepts(energy_j(), steps * stepper_->step_s());
 }
 
-void DynamicModel::list_removed() noexcept {
-  gone_.clear();
-  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
-    if (editor_.is_removed(TetId(t))) gone_.push_back(TetId(t));
+double DynamicModel::energy_j() noexcept {
+  return stepper_->elastic_energy(state_.u) + physics::kinetic_energy(stepper_->mass(), state_.v);
 }
 
-// Whatever somebody says is gone. Rare: at worst O(T) for each.
-void DynamicModel::put_back_precomputed() noexcept {
-  if (std::ranges::all_of(gone_, [&](TetId t) { return can_go(t); })) return;
-  std::erase_if(gone_, [&](TetId t) { return !can_go(t); });
-  editor_.restore();
-  editor_.remove(gone_);
-  list_removed();
+// Steps that gain nothing are no divergence, also where those before them gained what the account does not
+// know.
+bool DynamicModel::run_again(int steps) noexcept {
+  if (stepper_->shortens()) {
+    const bool sound = run(steps, &BodyStepper::step_shorter);
+    if (sound) status_.fault = "would diverge, goes on in shorter steps";
+    return sound;
+  }
+  double most_j = energy_j();
+  for (int i = 0; i < steps; ++i) {
+    const auto work_j = stepper_->step_shorter(state_, loads_);
+    if (!work_j) return false;
+    watch_.add_work(*work_j);
+    most_j += *work_j;
+  }
+  const double now_j = energy_j();
+  return watch_.accepts(now_j, steps * stepper_->step_s()) || now_j <= (1 + kGained) * most_j;
 }
 
 void DynamicModel::reset() noexcept {
@@ -246,8 +163,7 @@ void DynamicModel::take_up(std::span<const std::uint8_t> removed_bits,
   editor_.set_removed(removed_bits);
   list_removed();
   put_back_precomputed();
-  if (!gone_.empty() && piece_gravity_) let_go(parted_->find(editor_));
-  if (!gone_.empty()) forgo_gone();
+  if (!gone_.empty()) part_unheld();
   const std::span<const std::uint8_t> removed = editor_.removed_bits();
   for (std::size_t i = 0; i < std::min(burnt_bits.size(), burnt_.size()); ++i)
     burnt_[i] = burnt_bits[i] & removed[i];
@@ -267,7 +183,7 @@ std::span<const CollisionSphere> DynamicModel::collidable() const noexcept {
 }
 
 void DynamicModel::respond(std::span<const OrganContact> contacts) noexcept {
-  if (!parted_ || parted_->any()) meeting_->respond(contacts, state_, *stepper_, loads_.external());
+  if (!is_static_ || parted_->any()) meeting_->respond(contacts, state_, *stepper_, loads_.external());
   felt_->is_foreseen = false;
 }
 

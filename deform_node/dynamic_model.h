@@ -27,12 +27,16 @@ struct DynamicParts {
   std::vector<physics::TearLimits> tears{};  // [T]
   double cut_delay_s = 0, cut_rate_per_s = 1;
   double smallest_piece_m3 = 0;
+  std::span<const geometry::CoveredFace> covered{};  // no surface as yet; read at construction alone
   std::vector<std::uint8_t> precomputed{};  // [T] other than 0: nothing takes it away; empty: none is
   physics::StressLaw stress = physics::StressLaw::kNone;  // what its law says of it
   // Always in equilibrium: it weighs nothing that could swing, and for other organs it is a wall that moves.
   // What supports do not hold is dropped as it is cut off; or has masses from then on, and this gravity,
   // where the stepper lets pieces fall.
   bool is_static = false;
+  // [T] other than 0: precomputed, and cut all the same; nodes that nothing else is around have no masses. A
+  // piece with such tissue that supports do not hold is dropped or has masses, likewise. Empty: none, or all.
+  std::vector<std::uint8_t> massless{};
   std::optional<Vec3> piece_gravity_m_s2{};
   std::function<std::unique_ptr<StrainGauge>()> gauge{};  // of another kind than a body's; or empty
 };
@@ -68,6 +72,7 @@ class DynamicModel final : public OrganModel {
   std::span<const geometry::TetId> remove(std::span<const geometry::TetId> tetrahedra) noexcept;
   void add_gone(const geometry::Removal& removal) noexcept;
   void part_unheld() noexcept;
+  std::span<const geometry::TetId> off_supports(std::span<const geometry::TetId> pieces) noexcept;
   void let_go(std::span<const geometry::TetId> pieces) noexcept;
   /// What the editor took, `gone_`, goes off the body.
   void forgo_gone() noexcept;
@@ -76,6 +81,8 @@ class DynamicModel final : public OrganModel {
   using Step = decltype(&BodyStepper::step);
   /// False: the energy afterwards cannot be.
   bool run(int steps, Step step) noexcept;
+  bool run_again(int steps) noexcept;
+  double energy_j() noexcept;
   void show() noexcept;
   void look_ahead() const noexcept;
 
@@ -92,6 +99,7 @@ class DynamicModel final : public OrganModel {
   std::vector<std::uint8_t> precomputed_;  // [T] or empty
   CutQueue burning_;
   physics::Tearing tearing_;
+  bool is_static_;
   std::unique_ptr<PartedTissue> parted_;  // null: all of it has masses, and what floats falls
   std::optional<Vec3> piece_gravity_;     // none: what is parted is dropped
   double reach_m_;                        // farther nothing falls

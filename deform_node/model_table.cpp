@@ -24,6 +24,7 @@ constexpr std::array kTable{
     ModelEntry{"corotational", organ::Load::kMeshOnly, make_corotational},
     ModelEntry{"spring-mass", organ::Load::kMeshOnly, make_spring_mass},
     ModelEntry{"hybrid", organ::Load::kWithPart, make_hybrid},
+    ModelEntry{"hybrid-cut", organ::Load::kMeshOnly, make_hybrid_cut},
     ModelEntry{"intestine", organ::Load::kMeshOnly, make_intestine},
 };
 

@@ -38,12 +38,12 @@ void CutSurface::count(const SurfaceFace& face, std::int32_t change) noexcept {
   }
 }
 
-void CutSurface::open(TetId t, int corner) noexcept {
+void CutSurface::open(TetId t, int corner, bool bared) noexcept {
   const std::size_t i = static_cast<std::size_t>(t), c = static_cast<std::size_t>(corner);
   const auto& [j, k, l] = kFaceOpposite[c];
   const Tetrahedron& v = links_.nodes(t);
   at_[i][c] = static_cast<std::int32_t>(faces_.size());
-  faces_.push_back({{v[j], v[k], v[l]}, t, links_.across(t)[c].valid()});
+  faces_.push_back({{v[j], v[k], v[l]}, t, bared || links_.across(t)[c].valid()});
   count(faces_.back(), 1);
 }
 

@@ -26,8 +26,9 @@ class CutSurface {
   CutSurface(const TetraLinks& links, std::span<const NodeId> uncut);
 
   /// The face opposite to a corner of a tetrahedron begins to be, or ends being, one of the boundary;
-  /// settle() after all changes. Preconditions: it was not, or was.
-  void open(TetId t, int corner) noexcept;
+  /// settle() after all changes. Preconditions: it was not, or was. `bared`: though no tetrahedron of the
+  /// mesh was across it.
+  void open(TetId t, int corner, bool bared = false) noexcept;
   void close(TetId t, int corner) noexcept;
   void settle() noexcept;
 

@@ -30,10 +30,22 @@ MeshEditor::MeshEditor(const TetraMesh& mesh, const EditorOptions& options)
     : links_(mesh.tetrahedra, mesh.positions.size()),
       left_(links_),
       surface_(links_, uncut_nodes(mesh, options.uncut_surface)),
+      covered_(options.covered, mesh.tetrahedra.size()),
       repair_(left_, options.kept),
       pieces_(left_, volumes(mesh, options.kept)),
       smallest_piece_m3_(options.smallest_piece_m3) {
   gone_.reserve(mesh.tetrahedra.size());
+  for (const CoveredFace& face : covered_.faces()) surface_.close(face.behind, face.corner);
+}
+
+void MeshEditor::open_outer(TetId t, int corner) noexcept {
+  const std::int32_t covered = covered_.place_of(t, corner);
+  if (covered < 0 || !covered_.is_hidden(covered)) surface_.open(t, corner, covered >= 0);
+}
+
+void MeshEditor::close_outer(TetId t, int corner) noexcept {
+  const std::int32_t covered = covered_.place_of(t, corner);
+  if (covered < 0 || !covered_.is_hidden(covered)) surface_.close(t, corner);
 }
 
 void MeshEditor::take(TetId t) noexcept {
@@ -42,9 +54,15 @@ void MeshEditor::take(TetId t) noexcept {
     const TetId neighbour = links_.across(t)[static_cast<std::size_t>(corner)];
     if (left_.has_neighbour(neighbour)) {
       surface_.open(neighbour, links_.corner_facing(neighbour, t));
-    } else {
+    } else if (neighbour.valid()) {
       surface_.close(t, corner);
+    } else {
+      close_outer(t, corner);
     }
+  }
+  for (const std::int32_t f : covered_.covered_by(t)) {
+    const CoveredFace& face = covered_.faces()[static_cast<std::size_t>(f)];
+    if (covered_.uncover(f) && left_.has(face.behind)) surface_.open(face.behind, face.corner, true);
   }
 }
 
@@ -54,9 +72,15 @@ void MeshEditor::put_back(TetId t) noexcept {
     const TetId neighbour = links_.across(t)[static_cast<std::size_t>(corner)];
     if (left_.has_neighbour(neighbour)) {
       surface_.close(neighbour, links_.corner_facing(neighbour, t));
-    } else {
+    } else if (neighbour.valid()) {
       surface_.open(t, corner);
+    } else {
+      open_outer(t, corner);
     }
+  }
+  for (const std::int32_t f : covered_.covered_by(t)) {
+    const CoveredFace& face = covered_.faces()[static_cast<std::size_t>(f)];
+    if (covered_.cover(f) && left_.has(face.behind)) surface_.close(face.behind, face.corner);
   }
 }
 

@@ -1,6 +1,7 @@
 // The books of a mesh that is cut: what is left of it, its surface, its pieces.
 #pragma once
 
+#include "geometry/covered_faces.h"
 #include "geometry/cut_surface.h"
 #include "geometry/loose_pieces.h"
 #include "geometry/manifold_repair.h"
@@ -22,6 +23,9 @@ struct EditorOptions {
   /// [T], other than 0 for tetrahedra that only go when they are asked for: never to repair the mesh, nor in
   /// a small piece. Empty: none. Precondition: they are manifold by themselves.
   std::span<const std::uint8_t> kept{};
+  /// Faces of the boundary that are none of the surface as long as what covers them is there; read by the
+  /// constructor alone. Then they are bared ones.
+  std::span<const CoveredFace> covered{};
 };
 
 /// What one removal took, valid until the next change. Each tetrahedron stands in one of the three.
@@ -81,6 +85,9 @@ class MeshEditor {
   std::int32_t piece_of(TetId t) const noexcept { return pieces_.piece_of(t); }
 
  private:
+  /// The face opposite to a corner, which no tetrahedron of the mesh is across.
+  void open_outer(TetId t, int corner) noexcept;
+  void close_outer(TetId t, int corner) noexcept;
   void take(TetId t) noexcept;
   void put_back(TetId t) noexcept;
   void remove_one(TetId t) noexcept;
@@ -90,6 +97,7 @@ class MeshEditor {
   TetraLinks links_;
   RemainingTetrahedra left_;
   CutSurface surface_;
+  CoveredFaces covered_;
   ManifoldRepair repair_;
   LoosePieces pieces_;
   double smallest_piece_m3_;

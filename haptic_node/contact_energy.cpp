@@ -85,6 +85,14 @@ void begin(ContactEnergy& tool, const ContactWork& work) {
   tool.share = share_of(tool, work, kMaxShare);
 }
 
+// What pays for a place that differs. A hand that turns round has it along its way until it has forgotten
+// where it came from: no more than is covered.
+Vec3 side_of(const ContactEnergy& tool, const ContactWork& work) {
+  const Vec3 side = (tool.share - 1) * work.stored_j / kForget_m * tool.heading;
+  const double side_n = side.norm(), most_n = work.covered_j / kHeading_m;
+  return side_n > most_n ? Vec3(most_n / side_n * side) : side;
+}
+
 void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
   const double most = std::min(kMaxShare, 1 + kMostApart_m / tool.depth_m), before = tool.share;
   const Vec3 way = along_surface(work.way, work.push);
@@ -94,7 +102,7 @@ void follow(ContactEnergy& tool, const ContactWork& work, bool let_go) {
   tool.leaving = leaving_of(tool, work);
   tool.share = share_of(tool, work, most);
   turn_heading(tool.heading, way, work.push);
-  const Vec3 side = (tool.share - 1) * work.stored_j / kForget_m * tool.heading;
+  const Vec3 side = side_of(tool, work);
   // the hand's work is that of both ends' mean
   tool.account_j += 0.5 * ((tool.share - before) * work.put_in_j - (side - tool.side).dot(way));
   tool.side = side;

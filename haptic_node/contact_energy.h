@@ -90,7 +90,9 @@ inline constexpr double kNoEnergy_j = 1e-12;
 /// two.
 ///
 /// A place that differs for good (stiffer near a support) is paid for along the way: a force against the
-/// heading, (1 - kappa) E / kForget_m, brings kappa_s back to one; its work is in the account.
+/// heading, (1 - kappa) E / kForget_m, brings kappa_s back to one; its work is in the account. A hand that
+/// turns round has it along its way for kHeading_m, so that it is never more than what is covered over that:
+/// tissue that is told of late may hold joules that nobody brought, of which kappa lets nothing through.
 ///
 /// `tools` and `works`: one per tool. `let_go`: a contact that carried force was dropped in this tick; what
 /// it held is lost, and what the others then hold is no more than was put in. No allocation. Any thread.

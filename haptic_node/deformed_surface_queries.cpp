@@ -1,6 +1,7 @@
 // What is asked of the deformed surface: where a point is, what it met, where it slides.
 #include "geometry/closest_points.h"
 #include "haptic_node/deformed_surface.h"
+#include "haptic_node/surface_walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +9,6 @@
 
 namespace omentum::haptic {
 namespace {
-
-// Triangles that a sliding contact may cross in one tick; a fast instrument crosses three.
-constexpr int kMaxSlideSteps = 64;
-// Barycentric coordinates below this lie on the opposite edge.
-constexpr double kOnEdge = 1e-12;
 
 Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a);
@@ -261,29 +257,27 @@ bool DeformedSurface::outside_of_feature(const SurfacePoint& nearest, const Vec3
   return on_border || normal.dot(p - position(nearest)) >= 0;
 }
 
+// Two skins may meet that share no nodes, as a hybrid organ's parts: from the rim of the one the way goes on
+// over what lies there of the other.
 SurfacePoint DeformedSurface::slide(const SurfacePoint& from, const Vec3& p) noexcept {
-  const auto closest_on = [&](TriangleId triangle) {
+  const auto closest_on = [&](TriangleId triangle, const Vec3& x) {
     const geometry::Triangle& t = surface_.triangles[triangle];
-    return geometry::closest_point_on_triangle(p, position(t[0]), position(t[1]), position(t[2]));
+    return geometry::closest_point_on_triangle(x, position(t[0]), position(t[1]), position(t[2]));
   };
-  geometry::TrianglePoint best = closest_on(from.triangle);
-  TriangleId here = from.triangle;
-  for (int step = 0; step < kMaxSlideSteps; ++step) {
-    const TriangleId origin = here;
-    // only where the closest point lies on an edge or a vertex can a neighbour be nearer
-    const geometry::Triangle& t = surface_.triangles[origin];
-    const Vec3 k = best.barycentric;
-    if (k.minCoeff() > kOnEdge) break;
-    for (int v = 0; v < 3; ++v) {
-      if (k[v] <= kOnEdge) continue;
-      for (const TriangleId next : surface_.triangles_of(t[v])) {
-        const geometry::TrianglePoint point = closest_on(next);
-        if (point.squared_distance < best.squared_distance) best = point, here = next;
-      }
-    }
-    if (here == origin) break;
+  const auto walk_from = [&](TriangleId triangle) -> SurfacePoint {
+    const auto [here, point] = walk_to(surface_, triangle, p, closest_on);
+    return {here, point.barycentric};
+  };
+  SurfacePoint here = walk_from(from.triangle);
+  bool inside = here.barycentric.minCoeff() > kOnEdge;
+  for (int v = 0; v < 3; ++v) {
+    const auto node =
+        static_cast<std::size_t>(surface_.triangles[here.triangle][static_cast<std::size_t>(v)]);
+    inside |= here.barycentric[v] > kOnEdge && !on_border_[node];
   }
-  return {here, best.barycentric};
+  if (inside) return here;
+  const TriangleId beyond = across_seam(surface_, position(here), p, closest_on);
+  return beyond.valid() ? walk_from(beyond) : here;
 }
 
 }  // namespace omentum::haptic

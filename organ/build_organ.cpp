@@ -50,9 +50,11 @@ bool fill(const OrganWriter& writer, const Organ& organ, const physics::Stiffnes
 }  // namespace
 
 Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::MaterialMap& material,
-                 FixedComponents fixed, Storage storage, std::vector<std::uint8_t> dynamic) {
+                 FixedComponents fixed, Storage storage, std::vector<std::uint8_t> dynamic,
+                 BorderFaces border) {
   require_materials(material, "");
-  physics::require_held(mesh, fixed);
+  // two meshes are no connected one: of those, the split asks for each piece of the precomputed part
+  if (border.empty()) physics::require_held(mesh, fixed);
   Organ organ;
   organ.name = std::move(name);
   organ.surface = geometry::extract_surface(mesh, physics::pinned_nodes(fixed));
@@ -62,7 +64,9 @@ Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::Mate
   organ.mesh = std::move(mesh);
   // labels that nobody gave a material say nothing of the tensors: the organ is that of a mesh without them
   if (material.regions.empty()) organ.mesh.regions.clear();
-  if (!dynamic.empty()) organ.split = split_organ(organ.mesh, fixed, std::move(dynamic), "--dynamic: ");
+  const char* where = border.empty() ? "--dynamic: " : "--dynamic-mesh: ";
+  if (!dynamic.empty())
+    organ.split = split_organ(organ.mesh, fixed, std::move(dynamic), where, std::move(border));
   organ.material = material;
   organ.fixed = std::move(fixed);
   organ.storage = storage;

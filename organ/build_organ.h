@@ -30,11 +30,12 @@ class Interrupted : public std::runtime_error {
 };
 
 /// An organ ready to be built: surface extracted, hash computed. Its mesh keeps labels of regions only where
-/// one has a material of its own (region_spec.h). `dynamic`: [T] of a hybrid organ, or empty. Throws
-/// geometry::InputError for a material out of range, supports that leave the organ floating or nothing free,
-/// and as split_organ does.
+/// one has a material of its own (region_spec.h). `dynamic`: [T] of a hybrid organ, or empty; `border`: where
+/// its parts touch, if they share no nodes (joined_parts.h). Throws geometry::InputError for a material out
+/// of range, supports that leave the organ floating or nothing free, and as split_organ does.
 Organ make_organ(std::string name, geometry::TetraMesh mesh, const physics::MaterialMap& material,
-                 FixedComponents fixed, Storage storage, std::vector<std::uint8_t> dynamic = {});
+                 FixedComponents fixed, Storage storage, std::vector<std::uint8_t> dynamic = {},
+                 BorderFaces border = {});
 
 /// Whether `file` is a finished organ file with this organ's hash and name and whole tensors (all are read).
 bool is_up_to_date(const std::filesystem::path& file, const Organ& organ);

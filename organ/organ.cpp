@@ -95,6 +95,8 @@ void read_split(const Hdf5File& hdf5, const std::filesystem::path& file, Organ& 
   organ.split.emplace();
   organ.split->dynamic = hdf5.read<std::uint8_t>(layout::kDynamic, 0);
   organ.split->tensor_node = read_as<geometry::NodeId, std::int32_t>(hdf5, layout::kTensorNode);
+  if (hdf5.has_dataset(layout::kBorder))
+    organ.split->border = read_as<std::array<geometry::NodeId, 3>, std::int32_t>(hdf5, layout::kBorder);
   if (organ.split->dynamic.size() == organ.mesh.tetrahedra.size()) return;
   throw InputError(file.string() + ": is damaged: '" + layout::kDynamic +
                    "' has not a number for each tetrahedron");
@@ -104,7 +106,10 @@ void read_split(const Hdf5File& hdf5, const std::filesystem::path& file, Organ& 
 // them.
 void split(Organ& organ, const std::filesystem::path& file) {
   const std::vector<geometry::NodeId> columns = std::move(organ.split->tensor_node);
-  organ.split = split_organ(organ.mesh, organ.fixed, std::move(organ.split->dynamic), file.string() + ": ");
+  organ.split = split_organ(organ.mesh, organ.fixed, std::move(organ.split->dynamic), file.string() + ": ",
+                            std::move(organ.split->border));
+  if (organ.split->tie)
+    organ.surface = geometry::without_covered(organ.mesh, organ.surface, organ.split->covered);
   if (columns == organ.split->tensor_node) return;
   throw InputError(file.string() +
                    ": its tensors are those of another split than its dynamic part's; build it again");

@@ -22,7 +22,7 @@ enum class Storage { kFloat, kDouble };
 struct Organ {
   std::string name;  // from the file's stem, unless organ_build --name
   geometry::TetraMesh mesh;
-  geometry::Surface surface;                             // pinned nodes last
+  geometry::Surface surface;                             // pinned nodes last; loaded, without split->covered
   physics::MaterialMap material;                         // without regions of its own the mesh has no labels
   FixedComponents fixed;                                 // [N]
   std::optional<OrganSplit> split;                       // of a hybrid organ, whose tensors are of a part

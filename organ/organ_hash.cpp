@@ -61,6 +61,10 @@ std::string organ_hash(const Organ& organ) {
     sha.add(std::array{'d', 'y', 'n', 'a', 'm', 'i', 'c', ' '});
     sha.add_list(organ.split->dynamic);
     sha.add_list(organ.split->tensor_node);
+    if (!organ.split->border.empty()) {
+      sha.add(std::array{'b', 'o', 'r', 'd', 'e', 'r', ' ', ' '});
+      sha.add_list(organ.split->border);
+    }
   }
   return sha.hexadecimal();
 }

@@ -9,7 +9,8 @@ namespace omentum::organ {
 inline constexpr int kFormatVersion = 3;
 
 /// SHA-256, hexadecimal, over format version, storage, mesh (with the file's own numbers), surface order,
-/// material, supports and, of a hybrid organ, its parts and whose columns its tensors are.
+/// material, supports and, of a hybrid organ, its parts, whose columns its tensors are, and where parts touch
+/// that share no nodes.
 std::string organ_hash(const Organ& organ);
 
 }  // namespace omentum::organ

@@ -28,6 +28,8 @@ inline constexpr const char* kTetrahedronNumbers = "mesh/tetrahedron_numbers";  
 inline constexpr const char* kMerged = "mesh/merged";  // [M][2] int32: dropped, kept; absent without any
 // Of a hybrid organ; absent in others.
 inline constexpr const char* kDynamic = "mesh/dynamic";  // [T] uint8, 1: of the dynamic part
+inline constexpr const char* kBorder =
+    "mesh/border";  // [B][3] int32: faces of either part on the other one; absent where parts share nodes
 inline constexpr const char* kTensorNode =
     "tensors/node";  // [mobile] int32: mesh nodes of the part's tensors
 // Of an organ with regions of their own material; absent without any.

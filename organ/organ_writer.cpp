@@ -62,6 +62,8 @@ void write_contents(Hdf5File& hdf5, const Organ& organ) {
     const std::vector<geometry::NodeId>& nodes = organ.split->tensor_node;
     hdf5.write(layout::kDynamic, numbers<std::uint8_t>(organ.split->dynamic), {organ.split->dynamic.size()});
     hdf5.write(layout::kTensorNode, numbers<std::int32_t>(nodes), {nodes.size()});
+    const BorderFaces& border = organ.split->border;
+    if (!border.empty()) hdf5.write(layout::kBorder, numbers<std::int32_t>(border), {border.size(), 3});
   }
   hdf5.write(layout::kSurfaceNode, numbers<std::int32_t>(surface.node), {surface.node.size()});
   hdf5.write(layout::kTriangles, numbers<std::int32_t>(surface.triangles), {surface.triangles.size(), 3});

@@ -1,6 +1,7 @@
 #include "organ/split_organ.h"
 
 #include "geometry/mesh_editor.h"
+#include "organ/tied_split.h"
 
 #include <algorithm>
 #include <map>
@@ -62,6 +63,16 @@ void require_pieces_held(const TetraMesh& mesh, const physics::FixedComponents& 
   }
 }
 
+void require_free(const OrganSplit& split, const TetraMesh& mesh, const std::string& where) {
+  for (const SurfaceId s : split.connection) {
+    const NodeId own = split.surface.node[s];
+    if (split.fixed[own] == 0) continue;
+    throw InputError(where + node_text(mesh, split.parts.precomputed.node[own]) +
+                     " connects the dynamic part to the precomputed one and is held by a support; expected "
+                     "connection nodes that are free");
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> OrganSplit::precomputed() const {
@@ -78,7 +89,7 @@ std::size_t take_what_would_hang(const TetraMesh& mesh, std::vector<std::uint8_t
 }
 
 OrganSplit split_organ(const TetraMesh& mesh, const physics::FixedComponents& fixed,
-                       std::vector<std::uint8_t> dynamic, const std::string& where) {
+                       std::vector<std::uint8_t> dynamic, const std::string& where, BorderFaces border) {
   const auto count = static_cast<std::size_t>(std::ranges::count_if(dynamic, [](auto d) { return d != 0; }));
   if (count == 0 || count == dynamic.size()) {
     throw InputError(where + "the dynamic part holds " +
@@ -88,17 +99,13 @@ OrganSplit split_organ(const TetraMesh& mesh, const physics::FixedComponents& fi
   OrganSplit split;
   split.dynamic = std::move(dynamic);
   split.parts = physics::split_mesh(mesh, split.dynamic);
-  for (const NodeId n : split.parts.connection) {
-    if (fixed[n] == 0) continue;
-    throw InputError(where + node_text(mesh, n) +
-                     " connects the dynamic part to the precomputed one and is held by a support; expected "
-                     "connection nodes that are free");
-  }
   require_pieces_held(mesh, fixed, split.dynamic, where);
   split.fixed = physics::supports_of(split.parts.precomputed, fixed);
   split.surface = geometry::extract_surface(split.parts.precomputed.mesh, physics::pinned_nodes(split.fixed));
   for (const NodeId n : split.parts.connection)
     split.connection.push_back(split.surface.of_node[split.parts.precomputed.own_node[n]]);
+  if (!border.empty()) tie_split(split, std::move(border), where);
+  require_free(split, mesh, where);
   for (std::int32_t s = 0; s < split.surface.mobile_count; ++s)
     split.tensor_node.push_back(
         split.parts.precomputed.node[split.surface.node[static_cast<std::size_t>(s)]]);

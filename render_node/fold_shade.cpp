@@ -21,6 +21,8 @@ void FoldShade::set(std::span<const geometry::TubeFrame> sections, std::size_t s
     const double share = length / (2 * static_cast<double>(radius_m_));
     balls_.push_back({sections[j].origin.cast<float>(), static_cast<float>(std::min(1.0, share))});
   }
+  near_.resize(balls_.size());
+  near_count_ = 0;
   find_rows();
 }
 
@@ -35,20 +37,23 @@ void FoldShade::find_rows() {
 
 void FoldShade::stand_at(const Vec3f& place) {
   const float sight = kSight * radius_m_;
-  near_.clear();
+  near_count_ = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const float reach = sight + rows_[r].reach;
     if ((rows_[r].centre - place).squaredNorm() > reach * reach) continue;
     const std::size_t end = std::min((r + 1) * kRow, balls_.size());
-    for (std::size_t i = r * kRow; i < end; ++i)
-      if ((balls_[i].place - place).squaredNorm() < sight * sight) near_.push_back(balls_[i]);
+    // kept or written over by the next one: a jump that nobody foretells costs more than a copy
+    for (std::size_t i = r * kRow; i < end; ++i) {
+      near_[near_count_] = balls_[i];
+      near_count_ += (balls_[i].place - place).squaredNorm() < sight * sight ? 1 : 0;
+    }
   }
 }
 
 float FoldShade::openness(const Vec3f& place, const Vec3f& normal) const {
   const float squared_radius = radius_m_ * radius_m_;
   float hidden = 0;
-  for (const auto& [centre, weight] : near_) {
+  for (const auto& [centre, weight] : near()) {
     const Vec3f to = centre - place;
     const float facing = normal.dot(to), squared = std::max(to.squaredNorm(), squared_radius);
     if (facing > 0) hidden += weight * squared_radius * facing / (squared * std::sqrt(squared));
@@ -64,9 +69,12 @@ std::array<float, SkinFrame::kDirections> FoldShade::around(const Vec3f& axis, c
   static const Directions cosine = angle.cos(), sine = angle.sin();
   const float squared_radius = radius_m_ * radius_m_;
   Directions hidden = Directions::Zero();
-  for (const auto& [centre, weight] : near_) {
+  for (const auto& [centre, weight] : near()) {
     const Vec3f to = centre - axis;
-    const Directions facing = to.dot(k) * cosine + to.dot(b) * sine - radius_m_;
+    // within the tube's own width no wall faces it: of a straight piece's balls none is looked at
+    const float along_k = to.dot(k), along_b = to.dot(b);
+    if (along_k * along_k + along_b * along_b <= squared_radius) continue;
+    const Directions facing = along_k * cosine + along_b * sine - radius_m_;
     const Directions squared =
         (to.squaredNorm() - squared_radius - 2 * radius_m_ * facing).max(squared_radius);
     hidden += weight * squared_radius * facing.max(0.0f) / (squared * squared.sqrt());

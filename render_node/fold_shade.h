@@ -42,7 +42,11 @@ class FoldShade {
   void find_rows();
 
   float radius_m_;
-  std::vector<Ball> balls_, near_;
+  std::span<const Ball> near() const { return std::span(near_).first(near_count_); }
+
+  std::vector<Ball> balls_;
+  std::vector<Ball> near_;  // as long as balls_: the first near_count_ of it are near
+  std::size_t near_count_ = 0;
   std::vector<Row> rows_;  // of balls_, kRow each
 };
 

@@ -1,5 +1,6 @@
 #include "render_node/instrument_shape.h"
 
+#include "render_node/few_triangles.h"
 #include "render_node/hook_shape.h"
 #include "render_node/jaw_shape.h"
 #include "render_node/scope_shape.h"
@@ -16,6 +17,7 @@ constexpr auto kHinge = static_cast<float>(scene::kJawLength_m);
 constexpr float kBandLength = 0.005f;      // m
 constexpr float kMarkSpacing = 0.01f;      // m: the probe is a ruler too
 constexpr float kMarkWidth = 0.0007f;      // m
+constexpr float kFewSide = 0.5f;           // of the shaft's radius: what the coarsest pictures show of a part
 const Vec3f kWireGlow(6.0f, 1.5f, 0.22f);  // of tungsten at about 2,000 K, far above what the lamps give
 const Vec3f kFibreGlow(9.0f, 8.8f, 8.4f);
 
@@ -84,12 +86,19 @@ std::vector<InstrumentPart> scope(const scene::ToolSpec& tool, const Vec3f& band
   return parts;
 }
 
-}  // namespace
-
-std::vector<InstrumentPart> instrument_parts(const scene::ToolSpec& tool, const Vec3f& band_colour) {
+std::vector<InstrumentPart> fine_parts(const scene::ToolSpec& tool, const Vec3f& band_colour) {
   if (tool.scope) return scope(tool, band_colour);
   if (tool.shape == "grasper") return grasper(tool, band_colour);
   return tool.edge.empty() ? probe(tool, band_colour) : hook(tool, band_colour);
+}
+
+}  // namespace
+
+std::vector<InstrumentPart> instrument_parts(const scene::ToolSpec& tool, const Vec3f& band_colour) {
+  std::vector<InstrumentPart> parts = fine_parts(tool, band_colour);
+  const float side_m = kFewSide * static_cast<float>(tool.shaft_radius_m);
+  for (InstrumentPart& part : parts) add_few_triangles(part.mesh, side_m);
+  return parts;
 }
 
 Mat4f part_pose(const InstrumentPart& part, const Eigen::Vector3d& p_WT, const Eigen::Quaterniond& q_WT,

@@ -10,9 +10,10 @@ namespace omentum::render {
 /// The surface of an organ that was cut. Nodes are numbered as in its states (idl/organ.idl): first the S of
 /// the whole surface, then those that were bared.
 struct CutShape {
-  std::vector<geometry::NodeId> node;     // [S'], of the mesh
-  std::vector<geometry::Vec3> rest;       // [S'], m
-  std::vector<std::uint8_t> gone;         // [F], 1: that triangle of the whole surface is no more
+  std::vector<geometry::NodeId> node;  // [S'], of the mesh
+  std::vector<geometry::Vec3> rest;    // [S'], m
+  // [F + C], 1: that triangle of the whole surface is no more, or that of `covered` no longer covered
+  std::vector<std::uint8_t> gone;
   std::vector<geometry::Triangle> bared;  // outward
   std::vector<float> burnt;               // [S'], 1: a tetrahedron at this node was burnt away; else 0
 };
@@ -21,8 +22,9 @@ struct CutShape {
 /// an organ that was cut. One thread.
 class OrganCut {
  public:
-  /// `mesh` and `whole`, its uncut surface, outlive it.
-  OrganCut(const geometry::TetraMesh& mesh, const geometry::Surface& whole);
+  /// `mesh` and `whole`, its uncut surface, outlive it. `covered`: what is no surface as yet.
+  OrganCut(const geometry::TetraMesh& mesh, const geometry::Surface& whole,
+           std::span<const geometry::CoveredFace> covered = {});
 
   /// From here on exactly these are removed. Precondition: they are of the mesh (known_topologies.h).
   void set(const RemovedSet& removed);
@@ -31,10 +33,12 @@ class OrganCut {
   CutShape shape() const;
 
  private:
+  bool is_covered(const geometry::CoveredFace& face) const;
   std::vector<float> burnt_nodes() const;
 
   const geometry::TetraMesh& mesh_;
   const geometry::Surface& whole_;
+  std::vector<geometry::CoveredFace> covered_;
   geometry::MeshEditor editor_;
   std::vector<std::uint8_t> burnt_;  // as in RemovedSet
 };

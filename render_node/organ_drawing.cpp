@@ -1,5 +1,6 @@
 #include "render_node/organ_drawing.h"
 
+#include "geometry/tetra_faces.h"
 #include "render_node/tube_drawing.h"
 
 #include <optional>
@@ -14,12 +15,24 @@ double area_of(std::span<const geometry::Triangle> triangles, std::span<const ge
   return area;
 }
 
+// What is covered, as far as it is there: by the surface's nodes.
+std::vector<geometry::Triangle> lining_of(const OrganShape& shape) {
+  std::vector<geometry::Triangle> lining;
+  for (const geometry::CoveredFace& face : shape.covered) {
+    const geometry::Tetrahedron& v = shape.mesh->tetrahedra[face.behind];
+    const auto& [j, k, l] = geometry::kFaceOpposite[static_cast<std::size_t>(face.corner)];
+    const auto node = [&](int i) { return shape.surface.of_node[v[static_cast<std::size_t>(i)]]; };
+    lining.push_back({node(j), node(k), node(l)});
+  }
+  return lining;
+}
+
 /// The boundary of a tetrahedral mesh; states are displacements of its nodes.
 class SurfaceDrawing final : public OrganDrawing {
  public:
   explicit SurfaceDrawing(const OrganShape& shape)
       : shape_(shape),
-        surface_{{shape.surface, shape.rest}, shape.surface_of_file_node},
+        surface_{{shape.surface, shape.rest, lining_of(shape)}, shape.surface_of_file_node},
         outline_{shape.rest, {}, area_of(shape.surface.triangles, shape.rest)} {
     for (std::int32_t s = 0; s < surface_.skin.node_count(); ++s)
       outline_.normals.push_back(surface_.skin.rest_normal(geometry::SurfaceId(s)));
@@ -75,7 +88,7 @@ CutOutcome SurfaceDrawing::cut(const RemovedSet& removed, std::size_t node_count
     return fits ? CutOutcome::kSame : CutOutcome::kMisfit;
   }
   if (!shape_.mesh) return CutOutcome::kMisfit;
-  if (!cut_) cut_.emplace(*shape_.mesh, shape_.surface);
+  if (!cut_) cut_.emplace(*shape_.mesh, shape_.surface, shape_.covered);
   cut_->set(removed);
   if (cut_->node_count() != node_count) return CutOutcome::kMisfit;
   removed_ = removed;

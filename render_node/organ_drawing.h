@@ -22,6 +22,7 @@ struct OrganShape {
   Material bared = bared_material("liver");
   // What the surface bounds; null: it is never cut. Shared, because shapes are copied and meshes are large.
   std::shared_ptr<const geometry::TetraMesh> mesh{};
+  std::vector<geometry::CoveredFace> covered{};     // of it, that are no surface as yet
   std::shared_ptr<const geometry::GutShape> gut{};  // of a tube, which has no surface of its own; else null
 };
 

@@ -1,7 +1,6 @@
 #include "render_node/organ_skin.h"
 
 #include "geometry/precondition.h"
-#include "render_node/surface_shading.h"
 
 #include <Eigen/Geometry>
 
@@ -12,12 +11,20 @@ namespace {
 
 constexpr float kHorizon_m = 0.018f;  // the width of a dent that a tool presses into soft tissue
 
+std::vector<geometry::Triangle> both(std::vector<geometry::Triangle> skin,
+                                     std::span<const geometry::Triangle> lining) {
+  skin.insert(skin.end(), lining.begin(), lining.end());
+  return skin;
+}
+
 }  // namespace
 
-OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest)
-    : triangles_(surface.triangles),
-      left_(triangles_),
-      closed_(triangles_),
+OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest,
+                     std::span<const geometry::Triangle> lining)
+    : skin_count_(surface.triangles.size()),
+      triangles_(both(surface.triangles, lining)),
+      left_(surface.triangles),
+      closed_(surface.triangles),
       gone_(triangles_.size(), 0),
       used_(rest.size(), kSkin),
       normals_(rest.size(), Vec3f::UnitZ()),
@@ -37,7 +44,8 @@ OrganSkin::OrganSkin(const geometry::Surface& surface, std::span<const geometry:
   mesh_.triangles = refinement_.triangles();
   mesh_.split = level_;
   mesh_.vertices.resize(refinement_.vertex_count());
-  smooth_normals(triangles_, rest_, normals_);
+  net_ = ShadingNet(left_, rest_, kHorizon_m);
+  net_.find_normals(rest_, normals_);
   rest_normals_ = normals_;
   std::vector<Vec3f> refined_rest(mesh_.vertices.size());
   refinement_.curve(rest_, normals_, refined_rest);
@@ -65,7 +73,7 @@ void OrganSkin::take_away(const std::vector<std::uint8_t>& gone) {
   changed_.clear();
   left_.clear();
   for (std::size_t f = 0; f < gone.size(); ++f) {
-    if (gone[f] == 0) left_.push_back(triangles_[f]);
+    if (gone[f] == 0 && f < skin_count_) left_.push_back(triangles_[f]);
     if (gone[f] == gone_[f]) continue;
     for (std::size_t k = small * f; k < small * (f + 1); ++k)
       mesh_.triangles[k] = gone[f] != 0 ? MeshTriangle{} : refinement_.triangles()[k];
@@ -91,7 +99,9 @@ void OrganSkin::set_nodes(const CutShape& shape) {
     for (const geometry::SurfaceId s : t) used_[static_cast<std::size_t>(s)] = kSkin;
   closed_normals_.assign(rest_.size(), Vec3f::UnitZ());
   rest_normals_.resize(rest_.size(), Vec3f::UnitZ());
-  smooth_normals(closed_, rest_, rest_normals_);
+  net_ = ShadingNet(left_, rest_, kHorizon_m);
+  closed_net_ = ShadingNet(closed_, rest_, kHorizon_m);
+  closed_net_.find_normals(rest_, rest_normals_);
 }
 
 void OrganSkin::deform(std::span<const float> displacements) {
@@ -100,17 +110,18 @@ void OrganSkin::deform(std::span<const float> displacements) {
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     const Vec3f u(displacements[3 * s], displacements[3 * s + 1], displacements[3 * s + 2]);
     positions_[s] = rest_[s] + u;
-    if (used_[s] != 0) largest_squared = std::max(largest_squared, u.squaredNorm());
+    const float squared = used_[s] != 0 ? u.squaredNorm() : 0;
+    largest_squared = std::max(largest_squared, squared);
   }
   largest_displacement_m_ = std::sqrt(largest_squared);
   drawn_ = positions_;
   bared_.relax(drawn_);
-  smooth_normals(left_, drawn_, normals_);
+  net_.find_normals(drawn_, normals_);
   if (bared_.triangles().empty()) {
-    openness_of(left_, drawn_, normals_, kHorizon_m, openness_);
+    net_.find_openness(drawn_, normals_, openness_);
   } else {
-    smooth_normals(closed_, drawn_, closed_normals_);
-    openness_of(closed_, drawn_, closed_normals_, kHorizon_m, openness_);
+    closed_net_.find_normals(drawn_, closed_normals_);
+    closed_net_.find_openness(drawn_, closed_normals_, openness_);
   }
   refinement_.apply(drawn_, normals_, openness_, mesh_.vertices);
   bared_.deform(drawn_, normals_, openness_);

@@ -5,6 +5,7 @@
 #include "render_node/bleeding.h"
 #include "render_node/organ_cut.h"
 #include "render_node/pallor.h"
+#include "render_node/shading_net.h"
 
 namespace omentum::render {
 
@@ -16,8 +17,11 @@ struct TriangleRun {
 /// From displacements of the surface's nodes to lit vertices. Nodes are numbered as in the organ's states.
 class OrganSkin {
  public:
-  /// `rest`: [S], m, in the surface's order.
-  OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest);
+  /// `rest`: [S], m, in the surface's order. `lining`: more triangles of its nodes, which are drawn behind
+  /// the others and take no part in their normals: where two skins meet that share no nodes, what shines
+  /// through between them is tissue.
+  OrganSkin(const geometry::Surface& surface, std::span<const geometry::Vec3> rest,
+            std::span<const geometry::Triangle> lining = {});
 
   /// From here on the organ is cut like this (or whole again); its next state is to be shown before it is
   /// drawn. The skin that is left stays as it was: its triangles keep their places in mesh(), those that are
@@ -59,8 +63,9 @@ class OrganSkin {
   void take_away(const std::vector<std::uint8_t>& gone);
   void set_nodes(const CutShape& shape);
 
+  std::size_t skin_count_;                     // of triangles_ that are the skin; the others line it
   std::vector<geometry::Triangle> triangles_;  // of the whole organ
-  std::vector<geometry::Triangle> left_;       // of them
+  std::vector<geometry::Triangle> left_;       // of the skin
   std::vector<geometry::Triangle> closed_;     // and what lies bare
   std::vector<std::uint8_t> gone_;             // 1: of triangles_, not left
   static constexpr std::uint8_t kSkin = 1, kBare = 2;
@@ -70,6 +75,7 @@ class OrganSkin {
   std::vector<Vec3f> drawn_;  // positions_, without the teeth of a cut
   std::vector<float> openness_;
   int level_;
+  ShadingNet net_, closed_net_;  // of left_ and of closed_
   SurfaceRefinement refinement_;
   BaredSkin bared_;
   MeshData mesh_;

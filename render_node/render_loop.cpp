@@ -3,6 +3,7 @@
 #include "node_common/node_identity.h"
 #include "node_common/organ_source.h"
 #include "node_common/session_orders.h"
+#include "render_node/frame_cost.h"
 #include "render_node/panel_keys.h"
 #include "render_node/plausible.h"
 #include "render_node/view_choices.h"
@@ -27,6 +28,8 @@ constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in
 
 OrganShape shape_of(node::OrganSource source, const std::string& look) {
   std::vector<geometry::SurfaceId> surface_of_file_node = source.organ.surface_of_file_node();
+  std::vector<geometry::CoveredFace> covered;
+  if (source.organ.split) covered = std::move(source.organ.split->covered);
   return {source.kind,
           std::move(source.organ.surface),
           std::move(source.rest),
@@ -34,6 +37,7 @@ OrganShape shape_of(node::OrganSource source, const std::string& look) {
           tissue_material(look),
           bared_material(look),
           std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh)),
+          std::move(covered),
           std::move(source.gut)};
 }
 
@@ -130,6 +134,7 @@ void RenderLoop::run() {
 
 void RenderLoop::frame(bool last) {
   const std::int64_t begin_ns = pace_.now_ns();
+  begin_thread_s_ = thread_time_s();
   account_.start(begin_ns);
   watch_.listen(*inbox_, view_, faults_, begin_ns);
   if (begin_ns >= next_slow_ns_) watch_slowly(begin_ns);
@@ -157,7 +162,7 @@ void RenderLoop::frame(bool last) {
 
 void RenderLoop::watch_slowly(std::int64_t now_ns) {
   next_slow_ns_ = now_ns + kSlow_ns;
-  view_.shade_ground();
+  if (!choices_.endoscope) view_.shade_ground();  // of which an endoscope sees nothing
   if (to_expose_ && seconds_since_begin(now_ns) >= scored_from_s_) measure_exposure();
 }
 
@@ -215,7 +220,8 @@ void RenderLoop::finish_frame(std::int64_t begin_ns, bool for_disk) {
   account_.finish(end_ns);
   if (log_) log_->push({begin_ns, account_.last_period_ns(), account_.last_compute_ns(), 0});
   const double cost_s = 1e-9 * static_cast<double>(end_ns - begin_ns);
-  for_disk ? schedule_.took(cost_s) : control_.record(seconds_since_begin(begin_ns), cost_s);
+  const double counted_s = counted_cost_s(cost_s, thread_time_s() - begin_thread_s_, kDrawingDuty);
+  for_disk ? schedule_.took(cost_s) : control_.record(seconds_since_begin(begin_ns), counted_s);
   watch_.shown(*inbox_, end_ns);
   if (end_ns >= next_status_ns_) tell_status(end_ns);
 }

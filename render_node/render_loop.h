@@ -98,6 +98,7 @@ class RenderLoop {
   Renderer& renderer_;
   runtime::Pace& pace_;
   std::int64_t begin_ns_;
+  double begin_thread_s_ = 0;  // of this frame, thread_time_s()
   runtime::FaultList faults_;
   SceneView view_;
   SessionWatch watch_;

@@ -46,6 +46,8 @@ struct MeshData {
   std::vector<MeshTriangle> triangles;
   int split =
       1;  // each run of split^2 triangles was one, split as SurfaceRefinement does (corner_triangles.h)
+  // What the coarsest pictures draw instead of `triangles`, of the same vertices; empty: what split says.
+  std::vector<MeshTriangle> few{};
 };
 
 /// A mesh that a renderer holds.

@@ -168,6 +168,9 @@ Camera SceneView::camera(const ViewChoices& choices, std::span<const ToolNow> to
 Frame SceneView::frame(const ViewChoices& choices, std::span<const ToolNow> tools, double panel_share) const {
   Frame frame = frame_from(camera(choices, tools), choices, tools, panel_share);
   frame.through_endoscope = choices.endoscope;
+  // inside of a body the drape is the backdrop
+  if (choices.endoscope)
+    std::erase_if(frame.items, [](const DrawItem& i) { return i.look == Look::kGround; });
   if (choices.endoscope) frame.lighting = scope_light(camera(choices, tools), shadow_ball());
   smoke_.draw(frame.view.eye, puff_, frame.items);
   return frame;

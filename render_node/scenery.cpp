@@ -2,6 +2,7 @@
 
 #include "geometry/mesh_io/stl.h"
 #include "geometry/surface.h"
+#include "render_node/few_triangles.h"
 #include "render_node/organ_drawing.h"
 #include "render_node/solids.h"
 #include "render_node/surface_shading.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr float kFurrow_m = 0.03f;          // what shades a furrow between two lobes of fat
 constexpr std::size_t kShadeSamples = 600;  // of the organs: with 3,000 vertices some 10 ms at start
+
+constexpr float kFewSide_m = 0.02f;  // what the coarsest pictures show of it
 
 // A ridge as sharp as a rib's is as pale as this; a bend that is less sharp by so much is not.
 constexpr float kRidgePallor = 0.6f;
@@ -114,6 +117,7 @@ void Scenery::set(std::vector<SceneryPiece> pieces, const Outline& outline) {
     const std::vector<float> left =
         light_left(outline.points, outline.normals, outline.area_m2, kShadeSamples, piece.mesh.vertices);
     for (std::size_t v = 0; v < left.size(); ++v) piece.mesh.vertices[v].openness *= left[v];
+    add_few_triangles(piece.mesh, kFewSide_m);
     meshes_.push_back(renderer_.add_mesh(piece.mesh));
   }
 }

@@ -44,6 +44,7 @@ SheetSkin::SheetSkin(const geometry::GutShape& rest)
   lay_out_rest(rest.positions);
   make_triangles();
   make_rim();
+  make_few_triangles();
   deform(rest.positions, FoldShade(rest.tube_radius_m));
 }
 
@@ -88,6 +89,23 @@ void SheetSkin::make_triangles() {
       for (const MeshTriangle& t : {MeshTriangle{i, i + 1, down + 1}, MeshTriangle{i, down + 1, down}}) {
         mesh_.triangles.push_back(t);
         mesh_.triangles.push_back({t[0] + back, t[2] + back, t[1] + back});
+      }
+    }
+  }
+}
+
+// Between masses: as coarse as the tube's own pieces are then.
+void SheetSkin::make_few_triangles() {
+  const auto back = static_cast<std::uint32_t>(middle_.size());
+  const auto across = static_cast<std::size_t>(kAcross), along = steps_along();
+  for (std::size_t r = 0; r + across < rows_.size(); r += across) {
+    for (std::size_t c = 0; c + along < columns_.size(); c += along) {
+      const auto i = static_cast<std::uint32_t>(at(r, c)), j = static_cast<std::uint32_t>(at(r, c + along));
+      const auto down = static_cast<std::uint32_t>(at(r + across, c)),
+                 beyond = static_cast<std::uint32_t>(at(r + across, c + along));
+      for (const MeshTriangle& t : {MeshTriangle{i, j, beyond}, MeshTriangle{i, beyond, down}}) {
+        mesh_.few.push_back(t);
+        mesh_.few.push_back({t[0] + back, t[2] + back, t[1] + back});
       }
     }
   }
@@ -162,7 +180,7 @@ void SheetSkin::take_normals_of_neighbours() {
 
 void SheetSkin::shade(FoldShade& loops) {
   const std::int32_t stride = std::max(1, layout_.columns / kShadedColumns);
-  const auto per_column = static_cast<std::int32_t>((columns_.size() - 1) / (layout_.columns - 1));
+  const auto per_column = static_cast<std::int32_t>(steps_along());
   for (std::int32_t row = 0; row < layout_.rows; ++row) {
     for (std::int32_t column = 0; column < layout_.columns; ++column) {
       const auto mass = static_cast<std::size_t>(row * layout_.columns + column);

@@ -38,9 +38,14 @@ class SheetSkin {
   static std::vector<Place> places(std::int32_t masses, std::int32_t steps);
   static Vec3f blend(const Place& place, std::span<const Vec3f> ghosted);
   std::size_t at(std::size_t row, std::size_t column) const { return row * columns_.size() + column; }
+  // Of columns_, from mass to mass.
+  std::size_t steps_along() const {
+    return (columns_.size() - 1) / static_cast<std::size_t>(layout_.columns - 1);
+  }
   void lay_out_rest(std::span<const geometry::Vec3> rest);
   void make_triangles();
   void make_rim();
+  void make_few_triangles();
   void place_middle(std::span<const geometry::Vec3> masses);
   void find_normals();
   void take_normals_of_neighbours();

@@ -16,6 +16,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 // The ground reaches this many organ radii out, where the shader has faded it into the background.
 constexpr double kGroundRadii = 7;
 constexpr int kGroundRings = 40, kGroundSpokes = 72;
+constexpr int kFewRings = 4, kFewSpokes = 3;  // of which the coarsest pictures draw every such one
 constexpr std::size_t kGroundSamples = 2000;  // 10 ms at start
 constexpr double kGroundGap = 0.015;  // of the radius, below the lowest point: no flicker where they touch
 
@@ -151,6 +152,14 @@ MeshData ground_under(std::span<const Vec3> surface_positions, std::span<const V
     for (int k = 1; k < kGroundRings; ++k) {
       mesh.triangles.push_back({at(k, s), at(k + 1, s), at(k + 1, s + 1)});
       mesh.triangles.push_back({at(k, s), at(k + 1, s + 1), at(k, s + 1)});
+    }
+  }
+  for (int s = 0; s < kGroundSpokes; s += kFewSpokes) {
+    const int next = s + kFewSpokes;
+    mesh.few.push_back({0, at(kFewRings, s), at(kFewRings, next)});
+    for (int k = kFewRings, out = 2 * kFewRings; out <= kGroundRings; k = out, out += kFewRings) {
+      mesh.few.push_back({at(k, s), at(out, s), at(out, next)});
+      mesh.few.push_back({at(k, s), at(out, next), at(k, next)});
     }
   }
   shade_ground(surface_positions, normals, surface_area_m2, kGroundSamples, mesh);

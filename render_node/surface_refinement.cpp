@@ -47,7 +47,8 @@ class GridNumbering {
 }  // namespace
 
 SurfaceRefinement::SurfaceRefinement(std::span<const geometry::Triangle> triangles, std::int32_t node_count,
-                                     int level) {
+                                     int level)
+    : node_count_(static_cast<std::size_t>(node_count)) {
   for (std::int32_t s = 0; s < node_count; ++s) places_.push_back({{s, s, s}, Vec3f::UnitX()});
   GridNumbering numbering(node_count, level);
   std::vector<std::uint32_t> grid(static_cast<std::size_t>((level + 1) * (level + 1)));
@@ -99,7 +100,12 @@ void SurfaceRefinement::curve(std::span<const Vec3f> positions, std::span<const 
 
 void SurfaceRefinement::apply(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                               std::span<const float> openness, std::span<Vertex> out) const {
-  for (std::size_t i = 0; i < places_.size(); ++i) {
+  for (std::size_t s = 0; s < node_count_; ++s) {
+    out[s].position = positions[s];
+    out[s].normal = normals[s];
+    out[s].openness = openness[s];
+  }
+  for (std::size_t i = node_count_; i < places_.size(); ++i) {
     const Place& v = places_[i];
     out[i].position = curved(i, positions, normals);
     Vec3f normal = Vec3f::Zero();

@@ -40,6 +40,7 @@ class SurfaceRefinement {
   Vec3f curved(std::size_t vertex, std::span<const Vec3f> positions, std::span<const Vec3f> normals) const;
 
  private:
+  std::size_t node_count_ = 0;
   std::vector<Place> places_;
   std::vector<MeshTriangle> triangles_;
 };

@@ -28,51 +28,61 @@ constexpr float kKinkFrom = 0.5f, kKinkAll = 0.2f;
 // Directions of both frames that nearly cancel out are no direction.
 constexpr float kLeastBlend = 0.2f;
 
-constexpr std::size_t kSection = TubeCylinder::kAround;
+// Puts a cylinder together, section by section.
+class CylinderMaker {
+ public:
+  explicit CylinderMaker(std::size_t around) : around_(around) {}
 
-CylinderVertex around(std::size_t a, float z, float outwards, float forward) {
-  const float turn = static_cast<float>(a) / TubeCylinder::kAround;
-  const float angle = 2 * std::numbers::pi_v<float> * turn;
-  return {std::cos(angle), std::sin(angle), z, turn * SkinFrame::kDirections, outwards, forward};
-}
+  TubeCylinder& cylinder() { return cylinder_; }
 
-void add_section(TubeCylinder& cylinder, float z, float outwards, float forward) {
-  for (std::size_t a = 0; a < kSection; ++a) cylinder.vertices.push_back(around(a, z, outwards, forward));
-}
-
-// Between the sections that begin at vertices `first` and `second`.
-void add_belt(TubeCylinder& cylinder, std::size_t first, std::size_t second) {
-  for (std::size_t a = 0; a < kSection; ++a) {
-    const std::size_t next = (a + 1) % kSection;
-    const auto at = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
-    cylinder.triangles.push_back({at(first + a), at(first + next), at(second + next)});
-    cylinder.triangles.push_back({at(first + a), at(second + next), at(second + a)});
+  void add_section(float z, float outwards, float forward) {
+    for (std::size_t a = 0; a < around_; ++a) {
+      const float turn = static_cast<float>(a) / static_cast<float>(around_);
+      const float angle = 2 * std::numbers::pi_v<float> * turn;
+      cylinder_.vertices.push_back(
+          {std::cos(angle), std::sin(angle), z, turn * SkinFrame::kDirections, outwards, forward});
+    }
   }
-}
 
-// side: -1 before the first frame, 1 beyond the second one.
-void add_cap(TubeCylinder& cylinder, float side) {
-  const float z = side > 0 ? 1.0f : 0.0f;
-  std::size_t before = cylinder.vertices.size();
-  add_section(cylinder, z, 1, 0);
-  const auto belt = [&](std::size_t outer, std::size_t inner) {
-    side > 0 ? add_belt(cylinder, outer, inner) : add_belt(cylinder, inner, outer);
-  };
-  for (int ring = 1; ring <= TubeCylinder::kCapRings; ++ring) {
-    const float angle =
-        std::numbers::pi_v<float> / 2 * static_cast<float>(ring) / (TubeCylinder::kCapRings + 1);
-    add_section(cylinder, z, std::cos(angle), side * std::sin(angle));
-    belt(before, before + kSection);
-    before += kSection;
+  // Between two sections, counted from 0.
+  void add_wall(std::size_t section) { add_belt(section * around_, (section + 1) * around_); }
+
+  // side: -1 before the first frame, 1 beyond the second one.
+  void add_cap(float side) {
+    const float z = side > 0 ? 1.0f : 0.0f;
+    std::size_t before = cylinder_.vertices.size();
+    add_section(z, 1, 0);
+    for (int ring = 1; ring <= TubeCylinder::kCapRings; ++ring) {
+      const float angle =
+          std::numbers::pi_v<float> / 2 * static_cast<float>(ring) / (TubeCylinder::kCapRings + 1);
+      add_section(z, std::cos(angle), side * std::sin(angle));
+      side > 0 ? add_belt(before, before + around_) : add_belt(before + around_, before);
+      before += around_;
+    }
+    const auto pole = static_cast<std::uint32_t>(cylinder_.vertices.size());
+    cylinder_.vertices.push_back({1, 0, z, 0, 0, side});
+    for (std::size_t a = 0; a < around_; ++a) {
+      const auto here = static_cast<std::uint32_t>(before + a);
+      const auto next = static_cast<std::uint32_t>(before + (a + 1) % around_);
+      cylinder_.triangles.push_back(side > 0 ? MeshTriangle{here, next, pole}
+                                             : MeshTriangle{next, here, pole});
+    }
   }
-  const auto pole = static_cast<std::uint32_t>(cylinder.vertices.size());
-  cylinder.vertices.push_back({1, 0, z, 0, 0, side});
-  for (std::size_t a = 0; a < kSection; ++a) {
-    const auto here = static_cast<std::uint32_t>(before + a);
-    const auto next = static_cast<std::uint32_t>(before + (a + 1) % kSection);
-    cylinder.triangles.push_back(side > 0 ? MeshTriangle{here, next, pole} : MeshTriangle{next, here, pole});
+
+ private:
+  // Between the sections that begin at vertices `first` and `second`.
+  void add_belt(std::size_t first, std::size_t second) {
+    for (std::size_t a = 0; a < around_; ++a) {
+      const std::size_t next = (a + 1) % around_;
+      const auto at = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
+      cylinder_.triangles.push_back({at(first + a), at(first + next), at(second + next)});
+      cylinder_.triangles.push_back({at(first + a), at(second + next), at(second + a)});
+    }
   }
-}
+
+  std::size_t around_;
+  TubeCylinder cylinder_;
+};
 
 // A frame's wall in one direction: that direction across, how far out the wall is, of the radius, and the
 // derivatives of both by the angle.
@@ -138,18 +148,19 @@ Vec3f wall_normal(const Vec3f& of_surface, const Vec3f& across) {
 
 }  // namespace
 
-TubeCylinder make_tube_cylinder(int n) {
-  TubeCylinder cylinder;
+TubeCylinder make_tube_cylinder(int n, int around) {
+  CylinderMaker maker(static_cast<std::size_t>(around));
+  TubeCylinder& cylinder = maker.cylinder();
   const std::size_t sections = std::size_t{2} << static_cast<unsigned>(n);
   for (std::size_t s = 0; s < sections; ++s)
-    add_section(cylinder, static_cast<float>(s) / static_cast<float>(sections - 1), 1, 0);
-  for (std::size_t s = 0; s + 1 < sections; ++s) add_belt(cylinder, s * kSection, (s + 1) * kSection);
+    maker.add_section(static_cast<float>(s) / static_cast<float>(sections - 1), 1, 0);
+  for (std::size_t s = 0; s + 1 < sections; ++s) maker.add_wall(s);
   cylinder.wall_vertices = cylinder.vertices.size();
   cylinder.wall_triangles = cylinder.triangles.size();
-  add_cap(cylinder, -1);
-  add_cap(cylinder, 1);
+  maker.add_cap(-1);
+  maker.add_cap(1);
   cylinder.cap_triangles = (cylinder.triangles.size() - cylinder.wall_triangles) / 2;
-  return cylinder;
+  return std::move(cylinder);
 }
 
 TubeCost tube_cost(std::size_t frames, int n) {

@@ -18,7 +18,8 @@ static_assert(sizeof(CylinderVertex) == 6 * sizeof(float), "uploaded as it lies 
 /// The wall, then the cap before the first frame, then the one beyond the second: vertices and triangles
 /// alike.
 struct TubeCylinder {
-  static constexpr int kAround = 20;  // vertices of a section: its outline shows no corners
+  static constexpr int kAround = 20;     // vertices of a section: its outline shows no corners
+  static constexpr int kFewAround = 10;  // and hardly any where a pixel is as wide as nine
   static constexpr int kCapRings = 4;
 
   std::vector<CylinderVertex> vertices;
@@ -26,8 +27,8 @@ struct TubeCylinder {
   std::size_t wall_vertices = 0, wall_triangles = 0, cap_triangles = 0;  // cap_triangles: of one cap
 };
 
-/// With 2^(n+1) sections, evenly apart; 0 <= n.
-TubeCylinder make_tube_cylinder(int n);
+/// With 2^(n+1) sections, evenly apart, of `around` vertices; 0 <= n.
+TubeCylinder make_tube_cylinder(int n, int around = TubeCylinder::kAround);
 
 /// Of a tube of so many frames, drawn with make_tube_cylinder(n): what a renderer's vertex shader works on.
 TubeCost tube_cost(std::size_t frames, int n);

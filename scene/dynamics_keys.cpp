@@ -17,7 +17,7 @@ constexpr Range kDelay_s{.minimum = 0, .maximum = 10};
 // a hybrid organ's precomputed part answers has to be of the same step.
 void read_integrator(TomlSection& s, const std::string& model, std::string& integrator) {
   std::vector<std::string> words{"symplectic", "euler", "rk4"};
-  if (model == "hybrid") words.clear();
+  if (is_hybrid(model)) words.clear();
   if (model != "spring-mass") words.insert(words.begin(), "implicit");
   integrator = words.front();
   s.read_word("integrator", integrator, kOptional, words);
@@ -29,17 +29,19 @@ void read_law(TomlSection& s, std::string& law) {
   s.read_word("law", law, kOptional, {"linear", "corotational"});
 }
 
-// An organ in its bed has its weight in its shape, and no gravity of its own; what falls out of it has.
-void read_pieces(TomlSection& s, DynamicsSpec& dynamics) {
-  dynamics.pieces = "drop";
+// An organ in its bed has its weight in its shape, and no gravity of its own; what falls out of it has. A
+// dynamic part's pieces fall as they are, and so do those that take precomputed tissue along.
+void read_pieces(TomlSection& s, const std::string& model, DynamicsSpec& dynamics) {
+  dynamics.pieces = is_hybrid(model) ? "fall" : "drop";
   s.read_word("pieces", dynamics.pieces, kOptional, {"drop", "fall"});
-  if (dynamics.pieces == "fall") s.read("piece_gravity_m_s2", dynamics.piece_gravity_m_s2, kOptional);
+  if (dynamics.pieces == "fall" && !is_hybrid(model))
+    s.read("piece_gravity_m_s2", dynamics.piece_gravity_m_s2, kOptional);
 }
 
 // What has masses swings and tears.
 void read_motion(TomlSection& s, const std::string& model, DynamicsSpec& dynamics) {
   read_integrator(s, model, dynamics.integrator);
-  if (model == "hybrid") read_law(s, dynamics.law);
+  if (is_hybrid(model)) read_law(s, dynamics.law);
   s.read("step_s", dynamics.step_s, kStepRange_s);
   s.read("mass_damping_per_s", dynamics.mass_damping_per_s, kOptional, kNotNegative);
   s.read("stiffness_damping_s", dynamics.stiffness_damping_s, kOptional, kNotNegative);
@@ -62,13 +64,14 @@ bool has_masses(const std::string& model) {
   return model != "quasi-static-cut";
 }
 
+bool is_hybrid(const std::string& model) {
+  return model == "hybrid" || model == "hybrid-cut";
+}
+
 DynamicsSpec read_dynamics(TomlSection& s, const std::string& model) {
   DynamicsSpec dynamics;
-  if (has_masses(model)) {
-    read_motion(s, model, dynamics);
-  } else {
-    read_pieces(s, dynamics);
-  }
+  if (has_masses(model)) read_motion(s, model, dynamics);
+  if (model == "hybrid-cut" || !has_masses(model)) read_pieces(s, model, dynamics);
   s.read("gravity_m_s2", dynamics.gravity_m_s2, kOptional);
   s.read("cut_delay_s", dynamics.cut_delay_s, kOptional, kDelay_s);
   s.read("cut_rate_per_s", dynamics.cut_rate_per_s, kOptional, kPositive);

@@ -28,11 +28,13 @@ struct DynamicsSpec {
   double cut_delay_s = 0.05;
   double cut_rate_per_s = 1000;
   double smallest_piece_m3 = 0;  // loose pieces below this are dropped
-  // Of an organ in equilibrium, what becomes of a piece that supports no longer hold: "drop" or "fall"; empty
-  // for others, whose pieces fall as they are. And what then pulls it.
+  // Of an organ without masses, or with some in a part, what becomes of a piece that supports no longer hold:
+  // "drop" or "fall"; empty for others, whose pieces fall as they are. And what then pulls it, where the
+  // organ has no gravity of its own.
   std::string pieces;
   geometry::Vec3 piece_gravity_m_s2 = geometry::Vec3(0, 0, -9.81);
   std::string dynamic_part;  // of a hybrid organ that is built of a mesh, as organ_build --dynamic takes it
+  std::string dynamic_mesh;  // or that part's own mesh, "phantom:..." or a file: organ_build --dynamic-mesh
   std::string law;           // of a hybrid organ's dynamic part: "linear" or "corotational"; else empty
   std::string where;         // FILE:LINE of the step or of the organ, for what only its mesh can tell
 };

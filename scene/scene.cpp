@@ -5,6 +5,7 @@
 #include "scene/dynamics_keys.h"
 #include "scene/hand_way_keys.h"
 #include "scene/intestine_keys.h"
+#include "scene/organ_mesh_keys.h"
 #include "scene/scenery_keys.h"
 #include "scene/scope_keys.h"
 #include "scene/score_keys.h"
@@ -20,10 +21,6 @@ namespace {
 
 using enum TomlSection::Need;
 
-// What organ_phantom makes: the liver in two sizes, its gallbladder, the colon, and two pieces of
-// tissue.
-constexpr std::array<std::string_view, 6> kPhantoms{"phantom:paper", "phantom:fine",  "phantom:gallbladder",
-                                                    "phantom:colon", "phantom:plate", "phantom:cylinder"};
 constexpr Range kPoisson{.minimum = -1, .maximum = 0.5, .above = true, .below = true};
 
 // A scene may make force safety stricter or suit it to a device; it must not disarm it.
@@ -45,11 +42,6 @@ constexpr Range kGrip_n{.minimum = 0.1, .maximum = 50};
 
 // No instrument's edge is longer: more is a wrong unit.
 constexpr double kLongestEdge_m = 0.2;
-
-// A path in a scene is meant from the scene's folder.
-std::filesystem::path beside(const std::filesystem::path& scene, const std::filesystem::path& file) {
-  return (scene.parent_path() / file).lexically_normal();
-}
 
 void read_model(TomlSection& s, OrganSpec& organ) {
   std::vector<std::string> words;
@@ -96,7 +88,7 @@ void read_supports(TomlSection& s, OrganSpec& organ) {
 }
 
 void refuse_what_is_built(TomlSection& s) {
-  for (const char* key : {"metres_per_unit", "fixed", "dynamic"})
+  for (const char* key : {"metres_per_unit", "fixed", "dynamic", "dynamic_mesh"})
     if (s.has(key)) s.refuse(key, "one beside an organ file", "none: the file is built with its own");
 }
 
@@ -108,7 +100,8 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   } else {
     s.read("metres_per_unit", organ.metres_per_unit, kOptional, kPositive);
     read_supports(s, organ);
-    if (organ.model == "hybrid") s.read("dynamic", organ.dynamics->dynamic_part, kRequired);
+    if (organ.model == "hybrid") read_dynamic_part(s, scene, *organ.dynamics);
+    if (organ.model == "hybrid-cut") s.read("dynamic", organ.dynamics->dynamic_part, kRequired);
   }
   // a scene that is prepared names the file, and says what that is of
   const TomlSection::Need need = is_organ_file(organ.mesh) && !s.has("file") ? kOptional : kRequired;
@@ -119,13 +112,7 @@ void read_mesh(TomlSection& s, const std::filesystem::path& scene, OrganSpec& or
   for (TomlSection& region : s.sections("regions"))
     organ.regions.push_back(read_region(region, organ.dynamics && has_masses(organ.model)));
   s.read_word("look", organ.look, kOptional, {"liver", "gallbladder", "colon"});
-  if (!organ.mesh.starts_with("phantom:")) {
-    organ.mesh = beside(scene, organ.mesh).string();
-  } else if (std::ranges::find(kPhantoms, organ.mesh) == kPhantoms.end()) {
-    s.refuse("mesh", "\"" + organ.mesh + "\"",
-             "\"phantom:paper\", \"phantom:fine\", \"phantom:gallbladder\", \"phantom:colon\", "
-             "\"phantom:plate\", \"phantom:cylinder\" or a file");
-  }
+  organ.mesh = mesh_named(s, "mesh", organ.mesh, scene);
   if (!file.empty()) organ.file = beside(scene, file);
 }
 

@@ -52,6 +52,7 @@ inline constexpr std::array kOrganModels{
     OrganModelWord{"corotational", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
     OrganModelWord{"spring-mass", OrganKind::kTetrahedralMesh, Feel::kLocalModels, Trusted::kSmallStrains},
     OrganModelWord{"hybrid", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
+    OrganModelWord{"hybrid-cut", OrganKind::kTetrahedralMesh, Feel::kLocalModels},
     OrganModelWord{"intestine", OrganKind::kTube, Feel::kLocalModels, Trusted::kAlways},
 };
 

@@ -14,7 +14,8 @@ LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to
 # underside; held at its lowest tip only, it would rock under the hand.
 SUPPORTED_PART = {"x": 0.05, "y": 0.05, "z": 0.3}
 MOVING_PART = 1 / 3  # of a foreign mesh's length from where it is not held, in a scene of a hybrid organ
-PHANTOM_PARTS = ("gallbladder", "colon", "cavity", "omentum", "plate", "cylinder")  # beside the liver, in one size each
+PHANTOM_PARTS = ("gallbladder", "colon", "cavity", "omentum", "plate", "cylinder", "cylinder-upper",
+                 "cylinder-lower")  # beside the liver, in one size each
 
 NO_FILE = ("plane:", "box:", "label:")  # what a SPEC that names no CSV begins with
 
@@ -112,7 +113,7 @@ def foreign_terms(options, spec):
     fixed = options.fixed or support_spec(measured, scale, spec["fixed"])
     if not options.fixed:
         print(f"run: {options.organ.name} is supported at {fixed} (--fixed says otherwise)", flush=True)
-    dynamic = spec.get("dynamic", "") and dynamic_spec(measured, scale, spec["fixed"])
+    dynamic = (spec.get("dynamic") or spec.get("dynamic_mesh", "")) and dynamic_spec(measured, scale, spec["fixed"])
     if dynamic:
         print(f"run: {options.organ.name} moves by itself and can be cut at {dynamic}", flush=True)
     return scale, fixed, dynamic
@@ -130,12 +131,20 @@ def relative_to(scene, fixed):
     return fixed if fixed.startswith(NO_FILE) else str(scene.parent / fixed)
 
 
-def build_organ(options, cache, mesh, name, spec, scale, fixed, dynamic=""):
+def mesh_file(options, cache, named):
+    """The file that a scene's mesh is: the phantom's part that it names, or itself."""
+    kind, _, part = named.partition(":")
+    return phantom_mesh(options, cache, part) if kind == "phantom" else pathlib.Path(named)
+
+
+def build_organ(options, cache, mesh, name, spec, scale, fixed, dynamic="", dynamic_mesh=None):
     program = options.programs / "organ_build"
     terms = ["--young", spec["young_pa"], "--poisson", spec["poisson"], "--density", spec["density_kg_m3"],
              "--scale", scale, "--fixed", fixed, *(part for region in spec["regions"] for part in ("--region", region)),
              *(["--dynamic", dynamic] if dynamic else [])]
-    inputs = [mesh, *support_files(fixed), *(support_files(dynamic) if dynamic else [])]
+    if dynamic_mesh:
+        terms += ["--dynamic-mesh", dynamic_mesh]
+    inputs = [mesh, *([dynamic_mesh] if dynamic_mesh else []), *support_files(fixed), *(support_files(dynamic) if dynamic else [])]
     if mesh.suffix.lower() in (".node", ".ele"):
         inputs += [mesh.with_suffix(suffix) for suffix in (".node", ".ele", ".NODE", ".ELE")]
     return cache.get(f"{name}.h5", ["organ", program, *terms, *inputs],
@@ -160,11 +169,11 @@ def organ_file(options, cache, spec):
     """Of an organ as the scene describes it."""
     if spec["file"] or spec["mesh"].lower().endswith(".h5"):
         return pathlib.Path(spec["file"] or spec["mesh"])
-    kind, _, size = spec["mesh"].partition(":")
-    mesh = phantom_mesh(options, cache, size) if kind == "phantom" else pathlib.Path(spec["mesh"])
-    return build_organ(options, cache, mesh, spec["name"], spec, spec["metres_per_unit"],
-                       relative_to(options.scene, spec["fixed"]),
-                       spec.get("dynamic", "") and relative_to(options.scene, spec["dynamic"]))
+    second = spec.get("dynamic_mesh", "")
+    return build_organ(options, cache, mesh_file(options, cache, spec["mesh"]), spec["name"], spec,
+                       spec["metres_per_unit"], relative_to(options.scene, spec["fixed"]),
+                       spec.get("dynamic", "") and relative_to(options.scene, spec["dynamic"]),
+                       mesh_file(options, cache, second) if second else None)
 
 
 def organ_files(options, cache, specs):

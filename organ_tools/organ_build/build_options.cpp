@@ -55,6 +55,17 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
           "tetrahedra the centre; + joins them), label:N of the mesh file, or FILE.csv of tetrahedron "
           "numbers")
       .type_name("SPEC");
+  line.option(
+          "--dynamic-mesh", command.dynamic_mesh,
+          "makes a hybrid organ of two meshes that lie on each other without sharing nodes: this one, the "
+          "coarser where they touch, has masses and can be cut, and MESH is precomputed; its numbers go on "
+          "behind those of MESH")
+      .type_name("COARSE");
+  line.option("--dynamic-gap", command.dynamic_gap_m,
+              "how far the two meshes may lie apart or overlap where they touch, m (default: a twentieth of "
+              "the mean edge of COARSE)")
+      .not_negative()
+      .type_name("METRES");
   add_numbering_option(line, command.check.numbering);
   line.flag(
       "--ignore-other-cells", command.check.ignore_other_cells,
@@ -73,6 +84,12 @@ void add_build_options(runtime::CommandLine& line, BuildCommand& command) {
 }
 
 void require_offered(const BuildCommand& command) {
+  if (!command.dynamic_mesh.empty() && !command.dynamic.empty()) {
+    throw geometry::InputError("--dynamic-mesh " + command.dynamic_mesh.string() +
+                               ": is the dynamic part; expected no --dynamic beside it");
+  }
+  if (command.dynamic_mesh.empty() && command.dynamic_gap_m > 0)
+    throw geometry::InputError("--dynamic-gap: expected --dynamic-mesh beside it");
   if (command.law.empty()) return;
   throw geometry::InputError("--law " + command.law +
                              ": not part of this version, which builds linear elastic organs");

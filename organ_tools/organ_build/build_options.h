@@ -23,7 +23,9 @@ struct BuildCommand {
   int threads = 0;   // 0: one per processor
   bool force = false;
   std::vector<std::string> dynamic;
-  std::string law;  // refused
+  std::filesystem::path dynamic_mesh;  // empty: none
+  double dynamic_gap_m = 0;            // 0: as join_parts takes it
+  std::string law;                     // refused
 };
 
 /// Adds the options to `line`.

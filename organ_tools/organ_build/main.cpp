@@ -1,6 +1,7 @@
 // organ_build: a tetrahedral mesh, a material and supports become an organ file with its force tensors.
 #include "organ/build_organ.h"
 #include "organ/dynamic_spec.h"
+#include "organ/joined_parts.h"
 #include "organ/plausibility.h"
 #include "organ/region_spec.h"
 #include "organ/support_spec.h"
@@ -42,18 +43,40 @@ std::vector<std::uint8_t> dynamic_part(const organ_tools::BuildCommand& command,
   return dynamic;
 }
 
-organ::Organ read_organ(const organ_tools::BuildCommand& command) {
+geometry::TetraMesh read_checked(const organ_tools::BuildCommand& command,
+                                 const std::filesystem::path& file) {
   geometry::CheckedMesh checked =
-      geometry::check_mesh(geometry::read_mesh(command.mesh), command.metres_per_unit, command.check);
+      geometry::check_mesh(geometry::read_mesh(file), command.metres_per_unit, command.check);
   for (const std::string& warning : checked.warnings) warn(warning);
-  physics::FixedComponents fixed =
-      organ::parse_supports(command.fixed, checked.mesh, command.check.numbering);
-  // before regions take labels of the file over
-  std::vector<std::uint8_t> dynamic = dynamic_part(command, checked.mesh);
-  const physics::MaterialMap material = organ::parse_regions(command.regions, command.material, checked.mesh);
+  return std::move(checked.mesh);
+}
+
+// The whole mesh, what of it is dynamic, and where parts touch that share no nodes.
+organ::JoinedParts read_parts(const organ_tools::BuildCommand& command) {
+  geometry::TetraMesh mesh = read_checked(command, command.mesh);
+  if (command.dynamic_mesh.empty()) {
+    // before regions take labels of the file over
+    std::vector<std::uint8_t> dynamic = dynamic_part(command, mesh);
+    return {std::move(mesh), std::move(dynamic), {}};
+  }
+  const std::string where = "--dynamic-mesh " + command.dynamic_mesh.string() + ": ";
+  organ::JoinedParts joined =
+      organ::join_parts(mesh, read_checked(command, command.dynamic_mesh), command.dynamic_gap_m, where);
+  if (command.check.numbering == geometry::Numbering::kFile) {
+    std::printf("organ_build: nodes of %s have their numbers + %lld in the organ, tetrahedra + %lld\n",
+                command.dynamic_mesh.filename().c_str(), static_cast<long long>(joined.node_shift),
+                static_cast<long long>(joined.tetrahedron_shift));
+  }
+  return joined;
+}
+
+organ::Organ read_organ(const organ_tools::BuildCommand& command) {
+  organ::JoinedParts parts = read_parts(command);
+  physics::FixedComponents fixed = organ::parse_supports(command.fixed, parts.mesh, command.check.numbering);
+  const physics::MaterialMap material = organ::parse_regions(command.regions, command.material, parts.mesh);
   const std::string name = command.name.empty() ? command.output.stem().string() : command.name;
-  organ::Organ made = organ::make_organ(name, std::move(checked.mesh), material, std::move(fixed),
-                                        command.storage, std::move(dynamic));
+  organ::Organ made = organ::make_organ(name, std::move(parts.mesh), material, std::move(fixed),
+                                        command.storage, std::move(parts.dynamic), std::move(parts.border));
   for (const std::string& sentence : organ::implausible(made.mesh, made.material)) warn(sentence);
   return made;
 }
@@ -68,7 +91,7 @@ void print_summary(const organ::Organ& organ, const organ::BuildResult& built,
   if (organ.split) {
     std::printf("; tensors of %zu precomputed tetrahedra, %zu dynamic ones, %zu connection nodes",
                 organ.split->parts.precomputed.tetrahedron.size(),
-                organ.split->parts.dynamic.tetrahedron.size(), organ.split->parts.connection.size());
+                organ.split->parts.dynamic.tetrahedron.size(), organ.split->connection.size());
   }
   if (!built.up_to_date) {
     std::printf("; factorized in %.2f s, columns in %.2f s, in all %.2f s", built.factor_s, built.columns_s,

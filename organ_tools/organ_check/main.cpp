@@ -36,7 +36,11 @@ void check(const std::filesystem::path& file) {
   if (organ.split) {
     std::printf("hybrid: %zu tetrahedra are dynamic, the tensors are of %zu others; %zu connection nodes\n",
                 organ.split->parts.dynamic.tetrahedron.size(),
-                organ.split->parts.precomputed.tetrahedron.size(), organ.split->parts.connection.size());
+                organ.split->parts.precomputed.tetrahedron.size(), organ.split->connection.size());
+  }
+  if (organ.split && organ.split->tie) {
+    std::printf("its parts share no nodes: the connection nodes follow %zu nodes of the dynamic part\n",
+                organ.split->tie->map.masters.size());
   }
   std::printf("%s: ", organ.material.regions.empty() ? "everywhere" : "elsewhere");
   print_tissue(organ, organ.material.common);

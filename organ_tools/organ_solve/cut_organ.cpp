@@ -69,6 +69,15 @@ std::vector<std::uint8_t> kept_of(const organ::Organ& organ, std::span<const Tet
   return std::ranges::all_of(asked, moves) ? organ.split->precomputed() : std::vector<std::uint8_t>{};
 }
 
+// [N]: nodes that the border of a precomputed part follows which shares none with the dynamic one. They hold
+// what is left around them, and where nothing is, the precomputed part still holds them.
+std::vector<bool> leaders_of(const organ::Organ& organ) {
+  std::vector<bool> leads(organ.mesh.positions.size());
+  if (!organ.split || !organ.split->tie) return leads;
+  for (const NodeId m : organ.split->tie->map.masters) leads[organ.split->parts.dynamic.node[m]] = true;
+  return leads;
+}
+
 }  // namespace
 
 CutOrgan cut_organ(const organ::Organ& organ, std::span<const TetId> asked, Imposed imposed,
@@ -83,10 +92,13 @@ CutOrgan cut_organ(const organ::Organ& organ, std::span<const TetId> asked, Impo
   cut.removed.insert(cut.removed.end(), removal.repaired.begin(), removal.repaired.end());
   cut.repaired = removal.repaired.size();
 
+  const std::vector<bool> leads = leaders_of(organ);
   for (std::size_t n = 0; n < cut.fixed.size(); ++n) {
-    if (editor.uses(NodeId(n)) == 0) cut.fixed[n] = physics::kPinned;
+    if (editor.uses(NodeId(n)) == 0 && !leads[n]) cut.fixed[n] = physics::kPinned;
   }
   physics::FixedComponents held = cut.fixed;
+  for (std::size_t n = 0; n < held.size(); ++n)
+    if (leads[n]) held[n] = physics::kPinned;
   for (const physics::ImposedDisplacement& i : imposed) {
     if (editor.uses(i.node) == 0) {
       const auto position = static_cast<std::size_t>(organ.mesh.file_node[i.node]);

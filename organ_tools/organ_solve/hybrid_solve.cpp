@@ -9,6 +9,7 @@
 #include "physics/dynamics/implicit_step.h"
 #include "physics/dynamics/rest_search.h"
 #include "physics/hybrid/condensed_stiffness.h"
+#include "physics/hybrid/connection.h"
 #include "physics/tensor_solve.h"
 
 namespace omentum::organ_tools {
@@ -33,14 +34,18 @@ Contacts contacts_of(const organ::Organ& organ, Imposed imposed, Numbering numbe
   Contacts contacts;
   for (const physics::ImposedDisplacement& i : imposed) {
     if (split.parts.dynamic.own_node[i.node].valid()) continue;
-    contacts.nodes.push_back(split.surface.of_node[split.parts.precomputed.own_node[i.node]]);
+    const SurfaceId s = split.surface.of_node[split.parts.precomputed.own_node[i.node]];
+    contacts.nodes.push_back(s);
     contacts.displacements.push_back(i.displacement);
-    if (contacts.nodes.back().valid()) continue;
+    const bool follows = split.tie && std::ranges::binary_search(split.tie->slaves, s);
+    if (s.valid() && !follows) continue;
     const auto position = static_cast<std::size_t>(organ.mesh.file_node[i.node]);
     throw InputError(
         "node " + std::to_string(organ.mesh.names_of_nodes(numbering).of(position)) +
-        " is inside the precomputed part and has no tensors; expected nodes of its surface or of "
-        "the dynamic part");
+        (follows ? " follows the dynamic part, on which it lies; expected nodes of that part, or others of "
+                   "the precomputed one's surface"
+                 : " is inside the precomputed part and has no tensors; expected nodes of its surface or of "
+                   "the dynamic part"));
   }
   return contacts;
 }
@@ -57,11 +62,12 @@ class HybridRest {
         weights_(weights),
         contacts_(std::move(contacts)),
         law_(law),
+        connection_(split_.parts, split_.surface, split_.tie ? &*split_.tie : nullptr),
         stiffness_(physics::assemble_stiffness(split_.parts.precomputed.mesh, organ.material)),
         loads_(loads_of_precomputed()),
         sag_(physics::direct_solve(stiffness_, split_.fixed, {}, loads_).displacements) {}
 
-  std::vector<Vec3> displacements() const {
+  std::vector<Vec3> displacements() {
     const std::vector<double> u = rest_of_dynamic();
     std::vector<Vec3> displacements(organ_.mesh.positions.size(), Vec3::Zero());
     const std::vector<Vec3> precomputed = follow(u);
@@ -89,6 +95,19 @@ class HybridRest {
     for (std::size_t n = 0; n < split_.parts.dynamic.node.size(); ++n)
       held[split_.parts.dynamic.node[n]] -= Vec3(f.data() + 3 * n);
     return held;
+  }
+
+  // What holds nodes that follow others is held at those: `forces`, [N], N.
+  void pass_on_border(std::vector<Vec3>& forces) const {
+    if (!split_.tie) return;
+    std::vector<double> f_c, f_m(3 * connection_.leaders().size());
+    for (const SurfaceId s : split_.connection) {
+      const Vec3& f = forces[split_.parts.precomputed.node[split_.surface.node[s]]];
+      f_c.insert(f_c.end(), f.begin(), f.end());
+    }
+    connection_.gather(f_c, f_m);
+    for (std::size_t m = 0; m < connection_.leaders().size(); ++m)
+      forces[split_.parts.dynamic.node[connection_.leaders()[m]]] += Vec3(f_m.data() + 3 * m);
   }
 
  private:
@@ -157,19 +176,15 @@ class HybridRest {
     return own;
   }
 
-  std::vector<double> rest_of_dynamic() const {
+  std::vector<double> rest_of_dynamic() {
     const MeshPart& dynamic = split_.parts.dynamic;
     const Eigen::MatrixXd S = stiffness_of_held();
     const Eigen::VectorXd f_c = force_at_rest(S);
-    physics::AddedStiffness added{{}, S.topLeftCorner(f_c.size(), f_c.size())};
+    physics::AddedStiffness added = connection_.added(S.topLeftCorner(f_c.size(), f_c.size()));
     std::vector<double> external;
     for (const NodeId n : dynamic.node)
       external.insert(external.end(), weights_[n].begin(), weights_[n].end());
-    for (const NodeId n : split_.parts.connection) {
-      const auto at = 3 * static_cast<std::size_t>(dynamic.own_node[n]);
-      Vec3::Map(&external[at]) += f_c.segment<3>(static_cast<Eigen::Index>(3 * added.nodes.size()));
-      added.nodes.push_back(dynamic.own_node[n]);
-    }
+    connection_.add_gathered({f_c.data(), static_cast<std::size_t>(f_c.size())}, external);
     physics::ImplicitStep stepper(dynamic.mesh, organ_.material, inertia(),
                                   {.step_s = kRestStep_s, .most_compliance_nodes = 0, .added = added});
     physics::BodyState state = start();
@@ -186,12 +201,12 @@ class HybridRest {
   }
 
   // The precomputed part's nodes where the dynamic ones are at `u`.
-  std::vector<Vec3> follow(std::span<const double> u) const {
+  std::vector<Vec3> follow(std::span<const double> u) {
     std::vector<physics::ImposedSurfaceNode> held;
-    for (std::size_t k = 0; k < split_.connection.size(); ++k) {
-      const auto own = static_cast<std::size_t>(split_.parts.dynamic.own_node[split_.parts.connection[k]]);
-      held.push_back({split_.connection[k], Vec3(u.data() + 3 * own) - sag_at(split_.connection[k])});
-    }
+    std::vector<double> w_c(3 * split_.connection.size());
+    connection_.lead(u, u, 0, w_c);
+    for (std::size_t k = 0; k < split_.connection.size(); ++k)
+      held.push_back({split_.connection[k], Vec3(w_c.data() + 3 * k) - sag_at(split_.connection[k])});
     for (std::size_t k = 0; k < contacts_.nodes.size(); ++k)
       held.push_back({contacts_.nodes[k], contacts_.displacements[k] - sag_at(contacts_.nodes[k])});
     const physics::SurfaceSolution surface =
@@ -212,39 +227,40 @@ class HybridRest {
   const std::vector<Vec3>& weights_;  // [N] of what is left
   Contacts contacts_;
   DynamicLaw law_;
+  physics::Connection connection_;
   physics::Stiffness stiffness_;  // of the precomputed part
   std::vector<Vec3> loads_;       // [n] of its own nodes
   std::vector<Vec3> sag_;         // [n] under them, without the dynamic part
 };
 
-void require_dynamic(const organ::Organ& organ, const std::filesystem::path& file, const CutOrgan& cut,
-                     Numbering numbering) {
-  if (!organ.split) {
-    throw InputError(file.string() +
-                     ": has no dynamic part; --model hybrid expects an organ of organ_build --dynamic");
-  }
-  const geometry::FileNumbers names(organ.mesh.tetrahedron_numbers, organ.mesh.tetrahedra.size(), numbering);
-  for (const TetId t : cut.removed) {
-    if (organ.split->dynamic[t] != 0) continue;
-    throw InputError("--remove: tetrahedron " + std::to_string(names.of(static_cast<std::size_t>(t))) +
-                     " is of the precomputed part; --model hybrid expects those of the dynamic part");
-  }
+void require_dynamic(const organ::Organ& organ, const std::filesystem::path& file) {
+  if (organ.split) return;
+  throw InputError(file.string() +
+                   ": has no dynamic part; --model hybrid expects an organ of organ_build --dynamic");
 }
 
 }  // namespace
 
+void require_knows_tie(const organ::Organ& organ, const std::filesystem::path& file,
+                       const std::string& model) {
+  if (!organ.split || !organ.split->tie || model == "hybrid") return;
+  throw InputError(file.string() + ": its parts share no nodes, and --model " + model +
+                   " knows nothing of what ties them; expected --model hybrid");
+}
+
 physics::StaticSolution solve_hybrid(const organ::Organ& organ, const std::filesystem::path& file,
                                      const CutOrgan& cut, Imposed imposed, const Vec3& gravity,
                                      Numbering numbering, DynamicLaw law) {
-  require_dynamic(organ, file, cut, numbering);
+  require_dynamic(organ, file);
   const organ::StoredTensors tensors = organ::map_tensors(file, organ);
   organ::require_whole(tensors, file);
   const std::vector<Vec3> weights = weights_of(organ, cut, gravity);
-  const HybridRest rest(organ, tensors, cut, imposed, weights, contacts_of(organ, imposed, numbering), law);
+  HybridRest rest(organ, tensors, cut, imposed, weights, contacts_of(organ, imposed, numbering), law);
   physics::StaticSolution solution{rest.displacements(), {}};
-  const std::vector<Vec3> forces = rest.holding_forces(solution.displacements);
-  for (const physics::ImposedDisplacement& i : imposed)
-    solution.holding_forces.emplace_back(forces[i.node] - weights[i.node]);
+  std::vector<Vec3> forces = rest.holding_forces(solution.displacements);
+  for (std::size_t n = 0; n < forces.size(); ++n) forces[n] -= weights[n];
+  rest.pass_on_border(forces);
+  for (const physics::ImposedDisplacement& i : imposed) solution.holding_forces.push_back(forces[i.node]);
   return solution;
 }
 

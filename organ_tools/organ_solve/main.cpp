@@ -3,7 +3,7 @@
 #include "organ/tetrahedra_csv.h"
 #include "organ_tools/fast_blas.h"
 #include "organ_tools/numbering_option.h"
-#include "organ_tools/organ_solve/hybrid_solve.h"
+#include "organ_tools/organ_solve/hybrid_cut_solve.h"
 #include "organ_tools/organ_solve/imposed_csv.h"
 #include "organ_tools/organ_solve/move_to_rest.h"
 #include "organ_tools/organ_solve/solution_csv.h"
@@ -110,6 +110,8 @@ physics::StaticSolution answer(const SolveCommand& command, const organ::Organ& 
   if (command.model == "hybrid") {
     const auto law = command.law == "corotational" ? organ_tools::DynamicLaw::kCorotational
                                                    : organ_tools::DynamicLaw::kLinear;
+    if (organ_tools::cuts_precomputed(organ, cut))
+      return organ_tools::solve_hybrid_cut(organ, cut, imposed, gravity, law);
     return organ_tools::solve_hybrid(organ, command.organ, cut, imposed, gravity, command.numbering, law);
   }
   if (command.model != "tensors")
@@ -121,6 +123,7 @@ void solve(const SolveCommand& command) {
   require_offered(command);
   const geometry::Vec3 gravity = parse_gravity(command.gravity);
   const organ::Organ organ = organ::load_organ(command.organ, organ::Load::kMeshOnly);
+  organ_tools::require_knows_tie(organ, command.organ, command.model);
   std::vector<physics::ImposedDisplacement> imposed;
   if (!command.imposed.empty())
     imposed = organ_tools::read_imposed(command.imposed, organ, command.numbering);

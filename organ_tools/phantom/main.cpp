@@ -7,6 +7,7 @@
 #include "organ_tools/phantom/liver_shape.h"
 #include "organ_tools/phantom/tetrahedralize.h"
 #include "organ_tools/phantom/tissue_samples.h"
+#include "organ_tools/phantom/two_parts.h"
 #include "runtime/command_line.h"
 
 #include <cstdio>
@@ -17,6 +18,7 @@ namespace {
 using namespace omentum;
 
 constexpr double kVoxelSpacing = 1.5e-3;  // m: that of a good abdominal scan
+constexpr double kMiddleOfCylinder_m = -0.06;
 
 template <class Write>
 void write_whole(const std::filesystem::path& file, Write&& write) {
@@ -42,6 +44,13 @@ Part chosen(const std::string& part, const std::string& size) {
   return {phantom::cylinder(), phantom::cylinder_size()};
 }
 
+geometry::TetraMesh half_of(const std::string& part, geometry::TetraMesh mesh) {
+  if (part == "cylinder-upper")
+    return phantom::eight_times_finer(phantom::parted_at(mesh, kMiddleOfCylinder_m).upper);
+  if (part == "cylinder-lower") return phantom::parted_at(mesh, kMiddleOfCylinder_m).lower;
+  return mesh;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -55,8 +64,10 @@ int main(int argc, char** argv) {
   std::filesystem::path mesh_file, labels_file;
   line.option("--part", part,
               "liver, gallbladder (700-1,000 nodes), colon (1,400-1,900), cavity (1,200-3,000), "
-              "omentum (800-2,500), plate (700-820) or cylinder (238-262)")
-      .one_of({"liver", "gallbladder", "colon", "cavity", "omentum", "plate", "cylinder"})
+              "omentum (800-2,500), plate (700-820) or cylinder (238-262); cylinder-lower: its lower half, "
+              "cylinder-upper: the other one, eight times finer, which lies on that without sharing nodes")
+      .one_of({"liver", "gallbladder", "colon", "cavity", "omentum", "plate", "cylinder", "cylinder-upper",
+               "cylinder-lower"})
       .show_default();
   line.option("--size", size, "of the liver: paper (the default: 1,500-1,800 nodes) or fine (above 16,000)")
       .one_of({"paper", "fine"});
@@ -64,7 +75,7 @@ int main(int argc, char** argv) {
   line.option("--labels", labels_file, "also the labelled volume, NIfTI-1 (.nii)").writes_file();
   return line.run(argc, argv, [&] {
     const auto [shape, mesh_size] = chosen(part, size);
-    const geometry::TetraMesh mesh = phantom::tetrahedralize(shape, mesh_size);
+    const geometry::TetraMesh mesh = half_of(part, phantom::tetrahedralize(shape, mesh_size));
     write_whole(mesh_file, [&](const auto& file) { geometry::write_mesh(mesh, file); });
     std::printf("%s: %zu nodes, %zu tetrahedra, smallest dihedral angle %.1f degrees\n", mesh_file.c_str(),
                 mesh.positions.size(), mesh.tetrahedra.size(), phantom::smallest_dihedral_angle(mesh));

@@ -71,9 +71,12 @@ void write_organ(const scene::OrganSpec& organ, toml::table& table) {
   if (!regions.empty()) table.insert("regions", std::move(regions));
   if (!organ.mesh.starts_with("phantom:"))
     table.insert_or_assign("mesh", std::filesystem::absolute(organ.mesh).string());
+  if (organ.dynamics && !organ.dynamics->dynamic_mesh.empty() &&
+      !organ.dynamics->dynamic_mesh.starts_with("phantom:"))
+    table.insert_or_assign("dynamic_mesh", std::filesystem::absolute(organ.dynamics->dynamic_mesh).string());
   // a file that took a mesh's place has its own
   if (scene::is_organ_file(organ.mesh))
-    for (const char* key : {"metres_per_unit", "fixed", "dynamic"}) table.erase(key);
+    for (const char* key : {"metres_per_unit", "fixed", "dynamic", "dynamic_mesh"}) table.erase(key);
   if (!organ.file.empty()) table.insert_or_assign("file", std::filesystem::absolute(organ.file).string());
 }
 
@@ -135,7 +138,8 @@ nlohmann::json describe(const scene::Scene& scene) {
                       {"density_kg_m3", organ.density_kg_m3},
                       {"regions", regions},
                       {"fixed", organ.fixed},
-                      {"dynamic", organ.dynamics ? organ.dynamics->dynamic_part : ""}});
+                      {"dynamic", organ.dynamics ? organ.dynamics->dynamic_part : ""},
+                      {"dynamic_mesh", organ.dynamics ? organ.dynamics->dynamic_mesh : ""}});
   }
   nlohmann::json scenery = nlohmann::json::array();
   for (const scene::ScenerySpec& piece : scene.scenery) scenery.push_back({{"mesh", piece.mesh}});

@@ -14,6 +14,11 @@ class LargeStep : public Yielding {
  public:
   /// One step under `external` forces, N. False: the result is not finite.
   [[nodiscard]] virtual bool step(BodyState& state, std::span<const double> external) noexcept = 0;
+  /// The same more exactly, for a state in which step() ended with more energy than was done to it; of what
+  /// is linear there is nothing more exact. False also then.
+  [[nodiscard]] virtual bool step_again(BodyState& /*state*/, std::span<const double> /*external*/) noexcept {
+    return false;
+  }
   /// J, with what is left.
   virtual double elastic_energy(std::span<const double> u) noexcept = 0;
   /// J, of forces that were held over a step which ended with velocities `v`.

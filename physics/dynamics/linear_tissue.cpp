@@ -26,11 +26,11 @@ geometry::TetraMesh part_of(const geometry::TetraMesh& mesh, std::span<const std
 
 LinearTissue::LinearTissue(const geometry::TetraMesh& mesh, const MaterialMap& material,
                            std::span<const std::uint8_t> chosen)
-    : mesh_(mesh), material_(material), K_(assemble_stiffness(part_of(mesh, chosen), material)) {
-  if (K_.block.empty()) return;
+    : mesh_(mesh), material_(material), stiffness_(assemble_stiffness(part_of(mesh, chosen), material)) {
+  if (stiffness_.block.empty()) return;
   chosen_.assign(chosen.begin(), chosen.end());
   has_ = chosen_;
-  uncut_ = K_.block;
+  uncut_ = stiffness_.block;
   ties_.resize(mesh.positions.size());
   f_.resize(3 * mesh.positions.size());
   count_ties();
@@ -44,11 +44,11 @@ void LinearTissue::count_ties() noexcept {
 }
 
 void LinearTissue::add_product(double scale, std::span<const double> u, std::span<double> f) noexcept {
-  for (std::int32_t n = 0; n < K_.node_count(); ++n) {
+  for (std::int32_t n = 0; n < stiffness_.node_count(); ++n) {
     if (ties_[n] == 0) continue;
     Vec3 sum = Vec3::Zero();
-    for (std::int32_t b = K_.start[n]; b < K_.start[n + 1]; ++b)
-      sum += K_.block[b] * Eigen::Map<const Vec3>(u.data() + 3 * K_.neighbour[b]);
+    for (std::int32_t b = stiffness_.start[n]; b < stiffness_.start[n + 1]; ++b)
+      sum += stiffness_.block[b] * Eigen::Map<const Vec3>(u.data() + 3 * stiffness_.neighbour[b]);
     Vec3::Map(f.data() + 3 * static_cast<std::size_t>(n)) += scale * sum;
   }
 }
@@ -67,17 +67,17 @@ void LinearTissue::remove(TetId t) noexcept {
   const geometry::Tetrahedron& tet = mesh_.tetrahedra[t];
   for (std::size_t j = 0; j < 4; ++j) {
     --ties_[tet[j]];
-    const auto row = K_.neighbour.begin() + K_.start[tet[j]],
-               row_end = K_.neighbour.begin() + K_.start[tet[j] + 1];
+    const auto row = stiffness_.neighbour.begin() + stiffness_.start[tet[j]],
+               row_end = stiffness_.neighbour.begin() + stiffness_.start[tet[j] + 1];
     for (std::size_t k = 0; k < 4; ++k)
-      K_.block[static_cast<std::size_t>(std::lower_bound(row, row_end, tet[k]) - K_.neighbour.begin())] -=
-          element[j][k];
+      stiffness_.block[static_cast<std::size_t>(std::lower_bound(row, row_end, tet[k]) -
+                                                stiffness_.neighbour.begin())] -= element[j][k];
   }
 }
 
 void LinearTissue::restore() noexcept {
   has_ = chosen_;
-  std::ranges::copy(uncut_, K_.block.begin());
+  std::ranges::copy(uncut_, stiffness_.block.begin());
   count_ties();
 }
 

@@ -38,7 +38,7 @@ class LinearTissue {
   MaterialMap material_;
   std::vector<std::uint8_t> chosen_, has_;  // [T]; empty: none
   std::vector<std::int32_t> ties_;          // [N] tetrahedra that are left around it
-  Stiffness K_;                             // of what is left; of no node where none was chosen
+  Stiffness stiffness_;                     // of what is left; of no node where none was chosen
   std::vector<Eigen::Matrix3d> uncut_;      // its blocks
   std::vector<double> f_;                   // [3N]
 };

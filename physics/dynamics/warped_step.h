@@ -41,6 +41,9 @@ class WarpedStep final : public JoinableStep {
 
   double step_s() const override { return options_.step_s; }
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
+  /// Linearized again and again, until the step's equation itself holds: energy afterwards is no more than it
+  /// was, and the work. Several times as long; what step() left undone is not made up for.
+  [[nodiscard]] bool step_again(BodyState& state, std::span<const double> external) noexcept override;
   double elastic_energy(std::span<const double> u) noexcept override {
     return law_.energy(u) + added_.energy(u) + linear_.energy(u);
   }
@@ -69,6 +72,11 @@ class WarpedStep final : public JoinableStep {
   Corotational& law() { return law_; }
 
  private:
+  struct Potential {
+    double least_j, own_j;
+  };
+  Potential potential(std::span<const double> v_before, std::span<const double> external) noexcept;
+  bool go_along(std::span<const double> v_before, std::span<const double> external, double most_j) noexcept;
   void count_ties() noexcept;
   void take_off_law(std::span<const geometry::TetId> tetrahedra) noexcept;
   bool is_held(std::size_t c) const noexcept;
@@ -95,6 +103,7 @@ class WarpedStep final : public JoinableStep {
   std::vector<std::uint8_t> stands_;  // [N] 1: held or tied, so that it is never turned
   std::vector<std::int32_t> ties_;    // [N] tetrahedra that are left, and what is added; 0: stays where it is
   std::vector<Eigen::Matrix3d> rotation_;  // [N] Q
+  BodyState again_;                        // workspace of step_again()
   BodyState linear_at_;                    // where the law, the rotations and the forces are of ...
   bool is_linear_ = false;                 // ... if they are
   std::vector<double> ahead_, forces_;     // [3N] u + dt v there; f(u + dt v) - D v, N

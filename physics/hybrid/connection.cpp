@@ -16,7 +16,7 @@ Connection::Connection(const MeshSplit& split, const geometry::Surface& surface,
   if (tie != nullptr) {
     nodes_ = tie->slaves;
     leaders_ = tie->map.masters;
-    P_ = tie->map.P;
+    weights_ = tie->map.P;
   } else {
     for (const geometry::NodeId n : split.connection) {
       nodes_.push_back(surface.of_node[split.precomputed.own_node[n]]);
@@ -28,15 +28,15 @@ Connection::Connection(const MeshSplit& split, const geometry::Surface& surface,
 
 AddedStiffness Connection::added(const Eigen::MatrixXd& S) const {
   if (!is_tied()) return {leaders_, S};
-  return tied({leaders_, P_}, S);
+  return tied({leaders_, weights_}, S);
 }
 
 std::vector<double> Connection::carried(std::span<const double> mass) const {
   if (!is_tied()) return {mass.begin(), mass.end()};
   std::vector<double> sums(leaders_.size());
-  for (Eigen::Index c = 0; c < P_.rows(); ++c)
-    for (Eigen::Index m = 0; m < P_.cols(); ++m)
-      sums[static_cast<std::size_t>(m)] += P_(c, m) * mass[static_cast<std::size_t>(c)];
+  for (Eigen::Index c = 0; c < weights_.rows(); ++c)
+    for (Eigen::Index m = 0; m < weights_.cols(); ++m)
+      sums[static_cast<std::size_t>(m)] += weights_(c, m) * mass[static_cast<std::size_t>(c)];
   return sums;
 }
 
@@ -50,9 +50,10 @@ void Connection::lead(std::span<const double> u, std::span<const double> v, doub
     std::ranges::copy(led_, w_c.begin());
     return;
   }
-  for (Eigen::Index c = 0; c < P_.rows(); ++c) {
+  for (Eigen::Index c = 0; c < weights_.rows(); ++c) {
     Vec3 w = Vec3::Zero();
-    for (Eigen::Index m = 0; m < P_.cols(); ++m) w += P_(c, m) * Eigen::Map<const Vec3>(led_.data() + 3 * m);
+    for (Eigen::Index m = 0; m < weights_.cols(); ++m)
+      w += weights_(c, m) * Eigen::Map<const Vec3>(led_.data() + 3 * m);
     Eigen::Map<Vec3>(w_c.data() + 3 * c) = w;
   }
 }
@@ -63,9 +64,10 @@ void Connection::gather(std::span<const double> f_c, std::span<double> f_m) cons
     return;
   }
   std::ranges::fill(f_m, 0.0);
-  for (Eigen::Index c = 0; c < P_.rows(); ++c) {
+  for (Eigen::Index c = 0; c < weights_.rows(); ++c) {
     const Vec3 f(f_c.data() + 3 * c);
-    for (Eigen::Index m = 0; m < P_.cols(); ++m) Eigen::Map<Vec3>(f_m.data() + 3 * m) += P_(c, m) * f;
+    for (Eigen::Index m = 0; m < weights_.cols(); ++m)
+      Eigen::Map<Vec3>(f_m.data() + 3 * m) += weights_(c, m) * f;
   }
 }
 

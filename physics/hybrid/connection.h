@@ -18,7 +18,7 @@ class Connection {
 
   std::span<const geometry::SurfaceId> nodes() const { return nodes_; }   // [c]
   std::span<const geometry::NodeId> leaders() const { return leaders_; }  // [m], of the dynamic part
-  bool is_tied() const { return P_.size() != 0; }
+  bool is_tied() const { return weights_.size() != 0; }
 
   /// P^T S P of the leaders, for S [3c x 3c].
   AddedStiffness added(const Eigen::MatrixXd& S) const;
@@ -35,8 +35,8 @@ class Connection {
  private:
   std::vector<geometry::SurfaceId> nodes_;
   std::vector<geometry::NodeId> leaders_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> P_;  // [c x m]; none: 1
-  std::vector<double> led_;                                                   // [3m]
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights_;  // [c x m]; none: 1
+  std::vector<double> led_;                                                         // [3m]
 };
 
 }  // namespace omentum::physics

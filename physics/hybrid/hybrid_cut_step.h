@@ -21,9 +21,9 @@ struct HybridTissue {
 /// The step of HybridStep, with the precomputed part in the factor instead of in stored tensors: one implicit
 /// step of all tissue in which the precomputed part's own nodes have no mass, K (u + b v) = f, and its
 /// tetrahedra do not turn. So a removal is six ranks off one factor wherever it is, the stiffness of the
-/// border follows by itself, and a node of the inside has a compliance when it comes to the surface. What
-/// S = C_cc^-1 of the sketch in docs/hybrid.md would become is never formed: removing an element would change
-/// it by six ranks too, each a solve of the precomputed part, in a block that is dense.
+/// border follows by itself, and a node of the inside has a compliance when it comes to the surface. S
+/// itself is never formed: removing an element would change it by six ranks too, each a solve of the
+/// precomputed part, in a block that is dense.
 ///
 /// Pieces of precomputed tissue that nothing holds would make the equation singular. Whoever removes finds
 /// them before (UnheldPieces), and takes them along or makes them dynamic.
@@ -37,6 +37,9 @@ class HybridCutStep final : public LargeStep {
   double step_s() const override { return step_->step_s(); }
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override {
     return step_->step(state, external);
+  }
+  [[nodiscard]] bool step_again(BodyState& state, std::span<const double> external) noexcept override {
+    return step_->step_again(state, external);
   }
   double elastic_energy(std::span<const double> u) noexcept override { return step_->elastic_energy(u); }
 

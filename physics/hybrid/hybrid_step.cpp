@@ -162,10 +162,18 @@ void HybridStep::follow(Sag sag) noexcept {
 }
 
 bool HybridStep::step(BodyState& state, std::span<const double> external) noexcept {
+  return move(state, external, &LargeStep::step);
+}
+
+bool HybridStep::step_again(BodyState& state, std::span<const double> external) noexcept {
+  return move(state, external, &LargeStep::step_again);
+}
+
+bool HybridStep::move(BodyState& state, std::span<const double> external, Step step) noexcept {
   gather(state.u, own_.u);
   gather(state.v, own_.v);
   condense(external, Sag::kWith);
-  if (!dynamic_->step(own_, own_external_)) return false;
+  if (!(dynamic_.get()->*step)(own_, own_external_)) return false;
   scatter(own_.u, state.u);
   scatter(own_.v, state.v);
   lead(own_.u, own_.v);

@@ -54,6 +54,7 @@ class HybridStep final : public LargeStep {
 
   double step_s() const override { return dynamic_->step_s(); }
   [[nodiscard]] bool step(BodyState& state, std::span<const double> external) noexcept override;
+  [[nodiscard]] bool step_again(BodyState& state, std::span<const double> external) noexcept override;
   /// Of the dynamic part, and of the precomputed one as far as its connection nodes deform it: no more than
   /// what work() has done.
   double elastic_energy(std::span<const double> u) noexcept override;
@@ -76,6 +77,8 @@ class HybridStep final : public LargeStep {
   using Sag = PrecomputedPart::Sag;
 
   PrecomputedPart::Loads loads() const { return {loaded_, loads_}; }
+  using Step = decltype(&LargeStep::step);
+  bool move(BodyState& state, std::span<const double> external, Step step) noexcept;
   void collect_loads(std::span<const double> forces, Sag sag) noexcept;
   void condense(std::span<const double> forces, Sag sag) noexcept;
   void gather(std::span<const double> whole, std::span<double> own) const noexcept;

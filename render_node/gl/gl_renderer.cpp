@@ -7,6 +7,7 @@
 #include "render_node/gl/panel_backend.h"
 #include "render_node/gl/programs.h"
 #include "render_node/gl/render_target.h"
+#include "render_node/gl/scope_window.h"
 #include "render_node/gl/stretch.h"
 #include "render_node/gl/tube_painter.h"
 #include "render_node/gl/wires.h"
@@ -65,7 +66,7 @@ class GlRenderer final : public Renderer {
     const RenderTarget& scene = target(frame.quality);
     if (casts_shadows(frame)) cast_shadows(frame);
     draw_scene(frame, scene);
-    resolve(scene);
+    resolve(frame, scene);
     if (frame.with_panel) panel_->draw(output(), fitted_);
   }
 
@@ -144,6 +145,7 @@ class GlRenderer final : public Renderer {
     glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer());
     glViewport(0, 0, drawn_.width, drawn_.height);
     glClear(GL_DEPTH_BUFFER_BIT);
+    const ScopeWindow window(frame, drawn_);
     shadow_.bind_texture(kShadowUnit);
     pattern_.bind(kPatternUnit);
 
@@ -182,7 +184,6 @@ class GlRenderer final : public Renderer {
   }
 
   void draw_items(const Frame& frame, Look look) {
-    const Program& program = programs(frame).of(look);
     const auto set_all = [&](const Program& p) {
       set_scene(p, frame);
       p.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
@@ -191,6 +192,8 @@ class GlRenderer final : public Renderer {
     const bool over = look == Look::kSignal;
     glDepthRange(over ? 0 : kSignalDepth, over ? kSignalDepth : 1);
     tubes_.draw(frame, look, set_all);
+    if (std::ranges::none_of(frame.items, [&](const DrawItem& item) { return item.look == look; })) return;
+    const Program& program = programs(frame).of(look);
     program.use();
     set_all(program);
     for (const DrawItem& item : frame.items) {
@@ -232,20 +235,22 @@ class GlRenderer final : public Renderer {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  void resolve(const RenderTarget& scene) {
+  void resolve(const Frame& frame, const RenderTarget& scene) {
     const auto [width, height] = fitted_;
     if (scene.texture() == 0) {  // several samples per pixel
       glBindFramebuffer(GL_READ_FRAMEBUFFER, scene.framebuffer());
       glBindFramebuffer(GL_DRAW_FRAMEBUFFER, output());
       glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     } else {
+      glBindFramebuffer(GL_FRAMEBUFFER, output());
+      const ScopeWindow window(frame, fitted_);
       stretch_.draw(scene, output(), fitted_);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, output());
     glViewport(0, 0, width, height);
   }
 
-  const Programs& programs(const Frame& frame) {
+  Programs& programs(const Frame& frame) {
     const Shading shading = means_of(frame.quality).shading;
     auto& programs = programs_[static_cast<std::size_t>(shading)];
     return programs ? *programs : programs.emplace(shading);

@@ -74,7 +74,7 @@ void MeshBuffer::replace(const MeshData& mesh) {
 // The array is bound.
 void MeshBuffer::fill(const MeshData& mesh) {
   split_ = mesh.split;
-  std::vector<MeshTriangle> corners;
+  std::vector<MeshTriangle> corners = mesh.few;
   if (split_ > 1) corners = corner_triangles(mesh.triangles, split_);
   triangle_count_ = mesh.triangles.size();
   corner_count_ = corners.size();
@@ -97,7 +97,7 @@ void MeshBuffer::draw() const {
 }
 
 void MeshBuffer::draw_corners() const {
-  if (split_ == 1) return draw();
+  if (corner_count_ == 0) return draw();
   const std::size_t offset = triangle_count_ * sizeof(MeshTriangle);
   glBindVertexArray(array_);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * corner_count_), GL_UNSIGNED_INT,

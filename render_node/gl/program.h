@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace omentum::render::gl {
 
@@ -14,6 +15,8 @@ class Program {
   /// Both sources begin without #version; `prefix` goes before the fragment shader.
   Program(const std::string& name, std::string_view vertex, std::string_view prefix,
           std::string_view fragment, std::string_view vertex_prefix = "");
+  Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  Program& operator=(Program&&) = delete;
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

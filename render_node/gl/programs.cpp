@@ -13,9 +13,40 @@ std::string prefix_of(Shading shading) {
   return define + std::string(shaders::common_glsl);
 }
 
-Program surface(Shading shading, const char* name, const std::string& defines, std::string_view fragment,
-                const std::string& is) {
-  return surface_program(shading, name, shaders::surface_vert, defines, fragment, is);
+// How a look is drawn: its name, what it is to its fragment shader, that shader, and what it is to the light
+// at a vertex.
+struct LookShader {
+  const char *name, *defines;
+  std::string_view fragment;
+  const char* is;
+};
+LookShader shader_of(Look look) {
+  switch (look) {
+    case Look::kTissue:
+      return {"tissue", "", shaders::tissue_frag, "TISSUE"};
+    case Look::kCut:
+      return {"cut tissue", "#define CUT\n", shaders::tissue_frag, "TISSUE"};
+    case Look::kBared:
+      return {"bared tissue", "#define CUT\n#define BARED\n", shaders::tissue_frag, "TISSUE"};
+    case Look::kMap:
+      return {"map", "", shaders::map_frag, "MAP"};
+    case Look::kGut:
+      return {"gut", "#define GUT\n", shaders::tissue_frag, "TISSUE"};
+    case Look::kBlood:
+      return {"blood", "", shaders::blood_frag, "SOLID"};
+    case Look::kMesentery:
+      return {"mesentery", "#define SHEET\n", shaders::tissue_frag, "TISSUE"};
+    case Look::kWall:
+      return {"wall", "#define WALL\n", shaders::tissue_frag, "TISSUE"};
+    case Look::kGround:
+      return {"ground", "", shaders::ground_frag, "GROUND"};
+    case Look::kSignal:
+      return {"signal", "", shaders::signal_frag, "SIGNAL"};
+    case Look::kSmoke:  // whose light is never a vertex'
+    case Look::kSolid:
+      break;
+  }
+  return {"solid", "", shaders::solid_frag, "SOLID"};
 }
 
 }  // namespace
@@ -28,50 +59,24 @@ Program surface_program(Shading shading, const char* name, std::string_view vert
               std::string(shaders::vertex_light_glsl)};
 }
 
-Programs::Programs(Shading shading)
-    : backdrop_("backdrop", shaders::screen_vert, prefix_of(shading), shaders::backdrop_frag),
-      lens_("lens", shaders::screen_vert, prefix_of(shading), shaders::lens_frag),
-      tissue_(surface(shading, "tissue", "", shaders::tissue_frag, "TISSUE")),
-      cut_(surface(shading, "cut tissue", "#define CUT\n", shaders::tissue_frag, "TISSUE")),
-      bared_(
-          surface(shading, "bared tissue", "#define CUT\n#define BARED\n", shaders::tissue_frag, "TISSUE")),
-      map_(surface(shading, "map", "", shaders::map_frag, "MAP")),
-      gut_(surface(shading, "gut", "#define GUT\n", shaders::tissue_frag, "TISSUE")),
-      blood_(surface(shading, "blood", "", shaders::blood_frag, "SOLID")),
-      smoke_("smoke", shaders::surface_vert, prefix_of(shading), shaders::smoke_frag),
-      mesentery_(surface(shading, "mesentery", "#define SHEET\n", shaders::tissue_frag, "TISSUE")),
-      wall_(surface(shading, "wall", "#define WALL\n", shaders::tissue_frag, "TISSUE")),
-      solid_(surface(shading, "solid", "", shaders::solid_frag, "SOLID")),
-      ground_(surface(shading, "ground", "", shaders::ground_frag, "GROUND")),
-      signal_(surface(shading, "signal", "", shaders::signal_frag, "SIGNAL")) {}
+const Program& Programs::of(Look look) {
+  std::optional<Program>& program = of_[static_cast<std::size_t>(look)];
+  if (program) return *program;
+  if (look == Look::kSmoke)
+    return program.emplace("smoke", shaders::surface_vert, prefix_of(shading_), shaders::smoke_frag);
+  const auto [name, defines, fragment, is] = shader_of(look);
+  return program.emplace(surface_program(shading_, name, shaders::surface_vert, defines, fragment, is));
+}
 
-const Program& Programs::of(Look look) const {
-  switch (look) {
-    case Look::kTissue:
-      return tissue_;
-    case Look::kCut:
-      return cut_;
-    case Look::kBared:
-      return bared_;
-    case Look::kMap:
-      return map_;
-    case Look::kGut:
-      return gut_;
-    case Look::kBlood:
-      return blood_;
-    case Look::kSmoke:
-      return smoke_;
-    case Look::kMesentery:
-      return mesentery_;
-    case Look::kWall:
-      return wall_;
-    case Look::kGround:
-      return ground_;
-    case Look::kSignal:
-      return signal_;
-    default:
-      return solid_;
-  }
+const Program& Programs::backdrop() {
+  if (!backdrop_)
+    backdrop_.emplace("backdrop", shaders::screen_vert, prefix_of(shading_), shaders::backdrop_frag);
+  return *backdrop_;
+}
+
+const Program& Programs::lens() {
+  if (!lens_) lens_.emplace("lens", shaders::screen_vert, prefix_of(shading_), shaders::lens_frag);
+  return *lens_;
 }
 
 }  // namespace omentum::render::gl

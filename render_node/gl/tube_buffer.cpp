@@ -27,8 +27,8 @@ void draw_triangles(std::size_t first, std::size_t count, std::size_t instances)
 
 }  // namespace
 
-CylinderBuffer::CylinderBuffer(int n) {
-  const TubeCylinder cylinder = make_tube_cylinder(n);
+CylinderBuffer::CylinderBuffer(int n, int around) {
+  const TubeCylinder cylinder = make_tube_cylinder(n, around);
   wall_triangles_ = cylinder.wall_triangles;
   cap_triangles_ = cylinder.cap_triangles;
   glGenBuffers(1, &vertices_);

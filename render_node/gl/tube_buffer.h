@@ -5,10 +5,10 @@
 
 namespace omentum::render::gl {
 
-/// Of one n. Owns vertices and indices.
+/// Of one n, with so many vertices around. Owns vertices and indices.
 class CylinderBuffer {
  public:
-  explicit CylinderBuffer(int n);
+  CylinderBuffer(int n, int around);
   ~CylinderBuffer();
   CylinderBuffer(const CylinderBuffer&) = delete;
   CylinderBuffer& operator=(const CylinderBuffer&) = delete;

@@ -38,7 +38,7 @@ void TubePainter::cast_shadows(const Frame& frame) {
   shadow_.set("clip_from_W", frame.lighting.clip_from_W);
   for (const TubeItem& item : frame.tubes) {
     shadow_.set("radius", item.radius_m);
-    draw(item);
+    draw(item, frame.quality);
   }
 }
 
@@ -48,7 +48,7 @@ void TubePainter::draw_wires(const Frame& frame) {
   wires_.set("clip_from_W", Mat4f(frame.view.clip_from_eye * frame.view.eye_from_W));
   for (const TubeItem& item : frame.tubes) {
     wires_.set("radius", item.radius_m);
-    draw(item);
+    draw(item, frame.quality);
   }
 }
 
@@ -67,14 +67,15 @@ void TubePainter::draw(const Frame& frame, Look look, const std::function<void(c
     program.set("turn_full", static_cast<float>(2 * item.resolution.eps));
     program.set("material_colour", item.material.colour);
     program.set("material_roughness", item.material.roughness);
-    draw(item);
+    draw(item, frame.quality);
   }
 }
 
-void TubePainter::draw(const TubeItem& item) {
+void TubePainter::draw(const TubeItem& item, Quality quality) {
   const int n = clamped(item.resolution).n;
-  auto& cylinder = cylinders_[static_cast<std::size_t>(n)];
-  if (!cylinder) cylinder.emplace(n);
+  const bool few = means_of(quality).corners_alone;
+  auto& cylinder = (few ? few_cylinders_ : cylinders_)[static_cast<std::size_t>(n)];
+  if (!cylinder) cylinder.emplace(n, few ? TubeCylinder::kFewAround : TubeCylinder::kAround);
   tubes_[static_cast<std::size_t>(item.tube)].draw(*cylinder);
 }
 

@@ -30,11 +30,12 @@ class TubePainter {
     explicit Wall(Shading shading);
     Program gut, map;
   };
-  void draw(const TubeItem& item);
+  void draw(const TubeItem& item, Quality quality);
 
   std::array<std::optional<Wall>, kShadingCount> walls_;  // made when first needed
   Program shadow_, wires_;
-  std::array<std::optional<CylinderBuffer>, kMostTubeN + 1> cylinders_;  // by n
+  using Cylinders = std::array<std::optional<CylinderBuffer>, kMostTubeN + 1>;  // by n
+  Cylinders cylinders_, few_cylinders_;
   std::vector<TubeBuffer> tubes_;
 };
 

@@ -18,8 +18,7 @@ namespace {
 using geometry::TetId;
 
 constexpr double kReach_m = 0.02, kMostForce_n = 20;
-constexpr double kMostWay_m = 2e-3;  // of a tick of 10 ms: 0.2 m/s, a fast hand in a body
-constexpr double kRounding = 1e-4;   // of forces that are told in float
+constexpr double kRounding = 1e-4;  // of forces that are told in float
 
 class Trial {
  public:
@@ -101,7 +100,7 @@ class Trial {
     const double yield = patch_.compliance[first * rows - first * (first + 1) / 2 + first];
     const NodeId node = node_at(patch_.nodes[n]);
     const Vec3 u = patch_.positions[n] - organ_.mesh.positions[node];
-    const double way_m = std::clamp(organ_.depth_m - u.x(), -kMostWay_m, kMostWay_m);
+    const double way_m = std::clamp(organ_.depth_m - u.x(), -organ_.most_way_m, organ_.most_way_m);
     const double force_n = std::clamp(way_m / yield, -kMostForce_n, kMostForce_n);
     if (organ_.fixed[node] != 0 || any(10) == 0) return let_go();
     pressed_ = {node};

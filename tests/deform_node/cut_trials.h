@@ -24,6 +24,7 @@ struct TriedOrgan {
   std::span<const std::uint8_t> precomputed{};        // [T] other than 0: stays; empty: none has to
   bool is_static = false;                             // what is left is held, always
   bool turns = false;                                 // what a hand feels depends on how it lies
+  double most_way_m = 2e-3;  // of a hand within a tick of 10 ms: 0.2 m/s, a fast hand in a body
 };
 
 /// One sequence of `ticks`: strokes through random places, a hand that presses by the local models that it is

@@ -56,7 +56,7 @@ TEST_F(WarpedHybridModelTest, WhatAHandLiftsAndTurnsKeepsItsSize) {
 
 TEST_F(WarpedHybridModelTest, AnyCutsLeaveASoundOrganUnderAPull) {
   for (std::uint32_t seed = 0; seed < 8; ++seed)
-    EXPECT_EQ(try_hybrid_cuts(organ_, seed % 2 == 0 ? "corotational" : "linear", seed, 60), "")
+    EXPECT_EQ(try_hybrid_cuts(organ_, {.law = seed % 2 == 0 ? "corotational" : "linear"}, seed, 60), "")
         << "seed " << seed;
 }
 

@@ -66,6 +66,7 @@ class NodeBench {
   std::optional<msg::Contact> contact() const { return get(contact_); }
   std::uint64_t seq() const { return seq_; }
   test::Process& node() { return node_; }
+  int domain() const { return domain_; }
 
  private:
   bool go_in() {

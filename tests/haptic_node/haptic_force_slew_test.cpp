@@ -1,11 +1,9 @@
 // The exit's promise about steps: what leaves in one tick and in the next differs by the slew limit at most,
 // but for what falls at once.
-#include "haptic_node/force_safety.h"
-#include "transport/messages.h"
+#include "tests/haptic_node/force_watch.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 
 namespace omentum::haptic_test {
@@ -18,13 +16,6 @@ using haptic::SafetyInput;
 using haptic::Vec3;
 
 constexpr double kSlewRounding_n = 1e-9;
-
-// How far `after` is from all that `before` can fall to, N: it keeps its direction as it falls.
-double risen_n(const Vec3& before, const Vec3& after) {
-  const double squared = before.squaredNorm();
-  const double kept = squared > 0 ? std::clamp(after.dot(before) / squared, 0.0, 1.0) : 0;
-  return (after - kept * before).norm();
-}
 
 // A hand, a model that feeds it and turns as it likes, pauses, silences and ticks of any length.
 class AnyHand {

@@ -58,6 +58,28 @@ TEST_F(OrganSolveHybridTest, ItRestsWhereTheSingleModelDoesOnRealMeshes) {
   }
 }
 
+// Tetrahedra of both parts, some of them at the border; what they leave loose of a mesh is left out.
+TEST_F(OrganSolveHybridTest, ItRestsWhereADirectSolveDoesWhicheverPartIsCut) {
+  build_hybrid(build_arguments(mesh), "plane:x>0.05");
+  const Organ loaded = load_organ(organ, Load::kMeshOnly);
+  const std::size_t count = loaded.mesh.tetrahedra.size();
+  for (const std::size_t every : {count - 1, std::size_t{31}, std::size_t{11}}) {
+    std::string removed;
+    std::size_t precomputed = 0;
+    for (std::size_t t = every; t < count; t += every) {
+      removed += std::to_string(t) + "\n";
+      precomputed += loaded.split->dynamic[t] == 0;
+    }
+    if (precomputed == 0) removed += "1\n";
+    const std::vector<std::string> task{"--gravity", "0,-9.81,3",
+                                        "--remove",  write("t.csv", removed),
+                                        "--imposed", write("i.csv", "79,0.001,0,-0.002\n")};
+    const Solved direct = solve("direct", task), hybrid = solve("hybrid", task);
+    EXPECT_LE(largest_difference(hybrid.u, direct.u), kHybridEqual * largest_entry(direct.u)) << every;
+    EXPECT_LE(largest_difference(hybrid.f, direct.f), 10 * kHybridEqual * largest_entry(direct.f)) << every;
+  }
+}
+
 TEST_F(OrganSolveHybridTest, ItDoesWithSeveralDynamicParts) {
   build_hybrid(build_arguments(mesh), "box:0.05,0,0,1,1,0.02+box:0.05,0,0.04,1,1,1");
   expect_equal({"--gravity", "0,-9.81,3", "--imposed", write("i.csv", "79,0.001,0,-0.002\n")});
@@ -90,7 +112,8 @@ TEST_F(OrganSolveHybridTest, WhatItCannotAnswerIsRefused) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_refused("organ_solve", arguments, named);
   };
-  refused("hybrid", {"--remove", write("t.csv", "1\n")}, "tetrahedron 1 is of the precomputed part");
+  refused("hybrid", {"--law", "corotational", "--remove", write("t.csv", "1\n")},
+          "--remove names tetrahedra of the precomputed part");
   refused("hybrid", {"--imposed", write("i.csv", "26,0,0,0.001\n")},
           "node 26 is inside the precomputed part");
   refused("tensors", {}, "--model hybrid");

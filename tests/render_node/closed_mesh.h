@@ -31,12 +31,17 @@ inline double volume_m3(const MeshData& mesh) {
   return volume;
 }
 
+/// A vector outward, as long as the triangle's area, m^2.
+inline Vec3f area_of(const MeshData& mesh, const MeshTriangle& t) {
+  const Vec3f& p = mesh.vertices[t[0]].position;
+  return 0.5f * (mesh.vertices[t[1]].position - p).cross(mesh.vertices[t[2]].position - p);
+}
+
 /// Of the triangles that have an area, those that face away from a vertex's normal.
 inline int flipped_triangles(const MeshData& mesh) {
   int count = 0;
   for (const auto& t : mesh.triangles) {
-    const Vec3f& p = mesh.vertices[t[0]].position;
-    const Vec3f area = (mesh.vertices[t[1]].position - p).cross(mesh.vertices[t[2]].position - p);
+    const Vec3f area = 2 * area_of(mesh, t);
     for (const auto corner : t) {
       if (area.norm() > 1e-10f && area.dot(mesh.vertices[corner].normal) < 0) {
         ++count;

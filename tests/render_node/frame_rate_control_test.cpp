@@ -1,5 +1,6 @@
 // The control of how fine and how often frames are drawn, on load models and simulated time.
 #include "render_node/frame_rate_control.h"
+#include "render_node/frame_cost.h"
 
 #include "load_models.h"
 
@@ -131,6 +132,20 @@ TEST(FrameRateControl, WhereTheCoarsestIsTooDearFramesComeLaterAndKeepTheirShare
   EXPECT_EQ(session.control().level(), kCoarsestLevel);
   EXPECT_NEAR(session.rate(1, 4) * kCost_s, kDrawingShare, 0.05);
   EXPECT_NEAR(session.control().reached_fps(), kDrawingShare / kCost_s, 0.1);
+}
+
+TEST(FrameCost, IsTheProcessorsTimeWhereOthersHadItMeanwhile) {
+  constexpr double kClock_s = 0.04;
+  EXPECT_EQ(counted_cost_s(kClock_s, kClock_s, kDrawingDuty), kClock_s) << "nobody else";
+  EXPECT_EQ(counted_cost_s(kClock_s, 0.9 * kClock_s, kDrawingDuty), 0.9 * kClock_s);
+  EXPECT_EQ(counted_cost_s(0, 0.01, kDrawingDuty), 0) << "clocks that differ";
+}
+
+TEST(FrameCost, FramesThatWaitEndBeforeTheNextBegins) {
+  constexpr double kClock_s = 0.04;
+  FrameRateControl control(kAsked_fps, kDrawingDuty);
+  for (int k = 0; k < 20; ++k) control.record(k * kClock_s, counted_cost_s(kClock_s, 0.01, kDrawingDuty));
+  EXPECT_NEAR(control.reached_fps(), kWaitingDuty / kClock_s, 1e-6);
 }
 
 TEST(FrameRateControl, OneDelayedFrameChangesNothing) {

@@ -86,6 +86,34 @@ TEST_F(ThroughTheScope, WhatIsFartherIsDarker) {
   EXPECT_LT(far_red, 0.8f * near_red);
 }
 
+// What was drawn before, through no scope, must not stay beside the round field of view.
+TEST_F(ThroughTheScope, BesideTheFieldOfViewAllIsBlackAtEveryQuality) {
+  show({ball_organ(kBall_m, 3)});
+  Frame scope = view_->frame(choices_, std::vector{ToolNow{}, scope_}, 0);
+  choices_.endoscope = false;
+  Frame orbit = view_->frame(choices_, std::vector{ToolNow{}, scope_}, 0);
+  orbit.with_panel = scope.with_panel = false;
+  for (std::size_t q = 0; q < kQualityCount; ++q) {
+    orbit.quality = scope.quality = static_cast<Quality>(q);
+    renderer_->draw(orbit);
+    renderer_->draw(scope);
+    const Picture picture = renderer_->read_back();
+    int seen = 0;
+    for (int x = 0; x < kScopePicture.width; ++x) {
+      const std::uint8_t* pixel =
+          &picture.rgba[4 * static_cast<std::size_t>(kScopePicture.height / 2 * kScopePicture.width + x)];
+      const float off = std::abs(static_cast<float>(x) + 0.5f - kScopePicture.width / 2.0f);
+      const int light = pixel[0] + pixel[1] + pixel[2];
+      if (off > 0.5f * 1.075f * kScopePicture.height + 4) {
+        EXPECT_EQ(light, 0) << "quality " << q << ", column " << x;
+      } else if (light > 0) {
+        ++seen;
+      }
+    }
+    EXPECT_GT(seen, 0.9 * kScopePicture.height) << "quality " << q;
+  }
+}
+
 TEST_F(ThroughTheScope, AnInstrumentShadesTheTissueBelowItWhichTheLampAboveTheLensLooksPast) {
   show({ball_organ(kBall_m, 4)});
   ToolNow probe;

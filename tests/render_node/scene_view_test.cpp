@@ -230,6 +230,7 @@ TEST(SceneView, EndoscopeFollowsTheScope) {
   const Vec3 at(0, -0.2, 0);
   const Frame frame = stage.frame({{}, tool_at(at, Vec3::Zero())});
   EXPECT_TRUE(frame.through_endoscope);
+  EXPECT_TRUE(with_look(frame, Look::kGround).empty()) << "inside of a body no drape is seen";
   EXPECT_LT((frame.view.eye - at.cast<float>()).norm(), kFloat);
   EXPECT_TRUE(with_look(frame, Look::kSolid).empty()) << "the scope does not see itself";
   stage.choices.endoscope = false;

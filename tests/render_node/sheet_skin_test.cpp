@@ -27,6 +27,25 @@ TEST(SheetSkin, IsClosedAndFacesOutwards) {
   EXPECT_GT(test::volume_m3(skin.mesh()), 0);
 }
 
+TEST(SheetSkin, ItsFewTrianglesCoverBothFacesAndFaceAsTheyDo) {
+  const SheetSkin skin(test::gut_shape());
+  const MeshData& mesh = skin.mesh();
+  EXPECT_LE(mesh.few.size(), mesh.triangles.size() / SheetSkin::kAcross);
+  float all_m2 = 0, few_m2 = 0, turned_m2 = 0;
+  for (const MeshTriangle& t : mesh.triangles) all_m2 += test::area_of(mesh, t).norm();
+  for (const MeshTriangle& t : mesh.few) {
+    const Vec3f area = test::area_of(mesh, t);
+    few_m2 += area.norm();
+    Vec3f normals = Vec3f::Zero();
+    for (const std::uint32_t corner : t) normals += mesh.vertices[corner].normal;
+    if (area.dot(normals) < 0) turned_m2 += area.norm();
+  }
+  EXPECT_LT(turned_m2, 0.05f * few_m2) << "where its ends are drawn together alone";
+  // all but the rim, and what the folds' chords leave out
+  EXPECT_LT(few_m2, all_m2);
+  EXPECT_GT(few_m2, 0.7f * all_m2);
+}
+
 TEST(SheetSkin, IsThinnerThanWhatCollides) {
   const geometry::GutShape gut = test::gut_shape();
   const SheetSkin skin(gut);

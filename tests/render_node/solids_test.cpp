@@ -4,6 +4,7 @@
 #include "render_node/tissue_pattern.h"
 
 #include "ball_organ.h"
+#include "closed_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,13 @@ TEST(Solids, GroundIsDarkUnderTheOrganAndOpenFarAway) {
   EXPECT_LT(ground.vertices.front().openness, 0.25);  // below the ball's lowest point
   EXPECT_GT(ground.vertices.back().openness, 0.98);
   for (const Vertex& v : ground.vertices) EXPECT_LT(v.position.z(), -0.05);
+
+  // a circle's corners alone
+  EXPECT_LT(10 * ground.few.size(), ground.triangles.size());
+  float all_m2 = 0, few_m2 = 0;
+  for (const MeshTriangle& t : ground.triangles) all_m2 += test::area_of(ground, t).z();
+  for (const MeshTriangle& t : ground.few) few_m2 += test::area_of(ground, t).z();
+  EXPECT_NEAR(few_m2 / all_m2, 1, 0.02);
 }
 
 TEST(Instruments, AreClosedAndTurnedOutwards) {

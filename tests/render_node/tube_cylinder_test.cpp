@@ -87,6 +87,14 @@ TEST(TubeCylinder, HasTwoToTheNextPowerOfSectionsAndIsClosed) {
   }
 }
 
+TEST(TubeCylinder, IsClosedWithFewVerticesAroundToo) {
+  const TubeCylinder cylinder = make_tube_cylinder(0, TubeCylinder::kFewAround);
+  EXPECT_EQ(cylinder.wall_vertices, 2 * std::size_t{TubeCylinder::kFewAround});
+  const MeshData mesh = skinned_tube(arc(0.3f, 0.03f, 4), kWall_m, cylinder);
+  EXPECT_TRUE(test::is_closed(welded(mesh)));
+  EXPECT_EQ(test::flipped_triangles(mesh), 0);
+}
+
 TEST(SkinFrame, OpennessAndPallorShareANumber) {
   for (const float openness : {0.0f, 0.32f, 0.5f, 0.999f, 1.0f}) {
     for (const float pallor : {0.0f, 0.01f, 0.5f, 0.99f, 1.0f}) {

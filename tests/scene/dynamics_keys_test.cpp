@@ -73,6 +73,20 @@ TEST(DynamicsKeys, OneInEquilibriumSaysWhatBecomesOfItsPieces) {
   EXPECT_THAT(message_of(with("model = \"tensor-mass\"\npieces = \"fall\"")), HasSubstr("unknown key"));
 }
 
+TEST(DynamicsKeys, AHybridThatIsCutAnywhereSwingsAndSaysWhatBecomesOfItsPieces) {
+  const std::string hybrid = "dynamic = \"plane:x>0\"\nmodel = \"hybrid",
+                    cut = hybrid + "-cut\"\nlaw = \"corotational\"\nmass_damping_per_s = 3\n";
+  const OrganSpec organ = load_scene(with(cut)).organs[0];
+  EXPECT_EQ(organ.dynamics->law, "corotational");
+  EXPECT_EQ(organ.dynamics->mass_damping_per_s, 3);
+  EXPECT_EQ(organ.dynamics->dynamic_part, "plane:x>0");
+  EXPECT_EQ(organ.dynamics->pieces, "fall") << "as what has masses always did";
+  EXPECT_EQ(load_scene(with(cut + "pieces = \"drop\"")).organs[0].dynamics->pieces, "drop");
+  EXPECT_THAT(message_of(with(cut + "piece_gravity_m_s2 = [0, 0, -2]")), HasSubstr("unknown key"));
+  EXPECT_THAT(message_of(with(cut + "integrator = \"rk4\"")), HasSubstr("\"implicit\""));
+  EXPECT_THAT(message_of(with(hybrid + "\"\npieces = \"drop\"")), HasSubstr("unknown key"));
+}
+
 TEST(DynamicsKeys, ADynamicModelHasThemAndAPrecomputedOneDoesNot) {
   const auto file = with(
       "model = \"tensor-mass\"\nintegrator = \"rk4\"\nstep_s = 0.001\ngravity_m_s2 = [0, 0, -9.81]\n"
@@ -146,6 +160,20 @@ TEST(DynamicsKeys, AHybridOrganSaysWhichPartMovesAndStepsImplicitly) {
   EXPECT_THAT(message_of(with(hybrid)), HasSubstr("dynamic: found nothing"));
   EXPECT_THAT(message_of(with("model = \"tensor-mass\"\n" + part)), HasSubstr("dynamic"));
   EXPECT_THAT(message_of(with(hybrid + part + "integrator = \"rk4\"")), HasSubstr("one of \"implicit\""));
+}
+
+TEST(DynamicsKeys, AHybridOrgansDynamicPartMayBeAnotherMesh) {
+  const std::string hybrid = "model = \"hybrid\"\n", second = "dynamic_mesh = \"coarse.msh\"\n";
+  const std::string mesh = load_scene(with(hybrid + second)).organs[0].dynamics->dynamic_mesh;
+  EXPECT_THAT(mesh, testing::EndsWith("coarse.msh"));
+  EXPECT_TRUE(std::filesystem::path(mesh).is_absolute()) << "beside the scene";
+  const std::string phantom = "dynamic_mesh = \"phantom:cylinder-lower\"\n";
+  EXPECT_EQ(load_scene(with(hybrid + phantom)).organs[0].dynamics->dynamic_mesh, "phantom:cylinder-lower");
+  EXPECT_THAT(message_of(with(hybrid + "dynamic_mesh = \"phantom:spleen\"\n")),
+              HasSubstr("phantom:cylinder-lower"));
+  EXPECT_THAT(message_of(with(hybrid + second + "dynamic = \"plane:x>0.02\"\n")),
+              HasSubstr("one of the two"));
+  EXPECT_THAT(message_of(with("model = \"tensor-mass\"\n" + second)), HasSubstr("dynamic_mesh"));
 }
 
 TEST(DynamicsKeys, AHybridOrganSaysByWhichLawItsDynamicPartMoves) {

@@ -400,14 +400,15 @@ class Parts(unittest.TestCase):
         environment.start()
         self.addCleanup(environment.stop)
 
-    def build(self, fixed, name="liver", mesh=None, regions=(), dynamic=""):
+    def build(self, fixed, name="liver", mesh=None, regions=(), dynamic="", dynamic_mesh=None):
         """What build_organ would take from the cache, made by a stand-in for organ_build."""
         mesh = mesh or self.folder / "liver.msh"
         mesh.touch()
         options = mock.Mock(programs=self.folder)
         spec = {"young_pa": 1, "poisson": 0.4, "density_kg_m3": 1, "regions": list(regions)}
         with mock.patch.object(organs, "run_tool", lambda _, words, __: pathlib.Path(words[3]).write_text("organ")):
-            return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed, dynamic)
+            return organs.build_organ(options, cache.Cache(), mesh, name, spec, 1.0, fixed, dynamic,
+                                       dynamic_mesh)
 
     def test_a_node_without_a_report_has_every_field_all_the_same(self):
         seen_by_the_launcher = {"dds", "exit", "restarts"}
@@ -442,6 +443,14 @@ class Parts(unittest.TestCase):
         listed.write_text("1\n3\n")
         self.assertNotEqual(self.build("plane:x<0", dynamic=str(listed)), first)
         self.assertEqual(organs.support_files("label:3"), [])
+
+    def test_a_second_mesh_makes_another_organ_and_belongs_to_its_inputs(self):
+        second = self.folder / "coarse.msh"
+        second.write_text("1")
+        plain, first = self.build("plane:x<0"), self.build("plane:x<0", dynamic_mesh=second)
+        self.assertNotEqual(first, plain)
+        second.write_text("2")
+        self.assertNotEqual(self.build("plane:x<0", dynamic_mesh=second), first)
 
     def test_a_foreign_mesh_moves_at_the_end_that_is_not_held(self):
         measured = {"min": [0, -30, 0], "max": [90, 30, 30]}
