@@ -35,6 +35,16 @@ const scene::ToolSpec& tool_of(const scene::Scene& scene, std::uint32_t id, cons
   return *tool;
 }
 
+// Without this it would play, and its tool never be held.
+void refuse_enable_button(const Options& options) {
+  for (const auto& [id, mapping] : options.bridge.mappings) {
+    if (!mapping.enable_button || !options.trace.empty()) continue;
+    throw std::runtime_error(options.frames.string() + ": devices: found enable_button of tool " +
+                             std::to_string(id) + ", which a simulated hand never presses; a recorded one " +
+                             "may (--trace), and a device of your own");
+  }
+}
+
 Devices make_devices(const Options& options, const scene::Scene& scene, const device::RayInbox& rays) {
   Devices devices;
   if (options.mouse && !options.trace.empty()) {
@@ -74,6 +84,7 @@ void run(Options& options) {
   const scene::Scene scene = node::load_scene(options.bridge.node);
   options.bridge.scene = node::loaded_scene(scene, {});
   if (!options.frames.empty()) options.bridge.mappings = device::read_frames(options.frames, scene.tools);
+  refuse_enable_button(options);
   runtime::take_nice(runtime::kHandNice);
   runtime::RateLoop loop(options.bridge.rate_hz);
   runtime::StopSignal stop_signal([&loop] { loop.stop(); });

@@ -1,6 +1,7 @@
 // Shows a session's tools to ROS 2 (docs/devices.md, "Seen from ROS 2").
 #include "node_common/node_identity.h"
 #include "ros_bridge/republisher.h"
+#include "ros_bridge/ros_domain.h"
 #include "runtime/command_line.h"
 #include "runtime/rate_loop.h"
 #include "runtime/signals.h"
@@ -8,7 +9,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -20,6 +23,8 @@ struct Options {
   std::vector<std::string> names;
   double rate_hz = 200;
 };
+
+constexpr std::int64_t kSilence_ns = 3'000'000'000;  // longer than discovery takes
 
 // "1=PSM2" names the topics of tool 1.
 void name_tools(const std::vector<std::string>& names, ros::RepublisherOptions& tools) {
@@ -51,9 +56,17 @@ void run(Options& options) {
   const auto bus = transport::Bus::open(options.bus);
   const auto port = ros::RosPort::open(options.ros);
   ros::Republisher republisher(options.tools, *bus, *port, loop);
+  const std::int64_t begin_ns = loop.now_ns();
+  bool told = false;
   while (loop.wait() != runtime::Pace::Cause::kStopped) {
     republisher.tick(wall_now_ns());
     loop.finish_tick();
+    if (told || republisher.has_tools() || loop.now_ns() - begin_ns < kSilence_ns) continue;
+    told = true;
+    std::cerr << "ros_bridge: no tool in DDS domain " << options.bus.domain
+              << " yet: the launcher says which one a session has (--domain), --profile and --secure are the "
+                 "session's"
+              << std::endl;
   }
   if (republisher.refused() > 0)
     std::cerr << "ros_bridge: " << republisher.refused() << " messages could not be sent" << std::endl;
@@ -61,7 +74,7 @@ void run(Options& options) {
 
 int ros_domain() {
   const char* set = std::getenv("ROS_DOMAIN_ID");
-  return set ? std::atoi(set) : 0;
+  return ros::domain_of(set ? std::optional<std::string>(set) : std::nullopt);
 }
 
 }  // namespace
@@ -71,7 +84,7 @@ int main(int argc, char** argv) {
                             "Shows the tools of a running session to ROS 2, as CRTK names their topics: "
                             "NAME/measured_cp, measured_cs, spatial/servo_cf and operating_state");
   Options options;
-  options.ros.domain = ros_domain();
+  int domain = -1;  // of ROS; below 0: what the environment says
   std::string dds = "fast", profile = "loopback", ros_profile = "lan";
   line.needs(runtime::kRoomForDds);
   line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
@@ -80,7 +93,7 @@ int main(int argc, char** argv) {
       .one_of({"loopback", "lan"})
       .show_default();
   line.option("--secure", options.bus.keystore, "the session's DDS Security key store").type_name("KEYSTORE");
-  line.option("--ros-domain", options.ros.domain, "of ROS (default: ROS_DOMAIN_ID, or 0)").between(0, 230);
+  line.option("--ros-domain", domain, "of ROS (default: ROS_DOMAIN_ID, or 0)").between(0, ros::kLastDomain);
   line.option("--ros-profile", ros_profile, "of ROS: lan, or loopback for ROS nodes on lo alone")
       .one_of({"loopback", "lan"})
       .show_default();
@@ -95,6 +108,7 @@ int main(int argc, char** argv) {
   return line.run(argc, argv, [&] {
     options.bus.vendor = options.ros.vendor = transport::parse_vendor(dds);
     options.bus.profile = transport::parse_profile(profile);
+    options.ros.domain = domain < 0 ? ros_domain() : domain;
     options.ros.profile = transport::parse_profile(ros_profile);
     run(options);
   });

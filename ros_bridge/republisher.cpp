@@ -2,6 +2,7 @@
 
 #include "node_common/node_identity.h"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -41,6 +42,10 @@ Republisher::Republisher(RepublisherOptions options, transport::Bus& bus, RosPor
           [this](const msg::NodeStatus& status) { orders_.hear(status, clock_.now_ns()); })) {}
 
 Republisher::~Republisher() = default;
+
+bool Republisher::has_tools() const {
+  return std::ranges::any_of(tools_, [](const auto& tool) { return tool != nullptr; });
+}
 
 std::unique_ptr<Republisher::Tool> Republisher::begin(std::uint32_t id) {
   const std::string space = "rt/" + options_.names[id] + "/";

@@ -32,6 +32,7 @@ class Republisher {
   /// One thread. `wall_ns`: now, since 1970. Throws as the constructor.
   void tick(std::int64_t wall_ns);
 
+  bool has_tools() const;                             // one was heard of
   std::uint64_t refused() const { return refused_; }  // messages that the vendor did not take
 
  private:

@@ -222,7 +222,7 @@ std::vector<double> TomlSection::numbers(const std::string& key, const toml::nod
 
 TomlSection open_toml(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
-    throw std::runtime_error(file.string() + ": found no such file, expected a scene file (TOML)");
+    throw std::runtime_error(file.string() + ": found no such file, expected a TOML file");
   }
   try {
     return {std::make_shared<const toml::table>(toml::parse_file(file.string())), file, ""};

@@ -20,6 +20,8 @@ constexpr double kSquare = 1e-3;  // cosine of two axes that are across each oth
 // Of the shaft: so much stays outside where nothing is said, so that the lever is 2 at most.
 constexpr double kUsualOutside = 1.0 / 3;
 constexpr std::uint32_t kLastButton = 31;
+// Of a base from the scene's origin: farther, somebody wrote millimetres.
+constexpr double kFarthest_m = 100;
 
 const scene::ToolSpec& tool_of(TomlSection& s, const std::vector<scene::ToolSpec>& tools) {
   std::uint32_t id = 0;
@@ -27,6 +29,14 @@ const scene::ToolSpec& tool_of(TomlSection& s, const std::vector<scene::ToolSpec
   const auto tool = std::ranges::find_if(tools, [id](const scene::ToolSpec& t) { return t.id == id; });
   if (tool == tools.end()) s.refuse("tool", std::to_string(id), "a tool of the scene");
   return *tool;
+}
+
+Vec3 read_origin(TomlSection& s) {
+  Vec3 p_WB = Vec3::Zero();
+  s.read("origin", p_WB, kOptional);
+  if (!(p_WB.norm() <= kFarthest_m))
+    s.refuse("origin", std::to_string(p_WB.norm()) + " m from the scene's", "at most 100 m");
+  return p_WB;
 }
 
 Quat read_axes(TomlSection& s) {
@@ -55,9 +65,9 @@ std::optional<TrocarLever> read_lever(TomlSection& s, const scene::ToolSpec& too
 
 // Button 0 cuts.
 std::optional<std::uint32_t> read_button(TomlSection& s, const std::string& key) {
-  if (!s.has(key)) return std::nullopt;
   std::uint32_t button = 0;
-  s.read(key, button, kRequired, kLastButton);
+  s.read(key, button, kOptional, kLastButton);
+  if (!s.has(key)) return std::nullopt;
   if (button == 0) s.refuse(key, "0, which cuts", "1 to 31");
   return button;
 }
@@ -65,7 +75,7 @@ std::optional<std::uint32_t> read_button(TomlSection& s, const std::string& key)
 MappingSpec read_device(TomlSection& s, const scene::ToolSpec& tool) {
   MappingSpec spec;
   spec.base.q_WB = read_axes(s);
-  s.read("origin", spec.base.p_WB, kOptional);
+  spec.base.p_WB = read_origin(s);
   s.read("scale", spec.base.scale, kOptional, kScale);
   s.read("force_scale", spec.force_scale, kOptional, kForceScale);
   spec.lever = read_lever(s, tool);

@@ -1,6 +1,8 @@
 #include "device_bridge/frames/hand_mapping.h"
 
 #include <algorithm>
+#include <sstream>
+#include <stdexcept>
 
 namespace omentum::device {
 namespace {
@@ -9,10 +11,22 @@ namespace {
 // micrometres the same would be more.
 constexpr double kMostForce_n = 1000, kMostTorque_nm = 100, kMostStiffness_n_m = 1e6, kLeastStiffness_n_m = 1;
 
-// The mapping takes no limit out of these bounds; one that the device itself put there stays there, and is
+// The mapping raises no limit above this bound; one that the device itself put there stays there, and is
 // told.
-double believable(double told, double ratio, double least, double most) {
-  return std::clamp(told / ratio, std::min(told, least), std::max(told, most));
+double believable(double told, double ratio, double most) {
+  return std::min(told / ratio, std::max(told, most));
+}
+
+// What would be less is not raised either: the hand would feel `ratio` times it, which its device cannot
+// hold.
+double stiffness_left(const msg::DeviceInfo& info, double ratio) {
+  const double left = believable(info.max_stiffness_n_m, ratio, kMostStiffness_n_m);
+  if (info.max_stiffness_n_m < kLeastStiffness_n_m || left >= kLeastStiffness_n_m) return left;
+  std::ostringstream words;
+  words << "tool " << info.tool << ": of the device's max_stiffness_n_m, " << info.max_stiffness_n_m << ", "
+        << left << " N/m is left at the tool, expected at least " << kLeastStiffness_n_m
+        << ": a larger least_outside_m, or a smaller scale or force_scale";
+  throw std::runtime_error(words.str());
 }
 
 bool is_pressed(const std::optional<std::uint32_t>& button, std::uint32_t buttons) {
@@ -68,10 +82,9 @@ msg::DeviceInfo HandMapping::describe(msg::DeviceInfo info) const {
   // one newton at the tool is so many in the hand, and a metre of it 1 / s of the hand's
   const double force_ratio = spec_.force_scale * spec_.base.scale;
   const double stiffness_ratio = force_ratio * spec_.base.scale * ratio * ratio;
-  info.max_force_n = believable(info.max_force_n, force_ratio * ratio, 0, kMostForce_n);
-  info.max_torque_nm = believable(info.max_torque_nm, spec_.force_scale, 0, kMostTorque_nm);
-  info.max_stiffness_n_m =
-      believable(info.max_stiffness_n_m, stiffness_ratio, kLeastStiffness_n_m, kMostStiffness_n_m);
+  info.max_force_n = believable(info.max_force_n, force_ratio * ratio, kMostForce_n);
+  info.max_torque_nm = believable(info.max_torque_nm, spec_.force_scale, kMostTorque_nm);
+  info.max_stiffness_n_m = stiffness_left(info, stiffness_ratio);
   info.damping_n_s_m /= stiffness_ratio;
   if (spec_.lever) {
     const Vec3 reach = Vec3::Constant(spec_.lever->length_m - spec_.lever->least_outside_m);

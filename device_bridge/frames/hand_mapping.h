@@ -48,7 +48,8 @@ class HandMapping {
   bool off_trocar() const noexcept { return off_trocar_; }
 
   /// What the device is for the tool: limits at a lever's most unfavourable place. Axes stay the device's
-  /// own.
+  /// own. Throws std::runtime_error where so little of the device's stiffness is left that haptic_node would
+  /// not believe it.
   msg::DeviceInfo describe(msg::DeviceInfo hand) const;
 
  private:

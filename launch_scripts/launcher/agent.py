@@ -77,7 +77,7 @@ class Agent:
                     answer = {"refused": str(refusal)}
                 except OSError as error:
                     answer = {"refused": f"{error.filename or message['do']}: {error.strerror}"}
-                if answer.get("sent") is None:
+                if answer.get("sent") is None and not message.get("quiet"):
                     self.say({"answer": message["do"], **answer})
         except EOFError:
             pass  # the launcher died while it sent a file

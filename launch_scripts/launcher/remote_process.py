@@ -57,11 +57,14 @@ class RemoteProcess:
         return self.stdout.read(), self.stderr.read()
 
     def send_signal(self, number):
+        """Waits for nothing: of a machine that is cut off the others, and the hand, are told to end at once."""
         if self.poll() is None:
-            self.link.tell("signal", process=self.number, number=int(number))
+            self.link.send("signal", quiet=True, process=self.number, number=int(number))
 
     def terminate(self):
         self.send_signal(signal.SIGTERM)
 
     def kill(self):
-        self.send_signal(signal.SIGKILL)
+        """Waits for the answer: where none comes the link is given up, and wait() returns."""
+        if self.poll() is None:
+            self.link.tell("signal", process=self.number, number=int(signal.SIGKILL))

@@ -50,6 +50,12 @@ TEST_F(VirtualDevice, BadInputIsOneLineAndExitCodeTwo) {
   expect_refused({"--scene", kScene, "--trace",
                   file("tool.csv", "t_s,px,py,pz,qw,qx,qy,qz,grip,tool\n0,0,0,0,1,0,0,0,0,7\n")},
                  "found tool 7");
+  expect_refused(
+      {"--scene", kScene, "--frames", file("dead.toml", "[[devices]]\ntool = 0\nenable_button = 2\n")},
+      "dead.toml: devices: found enable_button of tool 0");
+  expect_refused({"--scene", kScene, "--frames",
+                  file("near.toml", "[[devices]]\ntool = 0\nholds = \"handle\"\nleast_outside_m = 0.001\n")},
+                 "least_outside_m");
   const std::string no_hands =
       file("scene.toml",
            "name = \"x\"\n[[organs]]\nname = \"o\"\nmesh = \"phantom:paper\"\nyoung_pa = 1\n"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Who may include what (docs/architecture.md, "The floors"), that documents which are cited are there, and that clang-tidy
-looks at every room: prints FILE:LINE for every breach.
+"""Who may include what (docs/architecture.md, "The floors"), that documents which are cited are there, that clang-tidy looks
+at every room, and that nothing lies about which is no source: prints FILE:LINE for every breach.
 
 Usage: house_rules.py ROOT      exit code 0: none; 1: breaches, one a line
 """
@@ -47,6 +47,7 @@ LINT_LISTS = [
     ("launch_scripts/lint", re.compile(r"rooms='([\w|]*)'"), ".cpp"),
     (".clang-tidy", re.compile(r"HeaderFilterRegex:.*?/\(([\w|]*)\)/"), ".h"),
 ]
+LEFT_ABOUT = {".deb", ".rpm", ".tar", ".gz", ".xz", ".zip", ".whl", ".o", ".a", ".so"}
 MAIN_LINES = 60  # a node's main parses, builds, runs and gives the exit code; no more
 
 
@@ -117,6 +118,11 @@ def breaches(root):
     return found
 
 
+def left_about(root):
+    """Packages, archives and built files that a commit took along."""
+    return [f"{file.relative_to(root).as_posix()}:1: is nobody's source" for file in sources(root, LEFT_ABOUT)]
+
+
 def unlinted_rooms(root):
     """Rooms with sources that clang-tidy would pass over in silence, and names in its lists that are no room's."""
     found = []
@@ -135,7 +141,7 @@ def main():
         print("usage: house_rules.py ROOT", file=sys.stderr)
         return 2
     root = pathlib.Path(sys.argv[1])
-    found = breaches(root) + wrong_citations(root) + unlinted_rooms(root)
+    found = breaches(root) + wrong_citations(root) + unlinted_rooms(root) + left_about(root)
     print("\n".join(found) if found else "no breach")
     return 1 if found else 0
 

@@ -95,6 +95,10 @@ class HouseRules(unittest.TestCase):
     def test_without_its_lists_clang_tidy_looks_at_no_room(self):
         self.assertEqual(len(house_rules.unlinted_rooms(self.tree({"files/a.cpp": "", "files/a.h": ""}))), 2)
 
+    def test_what_somebody_downloaded_is_caught(self):
+        found = house_rules.left_about(self.tree({"server_1%3a9.2_amd64.deb": "", "tests/a.tar.gz": "", "docs/a.jpg": "", "build/a.deb": ""}))
+        self.assertEqual(found, ["server_1%3a9.2_amd64.deb:1: is nobody's source", "tests/a.tar.gz:1: is nobody's source"])
+
     def test_a_long_main_of_a_node_is_caught(self):
         found = house_rules.breaches(self.tree({"deform_node/main.cpp": "int x;\n" * 61}))
         self.assertEqual(len(found), 1)

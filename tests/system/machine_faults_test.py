@@ -2,6 +2,7 @@
 """What the launcher makes of machines that lack something, lie, or die, and what it leaves on them."""
 import os
 import pathlib
+import signal
 import stat
 import sys
 import unittest
@@ -25,6 +26,14 @@ class Faults(machines_test.WithFolder):
         spec = host_table.HostSpec("other", "127.0.0.1", reach=["sh", "-c", "echo Welcome; sleep 0.1"])
         with self.assertRaisesRegex(Refusal, "other cannot be reached: found 'Welcome' .* must print nothing"):
             remote_host.Elsewhere(spec, {}).meet()
+
+    def test_who_tells_a_program_to_end_waits_for_no_answer(self):
+        there = self.machine()  # cut off, it gives none for a minute, and the hand on another machine is told after it
+        process = there.popen(["sleep", str(PATIENCE_S)])
+        with mock.patch.object(there.link, "ask", side_effect=AssertionError("waits")):
+            process.send_signal(signal.SIGUSR2)  # a node blocks SIGTERM until it listens
+        self.assertEqual(process.wait(PATIENCE_S), -signal.SIGUSR2)
+        self.assertEqual(there.popen(["sh", "-c", "exit 3"]).wait(PATIENCE_S), 3, "answers and questions are still in step")
 
     def test_a_directory_that_cannot_be_had_is_named_in_plain_words(self):
         for directory, why in ((self.file("taken", ""), "taken/files: Not a directory"), ("~no_such_user/x", "~no_such_user/x: ")):

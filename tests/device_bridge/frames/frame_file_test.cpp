@@ -71,7 +71,8 @@ TEST_F(FrameFileTest, WhatCannotBeIsRefusedWithItsLine) {
   expect_refusal("tool = 0\nscale = 0\n", "scale");
   expect_refusal("tool = 0\nclutch_button = 0\n", "0, which cuts");
   expect_refusal("tool = 0\nclutch_button = 3\nenable_button = 3\n", "another one");
-  expect_refusal("tool = 0\nclutch = 3\n", "clutch");
+  expect_refusal("tool = 0\nclutch = 3\n", "\"clutch_button\", \"enable_button\"");
+  expect_refusal("tool = 0\norigin = [0, -300, 200]\n", "frames.toml:3: devices[0].origin: found 360");
   expect_refusal("tool = 0\n[[devices]]\ntool = 0\n", "0 again");
 }
 

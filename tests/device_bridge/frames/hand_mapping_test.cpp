@@ -197,5 +197,22 @@ TEST(HandMapping, ItDescribesTheDeviceAsTheToolHasIt) {
   EXPECT_DOUBLE_EQ(levered.describe(info).max_stiffness_n_m, 500);
 }
 
+// Less than 1 N/m is refused by haptic_node, and 1 N/m at the tool would be 90 kN/m in this hand.
+TEST(HandMapping, ALeverThatLeavesNothingOfTheDevicesStiffnessIsRefused) {
+  msg::DeviceInfo info;
+  info.tool = 3;
+  info.max_stiffness_n_m = 2000;
+  const HandMapping at_pivot({.lever = TrocarLever{.length_m = 0.3, .least_outside_m = 0.001}});
+  try {
+    static_cast<void>(at_pivot.describe(info));
+    ADD_FAILURE() << "took it";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("tool 3: "));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("least_outside_m"));
+  }
+  info.max_stiffness_n_m = 0.5;  // the device's own word is haptic_node's to refuse
+  EXPECT_LT(at_pivot.describe(info).max_stiffness_n_m, 1e-4);
+}
+
 }  // namespace
 }  // namespace omentum::device
