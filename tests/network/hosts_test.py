@@ -12,6 +12,7 @@ import tempfile
 import time
 import unittest
 
+import far_organ
 from namespaces import SKIPPED, Network, obstacle
 
 PROGRAMS, SCENE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
@@ -22,6 +23,7 @@ BOUND_J = 0.01  # what a hand may be given (docs/devices.md)
 START_S = 3  # until everybody has found everybody
 ORGANS_TOLD_HZ = 18  # a node's status, which echoes the newest pose, comes so often
 MIXED = {**FAST, "deform_node": "cyclone", "virtual_device": "cyclone"}
+DISTANCE = ("--delay-ms", "50", "--jitter-ms", "10", "--loss", "0.01")  # each way: another country
 
 
 class Hosts(unittest.TestCase):
@@ -73,6 +75,37 @@ class Hosts(unittest.TestCase):
                     self.check(f"{name}, {network}", vendors, 10, *hub)
             with self.subTest(f"{name}, cut for 10 s"):
                 self.check(f"{name}, cut for 10 s", vendors, 24, "--delay-ms", "1", "--cut", "7:10", cut_s=10)
+
+    @unittest.skipUnless("--long" in sys.argv, "with --long")
+    def test_a_precomputed_organ_far_away_is_felt_as_the_one_that_is_here(self):
+        trace = self.folder / "trace"
+        far_organ.play(PROGRAMS, SCENE, self.folder / "made", 9, False, device=["--record", trace])
+        near = far_organ.play(PROGRAMS, SCENE, self.folder / "near", 9, False, device=["--trace", trace])
+        far = far_organ.play(PROGRAMS, SCENE, self.folder / "far", 9, True, *DISTANCE, device=["--trace", trace])
+        differences_n = far_organ.differences_n(near, far)
+        typical_n, most_n = differences_n[len(differences_n) * 99 // 100], differences_n[-1]
+        print(f"liver, {' '.join(DISTANCE)}: organ seen after {far.to_organ_ms:.1f} ms ({near.to_organ_ms:.1f} ms here); peak "
+              f"{near.peak_n():.3f} N; at {len(differences_n)} equal poses the force differs by {typical_n:.4f} N (p99), "
+              f"{most_n:.4f} N (most)", flush=True)
+        self.assertGreater(far.to_organ_ms, 100, "both ways")
+        self.assertGreater(near.peak_n(), 0.5, "the hand pressed")
+        self.assertGreater(len(differences_n), 3000, "equal poses")
+        self.assertLess(typical_n, 0.01 * near.peak_n())
+
+    @unittest.skipUnless("--long" in sys.argv, "with --long")
+    def test_a_moving_organ_far_away_stays_stable_and_gives_the_hand_nothing(self):
+        for name in ("liver_dynamic", "cylinder_hybrid"):
+            scene = far_organ.prepared(PROGRAMS, name, self.folder / name)
+            near = far_organ.play(PROGRAMS, scene, self.folder / f"{name}_near", 14, False)
+            far = far_organ.play(PROGRAMS, scene, self.folder / f"{name}_far", 14, True, *DISTANCE)
+            for where, felt in (("here", near), ("far", far)):
+                print(f"{name}, {where}: organ seen after {felt.to_organ_ms:.1f} ms ({felt.organs_seen}); peak {felt.peak_n():.2f} N, "
+                      f"steepest {far_organ.steepest_n_per_s(felt):.0f} N/s, most energy given {felt.most_energy_j:.5f} J", flush=True)
+            with self.subTest(name):
+                self.assertGreater(far.peak_n(), 0.25 * near.peak_n(), "a force of zero is stable and useless")
+                self.assertLessEqual(far.peak_n(), far_organ.LIMIT_N)
+                self.assertLessEqual(far.most_energy_j, BOUND_J)
+                self.assertLessEqual(far_organ.steepest_n_per_s(far), far_organ.SLEW_N_PER_S * 1.01)
 
 
 if __name__ == "__main__":

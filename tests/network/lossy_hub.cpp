@@ -1,9 +1,12 @@
 // A slow, lossy Ethernet between network namespaces, where the kernel has no netem: a TAP device in each of
 // them, and every frame of one goes to all others, late or never.
 //
-//   lossy_hub --delay-ms 1 --loss 0.01 [--cut FROM_S:FOR_S] NAMESPACE=ADDRESS/BITS ...
+//   lossy_hub --delay-ms 1 --jitter-ms 0.5 [--overtake] --loss 0.01 [--cut FROM_S:FOR_S]
+//   NAMESPACE=ADDRESS/BITS ...
 //
-// Namespaces are those of `ip netns`. Prints "ready", then works until its standard input ends.
+// Namespaces are those of `ip netns`. Prints "ready", then works until its standard input ends, and prints a
+// line of JSON: frames and bytes that it was given, and how many of them were for everybody (multicast,
+// broadcast).
 #include "runtime/command_line.h"
 
 #include <fcntl.h>
@@ -21,7 +24,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
+#include <map>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -34,7 +37,8 @@ using Seconds = std::chrono::duration<double>;
 constexpr const char* kDevice = "lan0";
 
 struct Options {
-  double delay_ms = 0, loss = 0, cut_from_s = -1, cut_for_s = 0;
+  double delay_ms = 0, jitter_ms = 0, loss = 0, cut_from_s = -1, cut_for_s = 0;
+  bool overtake = false;
   std::vector<std::string> hosts;
 };
 
@@ -62,7 +66,15 @@ int open_tap(const std::string& host) {
   return file;
 }
 
-/// Frames on their way, in the order in which they came.
+struct Count {
+  std::uint64_t frames = 0, bytes = 0;
+  void add(std::size_t size) {
+    ++frames;
+    bytes += size;
+  }
+};
+
+/// Frames on their way.
 class Hub {
  public:
   explicit Hub(const Options& options) : options_(options) {
@@ -81,9 +93,14 @@ class Hub {
     }
   }
 
+  void tell() const {
+    std::printf(R"({"frames": %ju, "bytes": %ju, "shared_frames": %ju, "shared_bytes": %ju})"
+                "\n",
+                all_.frames, all_.bytes, shared_.frames, shared_.bytes);
+  }
+
  private:
   struct Frame {
-    Clock::time_point due;
     std::size_t from;
     std::vector<char> bytes;
   };
@@ -91,7 +108,7 @@ class Hub {
   int patience_ms() const {
     constexpr int kLongest_ms = 100;
     if (frames_.empty()) return kLongest_ms;
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(frames_.front().due - Clock::now());
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(frames_.begin()->first - Clock::now());
     return static_cast<int>(std::max<std::int64_t>(left.count(), 0));
   }
 
@@ -100,30 +117,54 @@ class Hub {
     return now_s >= options_.cut_from_s && now_s < options_.cut_from_s + options_.cut_for_s;
   }
 
+  static Clock::duration milliseconds(double ms) {
+    return std::chrono::duration_cast<Clock::duration>(Seconds(1e-3 * ms));
+  }
+
+  // Without --overtake as a queue on the way, which is now longer and now shorter: in order, by host.
+  Clock::time_point due(std::size_t port) {
+    constexpr double kQueueStays_ms = 30;
+    const Clock::time_point now = Clock::now();
+    if (options_.overtake || now >= queue_until_) {
+      late_ms_ = std::uniform_real_distribution(0.0, options_.jitter_ms)(chance_);
+      queue_until_ = now + milliseconds(kQueueStays_ms);
+    }
+    const Clock::time_point asked = now + milliseconds(options_.delay_ms + late_ms_);
+    if (options_.overtake) return asked;
+    return newest_due_[port] = std::max(newest_due_[port], asked);
+  }
+
+  void count(std::size_t size) {
+    all_.add(size);
+    if ((frame_[0] & 1) != 0) shared_.add(size);  // the group bit of Ethernet's destination
+  }
+
   void take_all(std::size_t port) {
-    const auto due =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(1e-3 * options_.delay_ms));
     for (ssize_t size; (size = read(ports_[port].fd, frame_.data(), frame_.size())) > 0;) {
+      count(static_cast<std::size_t>(size));
       if (cut() || std::bernoulli_distribution(options_.loss)(chance_)) continue;
-      frames_.push_back({due, port, {frame_.data(), frame_.data() + size}});
+      frames_.emplace(due(port), Frame{port, {frame_.data(), frame_.data() + size}});
     }
   }
 
   void deliver() {
-    for (; !frames_.empty() && frames_.front().due <= Clock::now(); frames_.pop_front())
+    for (; !frames_.empty() && frames_.begin()->first <= Clock::now(); frames_.erase(frames_.begin())) {
+      const Frame& frame = frames_.begin()->second;
       for (std::size_t to = 0; to < ports_.size(); ++to)
-        if (to != frames_.front().from) {
-          // a full queue loses frames, as a switch does
-          const auto& bytes = frames_.front().bytes;
-          if (write(ports_[to].fd, bytes.data(), bytes.size()) < 0) continue;
-        }
+        // a full queue loses frames, as a switch does
+        if (to != frame.from && write(ports_[to].fd, frame.bytes.data(), frame.bytes.size()) < 0) continue;
+    }
   }
 
   Options options_;
   std::vector<pollfd> ports_;
-  std::deque<Frame> frames_;
+  std::multimap<Clock::time_point, Frame> frames_;  // by when they are due; equal ones as they came
+  Count all_, shared_;
   std::array<char, 65536> frame_{};
   Clock::time_point begin_ = Clock::now();
+  double late_ms_ = 0;
+  Clock::time_point queue_until_{};
+  std::vector<Clock::time_point> newest_due_ = std::vector<Clock::time_point>(options_.hosts.size());
   std::minstd_rand chance_{1};  // the same losses in every run
 };
 
@@ -134,6 +175,11 @@ int main(int argc, char** argv) {
   Options options;
   std::string cut;
   line.option("--delay-ms", options.delay_ms, "of every frame").between(0.0, 1000.0).show_default();
+  line.option("--jitter-ms", options.jitter_ms, "each frame comes up to so much later")
+      .between(0.0, 1000.0)
+      .show_default();
+  line.flag("--overtake", options.overtake,
+            "... each by a chance of its own, so that frames overtake each other");
   line.option("--loss", options.loss, "share of the frames").between(0.0, 1.0).show_default();
   line.option("--cut", cut, "nothing passes from then on, for so long, s").type_name("FROM:FOR");
   line.option("hosts", options.hosts, "NAMESPACE=ADDRESS/BITS").required();
@@ -145,5 +191,6 @@ int main(int argc, char** argv) {
     std::puts("ready");
     std::fflush(stdout);
     hub.work();
+    hub.tell();
   });
 }

@@ -1,4 +1,5 @@
 """Machines of a network for the tests: namespaces, and the hub between them."""
+import json
 import os
 import shutil
 import subprocess
@@ -43,8 +44,11 @@ class Network:
                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def close(self):
+        """What passed the hub, as it tells it; {} where it did not work."""
         self.hub.stdin.close()
+        told = self.hub.stdout.read()
         self.hub.stdout.close()
         self.hub.wait()
         for space in self.spaces.values():
             subprocess.run(["ip", "netns", "del", space], check=True)
+        return json.loads(told) if told else {}

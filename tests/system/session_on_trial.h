@@ -123,6 +123,11 @@ class Observer {
   std::optional<msg::NodeStatus> status(std::uint32_t kind) {
     return newest(statuses_, [kind](const auto& m) { return m.kind == kind; });
   }
+  std::vector<msg::NodeStatus> statuses(std::uint32_t kind) {
+    auto kept = all(statuses_);
+    std::erase_if(kept, [kind](const auto& m) { return m.kind != kind; });
+    return kept;
+  }
   void forget() {
     const std::lock_guard lock(mutex_);
     forces_.clear(), contacts_.clear(), states_.clear(), poses_.clear(), statuses_.clear();
