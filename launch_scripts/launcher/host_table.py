@@ -54,10 +54,11 @@ class HostTable:
         return next((host for host in self.hosts if node in host.nodes), None)
 
     def peers_of(self, host):
-        """The addresses that it is told beside the multicast group."""
+        """The addresses that it is told beside the multicast group. Its own, too: two of its programs meet by them, or by
+        multicast."""
         if host.peers is not None or self.multicast:
             return host.peers or []
-        return [other.address for other in self.hosts if other is not host]
+        return [one.address for one in self.hosts]
 
 
 class Section:

@@ -78,12 +78,13 @@ struct Count {
 class Hub {
  public:
   explicit Hub(const Options& options) : options_(options) {
-    for (const std::string& host : options.hosts) ports_.push_back({.fd = open_tap(host), .events = POLLIN});
+    for (const std::string& host : options.hosts)
+      ports_.push_back({.fd = open_tap(host), .events = POLLIN, .revents = 0});
   }
 
   void work() {
     std::vector<pollfd> waiting = ports_;
-    waiting.push_back({.fd = STDIN_FILENO, .events = POLLIN});
+    waiting.push_back({.fd = STDIN_FILENO, .events = POLLIN, .revents = 0});
     while (true) {
       poll(waiting.data(), waiting.size(), patience_ms());
       if (waiting.back().revents != 0) return;

@@ -70,8 +70,8 @@ class Tables(WithFolder):
         self.assertIsNone(table.spec_of("virtual_device"))
         self.assertEqual(table.spec_of("render_node").way_there()[-3:], ["-l", "omentum", "10.0.0.2"])
 
-    def test_without_multicast_each_machine_is_told_of_the_others(self):
-        for text, peers in ((TABLE, []), ("multicast = false\n" + TABLE, ["10.0.0.2"])):
+    def test_without_multicast_each_machine_is_told_of_all_itself_included(self):
+        for text, peers in ((TABLE, []), ("multicast = false\n" + TABLE, ["10.0.0.1", "10.0.0.2"])):
             table = self.read(text)
             self.assertEqual(table.peers_of(table.hosts[0]), peers)
 
