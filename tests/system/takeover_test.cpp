@@ -23,7 +23,8 @@ bool says(Process& process, const std::string& words) {
 
 /// The plate's hook, which cuts sooner and as slowly: there is still something to cut when one node has died.
 std::string plate_that_is_cut_soon(const std::filesystem::path& folder) {
-  const std::string scene = prepare_hurried("plate_cut", 1, folder), hold = "hold_s = 1.0";
+  const std::string hold = "hold_s = 1.0";
+  std::string scene = prepare_hurried("plate_cut", 1, folder);
   std::string text = read_text(scene);
   const std::size_t at = text.find(hold);
   EXPECT_NE(at, std::string::npos);
