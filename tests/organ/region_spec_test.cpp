@@ -10,18 +10,18 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const physics::Material kTissue{3000, 0.45, 1050};
+const physics::Material kOrganTissue{3000, 0.45, 1050};
 
 class RegionSpecTest : public testing::Test {
  protected:
   physics::MaterialMap parse(const std::vector<std::string>& specs) {
-    return parse_regions(specs, kTissue, mesh);
+    return parse_regions(specs, kOrganTissue, mesh);
   }
 
   std::string refusal(const std::vector<std::string>& specs) {
     geometry::TetraMesh untouched = mesh;
     try {
-      parse_regions(specs, kTissue, untouched);
+      parse_regions(specs, kOrganTissue, untouched);
     } catch (const geometry::InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("--region "));
       EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
