@@ -70,6 +70,15 @@ class OrganProgramsTest : public testing::Test {
     EXPECT_FALSE(std::filesystem::exists(folder / "s.u.csv"));
     EXPECT_FALSE(std::filesystem::exists(folder / "s.f.csv"));
   }
+  // A solve of `organ` under a weight.
+  void expect_solve_refused(const std::string& model, const std::vector<std::string>& more,
+                            const std::string& named) {
+    std::vector<std::string> arguments{
+        organ.string(), "--numbering", "position",  "-o",    (folder / "s").string(),
+        "--model",      model,         "--gravity", "0,-1,0"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_refused("organ_solve", arguments, named);
+  }
 
   std::vector<std::string> solve_arguments(const std::string& imposed) const {
     return {organ.string(), "--numbering", "position", "--imposed", imposed, "-o", (folder / "s").string()};

@@ -104,23 +104,15 @@ TEST_F(OrganSolveHybridTest, ItsDynamicPartTurnsByTheLawThatIsAskedFor) {
 
 TEST_F(OrganSolveHybridTest, WhatItCannotAnswerIsRefused) {
   build_hybrid(build_arguments(mesh), "plane:x>0.05");
-  const auto refused = [&](const std::string& model, const std::vector<std::string>& more,
-                           const std::string& named) {
-    std::vector<std::string> arguments{
-        organ.string(), "--numbering", "position",  "-o",    (folder / "s").string(),
-        "--model",      model,         "--gravity", "0,-1,0"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_refused("organ_solve", arguments, named);
-  };
-  refused("hybrid", {"--law", "corotational", "--remove", write("t.csv", "1\n")},
-          "--remove names tetrahedra of the precomputed part");
-  refused("hybrid", {"--imposed", write("i.csv", "26,0,0,0.001\n")},
-          "node 26 is inside the precomputed part");
-  refused("tensors", {}, "--model hybrid");
-  refused("hybrid", {"--law", "springs"}, "--law springs: expected linear or corotational");
-  refused("direct", {"--law", "linear"}, "--law linear: --model direct has no law to choose");
+  expect_solve_refused("hybrid", {"--law", "corotational", "--remove", write("t.csv", "1\n")},
+                       "--remove names tetrahedra of the precomputed part");
+  expect_solve_refused("hybrid", {"--imposed", write("i.csv", "26,0,0,0.001\n")},
+                       "node 26 is inside the precomputed part");
+  expect_solve_refused("tensors", {}, "--model hybrid");
+  expect_solve_refused("hybrid", {"--law", "springs"}, "--law springs: expected linear or corotational");
+  expect_solve_refused("direct", {"--law", "linear"}, "--law linear: --model direct has no law to choose");
   build();
-  refused("hybrid", {}, "has no dynamic part");
+  expect_solve_refused("hybrid", {}, "has no dynamic part");
 }
 
 }  // namespace

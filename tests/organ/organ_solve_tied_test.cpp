@@ -130,17 +130,12 @@ TEST_F(OrganSolveTiedTest, ItRestsWhereTheTwoMeshesDoAsOneModelPressedOnEitherPa
 
 TEST_F(OrganSolveTiedTest, WhatATiedOrganCannotAnswerIsRefused) {
   build_tied();
-  const auto refused = [&](const std::string& model, const std::vector<std::string>& more,
-                           const std::string& named) {
-    std::vector<std::string> arguments{
-        organ.string(), "--numbering", "position",  "-o",    (folder / "s").string(),
-        "--model",      model,         "--gravity", "0,-1,0"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_refused("organ_solve", arguments, named);
-  };
-  refused("direct", {}, "expected --model hybrid");
-  refused("tensor-mass", {}, "expected --model hybrid");
-  refused("hybrid", {"--imposed", write("i.csv", "4,0,0,0.001\n")}, "node 4 follows the dynamic part");
+  expect_solve_refused("direct", {}, "expected --model hybrid");
+  expect_solve_refused("tensor-mass", {}, "expected --model hybrid");
+  expect_solve_refused("hybrid", {"--imposed", write("i.csv", "4,0,0,0.001\n")},
+                       "node 4 follows the dynamic part");
+  expect_solve_refused("hybrid", {"--remove", write("t.csv", "0\n")},
+                       "which shares no nodes with the dynamic one");
 }
 
 TEST_F(OrganSolveTiedTest, OptionsThatContradictEachOtherAreRefused) {
