@@ -110,7 +110,7 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
   pointer_ = std::make_unique<PointerLink>(*bus_, loaded.scene);
-  inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, pace_, faults_);
+  inbox_ = std::make_unique<Inbox>(*bus_, loaded.scene, loaded.organs, pace_, faults_);
   show_map(options.map);
   if (options.record) recorder_.begin(seconds_since_begin(pace_.now_ns()));
 }
