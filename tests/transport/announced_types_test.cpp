@@ -100,5 +100,16 @@ TEST(AnnouncedTypes, WhoHasNoDefinitionReadsEachFieldOfCycloneWriters) {
   expect_decoded(msg::TopicList<msg::ToolPose, msg::DeviceInfo, msg::Contact, msg::NodeStatus>{}, domain);
 }
 
+// Fast DDS 2 announces types in a way of its own; any reader on Cyclone tells the type for all
+// (docs/topics.md).
+TEST(AnnouncedTypes, AReaderOnCycloneTellsTheTypeOfWhatFastWrites) {
+  const int domain = test::domain_of_test();
+  const test::PeerProcess peer("known", Vendor::kFast, domain);
+  const auto bus = Bus::open({.vendor = Vendor::kCyclone, .domain = domain, .name = "announced_types_test"});
+  const auto poses = bus->reader<msg::ToolPose>([](const msg::ToolPose&) {});
+  const auto infos = bus->reader<msg::DeviceInfo>([](const msg::DeviceInfo&) {});
+  expect_decoded(msg::TopicList<msg::ToolPose, msg::DeviceInfo>{}, domain);
+}
+
 }  // namespace
 }  // namespace omentum::transport

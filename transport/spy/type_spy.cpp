@@ -147,11 +147,14 @@ auto wait_for(Look&& look, const std::string& what) {
   throw std::runtime_error("no " + what);
 }
 
-/// What the first writer of the topic announces its type to be.
+/// What the first writer or reader that tells it announces the topic's type to be.
 class TypeOfTopic {
  public:
-  TypeOfTopic(dds_entity_t announcements, const char* topic) {
-    wait_for([&] { return find(announcements, topic); }, std::string("writer with a type of ") + topic);
+  TypeOfTopic(dds_entity_t participant, const char* topic) {
+    const dds_entity_t announcements[] = {announced(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION),
+                                          announced(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION)};
+    wait_for([&] { return find(announcements[0], topic) || find(announcements[1], topic); },
+             std::string("writer or reader tells the type of ") + topic);
   }
   ~TypeOfTopic() { dds_free_typeinfo(info_); }
   TypeOfTopic(const TypeOfTopic&) = delete;
@@ -161,14 +164,18 @@ class TypeOfTopic {
   const TypeId& id() const { return *reinterpret_cast<const TypeId*>(ddsi_typeinfo_complete_typeid(info_)); }
 
  private:
+  static dds_entity_t announced(dds_entity_t participant, dds_entity_t topic) {
+    return checked(dds_create_reader(participant, topic, nullptr, nullptr), "announcements");
+  }
+
   bool find(dds_entity_t announcements, const char* topic) {
     void* loan = nullptr;
     dds_sample_info_t seen;
     while (!info_ && dds_read_mask(announcements, &loan, &seen, 1, 1, DDS_NOT_READ_SAMPLE_STATE) > 0) {
-      auto* writer = static_cast<dds_builtintopic_endpoint_t*>(loan);
+      auto* end = static_cast<dds_builtintopic_endpoint_t*>(loan);
       const dds_typeinfo_t* announced = nullptr;
-      if (seen.valid_data && std::strcmp(writer->topic_name, topic) == 0 &&
-          dds_builtintopic_get_endpoint_type_info(writer, &announced) == DDS_RETCODE_OK && announced)
+      if (seen.valid_data && std::strcmp(end->topic_name, topic) == 0 &&
+          dds_builtintopic_get_endpoint_type_info(end, &announced) == DDS_RETCODE_OK && announced)
         info_ = ddsi_typeinfo_dup(announced);
       dds_return_loan(announcements, &loan, 1);
       loan = nullptr;
@@ -196,9 +203,7 @@ std::vector<unsigned char> next_sample(dds_entity_t reader, const std::string& w
 }
 
 void print_one(dds_entity_t participant, const char* name) {
-  const dds_entity_t announcements =
-      checked(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr), name);
-  const TypeOfTopic type(announcements, name);
+  const TypeOfTopic type(participant, name);
   dds_topic_descriptor_t* descriptor = nullptr;
   checked(
       dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant, type.info(), kPatience, &descriptor),
