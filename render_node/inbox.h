@@ -4,6 +4,7 @@
 #include "node_common/session_orders.h"
 #include "render_node/force_peaks.h"
 #include "render_node/pose_arrivals.h"
+#include "render_node/state_count.h"
 #include "render_node/stress_pairing.h"
 #include "runtime/clock.h"
 #include "runtime/faults.h"
@@ -83,6 +84,8 @@ class Inbox {
   std::uint64_t incomplete_states() const { return incomplete_states_.load(std::memory_order_relaxed); }
   /// Dropped for their topology, of all organs.
   std::uint64_t unmatched_states() const { return unmatched_states_.load(std::memory_order_relaxed); }
+  /// Of all organs; for the report, since it waits for who listens.
+  StateCounts state_counts() const;
 
  private:
   struct OrganBox {
@@ -90,6 +93,7 @@ class Inbox {
     // States and topologies come on threads of their own and meet here. Never taken by who draws.
     std::mutex mutex;
     StateAssembly assembly;
+    StateCount count;
     KnownTopologies topologies;
     std::optional<StressPairing> pairing;  // while stress is read
     std::size_t most_nodes;

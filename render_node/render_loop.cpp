@@ -300,6 +300,7 @@ nlohmann::json RenderLoop::report() const {
                         {"frames", record.ticks},
                         {"frame_us", runtime::to_json(record.compute.percentiles())},
                         {"deepest_dent_m", watch_.largest_dent_m()},
+                        {"organ_states", to_json(inbox_->state_counts())},
                         {"unmatched_states", watch_.unmatched_states()},
                         {"removed_tetrahedra", removed},
                         {"closed", closed_},

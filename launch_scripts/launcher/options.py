@@ -196,6 +196,9 @@ def has_display():
 
 
 def check_values(options):
+    if options.device == "mouse" and options.frames:
+        raise Refusal("--frames: a mouse has no frames: its tip is where the pointer is, and it has a clutch by nature; expected another "
+                      "--device, or none of both")
     if options.device == "mouse" and options.headless:
         raise Refusal("--device mouse needs a window to point at; run it without --headless")
     if options.device == "mouse" and not has_display() and not options.hosts and not options.prepare_only:
