@@ -39,6 +39,21 @@ void CompletePairs::reset() noexcept {
   for (auto* of_parts : {&travelled_, &ahead_, &list_until_}) std::ranges::fill(*of_parts, 0);
 }
 
+void CompletePairs::take_up(const PairFinder& other) noexcept {
+  const auto& from = static_cast<const CompletePairs&>(other);
+  last_ = from.last_;
+  travelled_ = from.travelled_;
+  list_until_ = from.list_until_;
+  segments_ = from.segments_;
+  others_ = from.others_;
+  slack_ = from.slack_;
+  quiet_until_ = from.quiet_until_;
+  quiet_.resize(from.quiet_.size());
+  for (std::size_t pair = 0; pair < quiet_.size(); ++pair)
+    if (quiet_until_[pair] >= 0) quiet_[pair] = from.quiet_[pair];
+  given_up_ = from.given_up_;
+}
+
 void CompletePairs::travel(std::span<const Vec3> x, std::span<const double> way_m) noexcept {
   if (last_.empty()) last_.assign(x.begin(), x.end());
   for (std::size_t m = 0; m < last_.size(); ++m) moved_[m] = (x[m] - last_[m]).norm();

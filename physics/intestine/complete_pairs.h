@@ -23,6 +23,8 @@ class CompletePairs : public PairFinder {
   std::size_t tracked() const noexcept override { return segments_.size() - given_up_; }
   std::int64_t distance_tests() const noexcept override { return tests_; }
   void reset() noexcept override;
+  /// With its list, which is made again no sooner than the other one's.
+  void take_up(const PairFinder& other) noexcept override;
 
  private:
   GutParts parts_;

@@ -82,20 +82,22 @@ bool correct(ContactRow& row, double friction, double* x, double* v) {
   return correct<count>(row, speed, 0, speed, friction, kUnmoved_m_s, {row.f, row.rubbed_speed}, v) || moved;
 }
 
-bool correct(ContactRow& row, double friction, double* x, double* v) {
+// Calls with the number of a row's masses, so that loops over them unroll.
+template <class Visit>
+OMENTUM_CONTACT_INLINE auto with_count(const ContactRow& row, const Visit& visit) {
   switch (row.count) {
     case 1:
-      return correct<1>(row, friction, x, v);
+      return visit.template operator()<1>();
     case 2:
-      return correct<2>(row, friction, x, v);
+      return visit.template operator()<2>();
     case 3:
-      return correct<3>(row, friction, x, v);
+      return visit.template operator()<3>();
     case 4:
-      return correct<4>(row, friction, x, v);
+      return visit.template operator()<4>();
     case 5:
-      return correct<5>(row, friction, x, v);
+      return visit.template operator()<5>();
     default:
-      return correct<6>(row, friction, x, v);
+      return visit.template operator()<6>();
   }
 }
 
@@ -103,8 +105,63 @@ bool correct(ContactRow& row, double friction, double* x, double* v) {
 
 bool correct_contacts(std::size_t count, ContactRow* rows, double friction, double* x, double* v) noexcept {
   bool moved = false;
-  for (std::size_t i = 0; i < count; ++i) moved |= correct(rows[i], friction, x, v);
+  for (std::size_t i = 0; i < count; ++i)
+    moved |= with_count(rows[i], [&]<std::int32_t n>() { return correct<n>(rows[i], friction, x, v); });
   return moved;
+}
+
+void begin_contacts(std::size_t count, ContactRow* rows, const double* warm, double step_s) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    ContactRow& row = rows[i];
+    const Lanes4 given = load(warm + 3 * i), normal = load(row.normal);
+    row.f = dot(given, normal);
+    row.g = row.f * step_s;
+    const Lanes4 rubbed = given - row.f * normal;
+    store(rubbed, row.rubbed_speed);
+    store(rubbed * step_s, row.rubbed_way);
+  }
+}
+
+PushChange find_ways(std::size_t count, const ContactRow* rows, const double* pushes, double step_s,
+                     double* ways) noexcept {
+  PushChange sums{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Lanes4 push = load(pushes + 3 * i);
+    const Lanes4 way = (rows[i].g * load(rows[i].normal) + load(rows[i].rubbed_way)) / step_s - push;
+    store(way, ways + 3 * i);
+    sums.change_n_s += __builtin_sqrt(dot(way, way));
+    sums.total_n_s += __builtin_sqrt(dot(push, push));
+  }
+  return sums;
+}
+
+void add_pushes(std::size_t count, const ContactRow* rows, const double* pushes, double step_s,
+                double* forces) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_zero(pushes + 3 * i)) continue;
+    const Lanes4 force = load(pushes + 3 * i) / step_s;
+    for (std::int32_t k = 0; k < rows[i].count; ++k) {
+      double* const at = forces + 3 * static_cast<std::ptrdiff_t>(rows[i].mass[k]);
+      store(load(at) + rows[i].weight[k] * force, at);
+    }
+  }
+}
+
+AlongWays look_along(std::size_t count, const ContactRow* rows, const double* ways, const double* x,
+                     const double* yields) noexcept {
+  AlongWays sums{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactRow& row = rows[i];
+    if (is_zero(ways + 3 * i)) continue;
+    const auto between = [&](const double* of) {
+      return with_count(row, [&]<std::int32_t n>() { return weighted<n>(row, of); });
+    };
+    const Lanes4 way = load(ways + 3 * i), normal = load(row.normal), now = between(x);
+    const double along = dot(way, normal);
+    sums.gain -= along * (dot(now, normal) - row.offset) + dot(way - along * normal, now - load(row.before));
+    sums.cost += dot(way, between(yields));
+  }
+  return sums;
 }
 
 }  // namespace omentum::physics::kernels

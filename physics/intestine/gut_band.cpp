@@ -15,11 +15,7 @@ namespace {
 class BandRows {
  public:
   BandRows(const GutBand& band, const geometry::GutLayout& layout, std::size_t width)
-      : band_(band), layout_(layout), width_(width), rows_(free_masses(layout) * (width + 1)) {}
-
-  static std::size_t free_masses(const geometry::GutLayout& layout) {
-    return static_cast<std::size_t>(layout.rows - 1) * static_cast<std::size_t>(layout.columns - 2);
-  }
+      : band_(band), layout_(layout), width_(width), rows_(band.size() * (width + 1)) {}
 
   /// k (d d^T) for d = sum of weight times mass.
   template <std::size_t n>
@@ -56,24 +52,28 @@ void add_springs(const GutSprings& springs, double damped, BandRows& rows) {
   }
 }
 
+// Column by column.
+std::vector<MassId> free_masses(const geometry::GutLayout& layout) {
+  std::vector<MassId> masses;
+  for (std::int32_t column = 1; column + 1 < layout.columns; ++column)
+    for (std::int32_t row = 0; row + 1 < layout.rows; ++row) masses.push_back(layout.mass(row, column));
+  return masses;
+}
+
 }  // namespace
 
 GutBand::GutBand(const GutSprings& springs, double step_s)
     : layout_(springs.layout()),
+      masses_(free_masses(layout_)),
       width_(2 * static_cast<std::size_t>(layout_.rows - 1)),
-      lower_(BandRows::free_masses(layout_) * width_),
+      lower_(masses_.size() * width_),
       upper_(lower_.size()),
-      diagonal_(BandRows::free_masses(layout_)) {
+      diagonal_(masses_.size()) {
   factorize(springs, step_s);
 }
 
 std::size_t GutBand::place(MassId m) const {
   return static_cast<std::size_t>((layout_.column(m) - 1) * (layout_.rows - 1) + layout_.row(m));
-}
-
-MassId GutBand::mass(std::size_t place) const {
-  const auto high = static_cast<std::size_t>(layout_.rows - 1);
-  return layout_.mass(static_cast<std::int32_t>(place % high), static_cast<std::int32_t>(place / high) + 1);
 }
 
 void GutBand::factorize(const GutSprings& springs, double step_s) {

@@ -5,6 +5,7 @@
 #include "physics/intestine/gut_springs.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace omentum::physics {
@@ -22,7 +23,9 @@ class GutBand {
   std::size_t size() const { return diagonal_.size(); }  // free masses
   /// Place of a mass that is free, in [0, size).
   std::size_t place(geometry::MassId m) const;
-  geometry::MassId mass(std::size_t place) const;
+  geometry::MassId mass(std::size_t place) const { return masses_[place]; }
+  /// The free masses in the band's order, [size].
+  std::span<const geometry::MassId> masses() const { return masses_; }
 
   /// b becomes A^-1 b: m from N. [size]. Allocates nothing.
   void solve(Node* b) const noexcept;
@@ -33,6 +36,7 @@ class GutBand {
   void factorize(const GutSprings& springs, double step_s);
 
   geometry::GutLayout layout_;
+  std::vector<geometry::MassId> masses_;
   std::size_t width_;             // entries of a row of the factor left of its diagonal
   std::vector<double> lower_;     // [size][width]: L with unit diagonal, the last one next to it
   std::vector<double> upper_;     // [size][width]: the same by columns, the first one next to the diagonal

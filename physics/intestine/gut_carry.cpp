@@ -56,16 +56,7 @@ void GutCarry::begin(std::span<const GutContact> contacts, const GutYield& yield
 void GutCarry::find_forces(std::span<const Vec3> pushes, double step_s,
                            std::span<Vec3> forces) const noexcept {
   std::ranges::fill(forces, Vec3::Zero());
-  const auto push = [&](const GutPoint& point, const Vec3& force) {
-    for (std::size_t i = 0; i < 3 && point.mass[i].valid(); ++i)
-      forces[point.mass[i]] += point.weight[i] * force;
-  };
-  for (std::size_t c = 0; c < eased_.size(); ++c) {
-    if (pushes[c].isZero()) continue;
-    const Vec3 force = pushes[c] / step_s;
-    push(eased_[c].one, force);
-    push(eased_[c].other, -force);
-  }
+  response_.add_pushes(pushes, step_s, forces);
 }
 
 void GutCarry::go_downhill(GutYield& yield, double step_s, const MovingMasses& masses) noexcept {
@@ -74,17 +65,9 @@ void GutCarry::go_downhill(GutYield& yield, double step_s, const MovingMasses& m
     masses.x[m] = aim_[m] + step_s * step_s * masses.inverse_mass[m] * forces_[m];
 }
 
-// Along way_, whose displacements are yields_. What rubs is to end where it began.
-double GutCarry::best_share(double step_s, const MovingMasses& masses) const noexcept {
-  double gain = 0, cost = 0;
-  for (std::size_t c = 0; c < eased_.size(); ++c) {
-    if (way_[c].isZero()) continue;
-    const GutContact& contact = eased_[c];
-    const Vec3 now = between(contact, masses.x), slid = now - between(contact, masses.before);
-    const double along = way_[c].dot(contact.normal);
-    gain -= (along * open(contact, now) + (way_[c] - along * contact.normal).dot(slid)) / step_s;
-    cost += way_[c].dot(between(contact, yields_)) / step_s;
-  }
+// Along way_, whose displacements are yields_.
+double GutCarry::best_share(const MovingMasses& masses) const noexcept {
+  const auto [gain, cost] = response_.look_along(way_, masses.x, yields_);
   return cost > 0 ? std::clamp(gain / cost, 0.0, 1.0) : 0;
 }
 
@@ -92,13 +75,8 @@ double GutCarry::best_share(double step_s, const MovingMasses& masses) const noe
 bool GutCarry::find_way(std::span<const Vec3> pushes, double step_s, const MovingMasses& masses) noexcept {
   std::ranges::copy(masses.x, x_.begin());
   response_.part(pushes, step_s, x_);
-  double change = 0, total = 0;
-  for (std::size_t c = 0; c < pushes.size(); ++c) {
-    way_[c] = response_.shift(c) / step_s - pushes[c];
-    change += way_[c].norm();
-    total += pushes[c].norm();
-  }
-  return change > kSettled * total;
+  const auto [change_n_s, total_n_s] = response_.find_ways(pushes, step_s, way_);
+  return change_n_s > kSettled * total_n_s;
 }
 
 void GutCarry::part(const GutYield& yield, double step_s, const MovingMasses& masses,
@@ -108,7 +86,7 @@ void GutCarry::part(const GutYield& yield, double step_s, const MovingMasses& ma
   yield.yield_to(std::span(change_).first(count_), std::span(yields_).first(count_));
   for (std::size_t m = count_; m < masses.x.size(); ++m)
     yields_[m] = step_s * step_s * masses.inverse_mass[m] * change_[m];
-  const double share = best_share(step_s, masses);
+  const double share = best_share(masses);
   for (std::size_t c = 0; c < pushes.size(); ++c) pushes[c] += share * way_[c];
   for (std::size_t m = 0; m < masses.x.size(); ++m) {
     masses.x[m] += share * yields_[m];

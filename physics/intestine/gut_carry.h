@@ -63,7 +63,7 @@ class GutCarry {
   bool find_way(std::span<const geometry::Vec3> pushes, double step_s, const MovingMasses& masses) noexcept;
   void part(const GutYield& yield, double step_s, const MovingMasses& masses,
             std::span<geometry::Vec3> pushes) noexcept;
-  double best_share(double step_s, const MovingMasses& masses) const noexcept;
+  double best_share(const MovingMasses& masses) const noexcept;
 };
 
 }  // namespace omentum::physics

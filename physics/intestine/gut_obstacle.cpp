@@ -72,8 +72,21 @@ WallPlace place_at_wall(const GutObstacle& obstacle, const Vec3& p) noexcept {
   return place;
 }
 
+namespace {
+
+// Whether a point inside an ellipsoid is that deep by its level |p / e| alone, which falls from 1 on the
+// surface by no more than the way over the shortest half axis: most of a gut is, and needs no closest point.
+bool is_deep(const GutObstacle& obstacle, const Vec3& p, double reach_m) {
+  if (obstacle.kind != GutObstacle::Kind::kInsideEllipsoid) return false;
+  const Vec3& e = obstacle.half_axes_m;
+  return (1 - in_own_axes(obstacle, p).cwiseQuotient(e).norm()) * e.minCoeff() >= reach_m;
+}
+
+}  // namespace
+
 WallFaces faces_within(const GutObstacle& obstacle, const Vec3& p, double reach_m) noexcept {
   WallFaces faces;
+  if (is_deep(obstacle, p, reach_m)) return faces;
   const auto take = [&](const WallPlace& place) {
     if (place.depth_m < reach_m) faces.places[faces.count++] = place;
   };

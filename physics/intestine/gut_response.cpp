@@ -1,7 +1,5 @@
 #include "physics/intestine/gut_response.h"
 
-#include "geometry/across.h"
-
 #include <algorithm>
 
 namespace omentum::physics {
@@ -57,11 +55,9 @@ GutResponse::Row GutResponse::prepared(const GutContact& contact, std::span<cons
   return row;
 }
 
-void GutResponse::begin_with(Row& row, const Vec3& warm, double step_s) const noexcept {
-  row.f = warm.dot(vector(row.normal));
-  row.g = row.f * step_s;
-  vector(row.rubbed_speed) = geometry::across(warm, vector(row.normal));
-  vector(row.rubbed_way) = vector(row.rubbed_speed) * step_s;
+void GutResponse::begin_with(std::span<const Vec3> warm, double step_s) noexcept {
+  const std::size_t count = std::min(warm.size(), rows_.size());
+  if (count > 0) kernels::begin_contacts(count, rows_.data(), warm.data()->data(), step_s);
 }
 
 void GutResponse::prepare(std::span<const GutContact> contacts, std::span<const Vec3> before,
@@ -74,7 +70,7 @@ void GutResponse::prepare(std::span<const GutContact> contacts, std::span<const 
 void GutResponse::solve(std::span<const GutContact> contacts, std::span<const Vec3> warm, double step_s,
                         const MovingMasses& masses) noexcept {
   prepare(contacts, masses.before, masses.inverse_mass);
-  for (std::size_t c = 0; c < std::min(warm.size(), rows_.size()); ++c) begin_with(rows_[c], warm[c], step_s);
+  begin_with(warm, step_s);
   pass(masses.x, masses.v.data()->data());
 }
 
@@ -86,7 +82,7 @@ void GutResponse::pass(std::span<Vec3> x, double* v) noexcept {
 }
 
 void GutResponse::part(std::span<const Vec3> warm, double step_s, std::span<Vec3> x) noexcept {
-  for (std::size_t c = 0; c < rows_.size(); ++c) begin_with(rows_[c], warm[c], step_s);
+  begin_with(warm, step_s);
   pass(x, nullptr);
 }
 
@@ -95,9 +91,23 @@ Vec3 GutResponse::impulse(std::size_t contact) const noexcept {
   return rows_[contact].f * vector(rows_[contact].normal) + vector(rows_[contact].rubbed_speed);
 }
 
-Vec3 GutResponse::shift(std::size_t contact) const noexcept {
-  if (contact >= rows_.size()) return Vec3::Zero();
-  return rows_[contact].g * vector(rows_[contact].normal) + vector(rows_[contact].rubbed_way);
+kernels::PushChange GutResponse::find_ways(std::span<const Vec3> pushes, double step_s,
+                                           std::span<Vec3> ways) const noexcept {
+  if (rows_.empty()) return {};
+  return kernels::find_ways(rows_.size(), rows_.data(), pushes.data()->data(), step_s, ways.data()->data());
+}
+
+void GutResponse::add_pushes(std::span<const Vec3> pushes, double step_s,
+                             std::span<Vec3> forces) const noexcept {
+  if (rows_.empty()) return;
+  kernels::add_pushes(rows_.size(), rows_.data(), pushes.data()->data(), step_s, forces.data()->data());
+}
+
+kernels::AlongWays GutResponse::look_along(std::span<const Vec3> ways, std::span<const Vec3> x,
+                                           std::span<const Vec3> yields) const noexcept {
+  if (rows_.empty()) return {};
+  return kernels::look_along(rows_.size(), rows_.data(), ways.data()->data(), x.data()->data(),
+                             yields.data()->data());
 }
 
 std::int32_t GutResponse::pushing() const noexcept {

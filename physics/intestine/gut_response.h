@@ -46,10 +46,17 @@ class GutResponse {
   /// ... and passes over them; `warm` as above, x: [n], m.
   void part(std::span<const geometry::Vec3> warm, double step_s, std::span<geometry::Vec3> x) noexcept;
 
+  /// Between passes, for who carries pushes on (gut_carry.h), of the contacts that were prepared: [contacts],
+  /// N s on the first point of each (contact_kernels.h).
+  kernels::PushChange find_ways(std::span<const geometry::Vec3> pushes, double step_s,
+                                std::span<geometry::Vec3> ways) const noexcept;
+  void add_pushes(std::span<const geometry::Vec3> pushes, double step_s,
+                  std::span<geometry::Vec3> forces) const noexcept;
+  kernels::AlongWays look_along(std::span<const geometry::Vec3> ways, std::span<const geometry::Vec3> x,
+                                std::span<const geometry::Vec3> yields) const noexcept;
+
   /// Of the newest solve: f u and what rubbed, on the contact's first point, N s, one for each contact.
   geometry::Vec3 impulse(std::size_t contact) const noexcept;
-  /// The same of places: kg m.
-  geometry::Vec3 shift(std::size_t contact) const noexcept;
   /// Contacts that pushed.
   std::int32_t pushing() const noexcept;
   /// The largest overlap of a contact after the newest solve, m, as seen along its normal.
@@ -63,7 +70,7 @@ class GutResponse {
 
   Row prepared(const GutContact& contact, std::span<const geometry::Vec3> before,
                std::span<const double> inverse_mass) const noexcept;
-  void begin_with(Row& row, const geometry::Vec3& warm, double step_s) const noexcept;
+  void begin_with(std::span<const geometry::Vec3> warm, double step_s) noexcept;
   void pass(std::span<geometry::Vec3> x, double* v) noexcept;
 };
 

@@ -142,14 +142,15 @@ void GutSystem::compliance(std::span<const MassId> masses, std::span<double> blo
 void GutSystem::yield_to(std::span<const Vec3> forces_n, std::span<Vec3> yield_m) const noexcept {
   geometry::require(forces_n.size() == forces_.size() && yield_m.size() == forces_.size(),
                     "a value for each mass");
+  const std::span<const MassId> masses = band_.masses();
   for (std::size_t place = 0; place < yield_.size(); ++place) {
-    const Vec3& f = forces_n[static_cast<std::size_t>(band_.mass(place))];
+    const Vec3& f = forces_n[masses[place]];
     yield_[place] = {{f.x(), f.y(), f.z(), 0}};
   }
   band_.solve(yield_.data());
   std::fill(yield_m.begin(), yield_m.end(), Vec3::Zero());
   for (std::size_t place = 0; place < yield_.size(); ++place) {
-    yield_m[static_cast<std::size_t>(band_.mass(place))] = Eigen::Map<const Vec3>(yield_[place].v);
+    yield_m[masses[place]] = Eigen::Map<const Vec3>(yield_[place].v);
   }
 }
 

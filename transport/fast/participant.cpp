@@ -19,9 +19,7 @@ namespace omentum::transport::fast {
 
 namespace {
 
-using eprosima::fastrtps::types::ReturnCode_t;
-
-WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) {
+WriterId writer_id(const dds::InstanceHandle_t& publication) {
   WriterId id{};
   for (std::size_t i = 0; i < id.size(); ++i) id[i] = publication.value[i];
   return id;
@@ -100,7 +98,7 @@ class FastWriter final : public Writer<M>, private Endpoint {
   bool hand_over(const M& sample) {
     // serialize() and getKey() only read it
     SampleRef<M> data{const_cast<M*>(&sample)};
-    return writer_->write(&data);
+    return written(writer_->write(&data));
   }
 
   Membership& membership_;
@@ -162,8 +160,7 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     arrivals_.announce([&] { take_all(*reader); });
   }
 
-  void on_liveliness_changed(dds::DataReader*,
-                             const eprosima::fastrtps::LivelinessChangedStatus& status) override {
+  void on_liveliness_changed(dds::DataReader*, const LivelinessChangedStatus& status) override {
     counters_.liveliness_changed(status.not_alive_count_change);
   }
 
@@ -171,7 +168,7 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
     SampleRef<M> data{&message_};
     dds::SampleInfo info;
-    while (reader.take_next_sample(&data, &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader.take_next_sample(&data, &info) == kOk) {
       if (!info.valid_data) continue;
       if (!data.decoded) {
         counters_.rejected();

@@ -64,6 +64,23 @@ TEST(GutObstacle, PlaneAndBoxSayHowFarInside) {
   EXPECT_LT((place.inward + box.axes.col(1)).norm(), 1e-12);
 }
 
+// Most points are told apart by a bound alone, which must not miss any.
+TEST(GutObstacle, AnEllipsoidTellsWhatIsNearItAndNothingElse) {
+  const GutObstacle obstacle = turned(GutObstacle::Kind::kInsideEllipsoid);
+  std::mt19937_64 random(5);
+  std::size_t near = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 p = obstacle.centre + test::random_vector(random, 0.15);
+    const double reach_m = 0.02, depth_m = place_at_wall(obstacle, p).depth_m;
+    const WallFaces faces = faces_within(obstacle, p, reach_m);
+    ASSERT_EQ(faces.count, depth_m < reach_m ? 1u : 0u) << depth_m;
+    if (faces.count == 1) EXPECT_EQ(faces.near()[0].depth_m, depth_m);
+    near += faces.count;
+  }
+  EXPECT_GT(near, 300u);
+  EXPECT_LT(near, 1900u);
+}
+
 TEST(GutObstacle, ABoxTellsEveryFaceOfItsCorners) {
   const GutObstacle box = turned(GutObstacle::Kind::kInsideBox);
   const auto at = [&](double x, double y, double z) { return Vec3(box.centre + box.axes * Vec3(x, y, z)); };
