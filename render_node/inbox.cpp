@@ -44,14 +44,15 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
   });
 }
 
-Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
-             runtime::FaultList& faults)
+Inbox::Inbox(transport::Bus& bus, const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
+             const runtime::Clock& clock, runtime::FaultList& faults)
     : bus_(bus),
       clock_(clock),
       faults_(faults),
+      held_(bus, scene),
       poses_(
           bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, clock_.now_ns()); },
-          [this] { return clock_.now_ns(); }),
+          [this] { return clock_.now_ns(); }, held_.admits()),
       forces_(
           bus, [this](const msg::ToolForce& force) { force_peaks_.take(force); },
           [this] { return clock_.now_ns(); }),

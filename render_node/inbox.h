@@ -1,6 +1,7 @@
 // Everything that render_node hears, handed from the vendor's threads to the one that draws.
 #pragma once
 
+#include "node_common/held_tools.h"
 #include "node_common/session_orders.h"
 #include "render_node/force_peaks.h"
 #include "render_node/pose_arrivals.h"
@@ -54,9 +55,9 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
 /// waits.
 class Inbox {
  public:
-  /// `clock` says when something came; `bus` outlives this.
-  Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
-        runtime::FaultList& faults);
+  /// `clock` says when something came; `bus` and `clock` outlive this.
+  Inbox(transport::Bus& bus, const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
+        const runtime::Clock& clock, runtime::FaultList& faults);
 
   bool pose(std::uint32_t tool, transport::Arrived<msg::ToolPose>& out) const {
     return poses_.load(tool, out);
@@ -114,6 +115,7 @@ class Inbox {
   runtime::FaultList& faults_;
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
   ForcePeaks force_peaks_;
+  node::HeldTools held_;
   transport::LatestByTool<msg::ToolPose> poses_;
   transport::LatestByTool<msg::ToolForce> forces_;
   std::vector<std::unique_ptr<OrganBox>> organs_;

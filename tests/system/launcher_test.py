@@ -44,7 +44,7 @@ SHAPE = {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
                         "contacts": {"ticks_in_contact": int, "nodes_max": int},
                         "local_models": {"heard": int, "dropped": int, "gone": int}, "hands": list, "faults": list},
-        "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "stress_states": int, "steps": int, "removed_tetrahedra": int,
+        "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "stress_states": int, "touching_moments": int, "steps": int, "removed_tetrahedra": int,
                         "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
                         "real_time_factor": float, "faults": list},
         "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
