@@ -101,7 +101,6 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
   until_felt_s_ = 0;
   last_ticks_s_ = {steps * step_s, last_ticks_s_[0]};
   meeting_->act(last_ticks_s_[0]);
-  if (ahead_ && presses_.any_grasps()) hold(last_ticks_s_[0]);
   for (int i = 0; i < steps && !status_.diverged; ++i) advance();
   meeting_->put_down();
   show();
@@ -110,7 +109,7 @@ void GutModel::step(const TickLoads& loads, double dt_s) noexcept {
 void GutModel::advance() noexcept {
   const double step_s = system_->settings().step_s;
   const physics::GutCollisionReport before = system_->report().collisions;
-  if (ahead_ && !presses_.any_grasps()) press_ahead();
+  if (ahead_) press_ahead();
   system_->step(loads());
   if (!ahead_) impose();
   ++status_.steps;
@@ -164,8 +163,9 @@ void GutModel::impose() noexcept {
 // Steps are short: hands are told, and answered, only now and then, and between hold their strengths.
 void GutModel::press_ahead() noexcept {
   until_felt_s_ -= system_->settings().step_s;
-  if (until_felt_s_ > 0 || presses_.presses().empty()) return;
+  if (until_felt_s_ > kStepRounding || presses_.presses().empty()) return;
   until_felt_s_ = felt_->settings().step_s;
+  if (presses_.any_grasps()) return hold(std::min(until_felt_s_, last_ticks_s_[0]));
   presses_.act(1);
   felt_->take_up(*system_);
   felt_->step(loads());
@@ -173,7 +173,8 @@ void GutModel::press_ahead() noexcept {
 }
 
 // Jaws hold in all directions, most of them softer than the constant matrix says: their forces are found from
-// where the tick's own steps would take the gut.
+// where the tick's own steps would take the gut; of a late tick, which lives through several periods, one
+// period after the other, or what it lacks at first would be made up for with a force that goes far beyond.
 void GutModel::hold(double tick_s) noexcept {
   presses_.act(1);
   for (int round = 0; round < kLooks; ++round) {
