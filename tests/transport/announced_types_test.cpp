@@ -111,5 +111,11 @@ TEST(AnnouncedTypes, AReaderOnCycloneTellsTheTypeOfWhatFastWrites) {
   expect_decoded(msg::TopicList<msg::ToolPose, msg::DeviceInfo>{}, domain);
 }
 
+TEST(AnnouncedTypes, WhatWasSaidBeforeIsReadToo) {
+  const int domain = test::domain_of_test();
+  const test::PeerProcess peer("durable", Vendor::kCyclone, domain);
+  expect_decoded(msg::TopicList<msg::DeviceInfo, msg::SceneInfo>{}, domain);
+}
+
 }  // namespace
 }  // namespace omentum::transport

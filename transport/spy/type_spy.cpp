@@ -147,7 +147,8 @@ auto wait_for(Look&& look, const std::string& what) {
   throw std::runtime_error("no " + what);
 }
 
-/// What the first writer or reader that tells it announces the topic's type to be.
+/// What the first writer or reader that tells it announces the topic's type to be, and the quality it asks
+/// for.
 class TypeOfTopic {
  public:
   TypeOfTopic(dds_entity_t participant, const char* topic) {
@@ -156,11 +157,15 @@ class TypeOfTopic {
     wait_for([&] { return find(announcements[0], topic) || find(announcements[1], topic); },
              std::string("writer or reader tells the type of ") + topic);
   }
-  ~TypeOfTopic() { dds_free_typeinfo(info_); }
+  ~TypeOfTopic() {
+    dds_free_typeinfo(info_);
+    dds_delete_qos(qos_);
+  }
   TypeOfTopic(const TypeOfTopic&) = delete;
   TypeOfTopic& operator=(const TypeOfTopic&) = delete;
 
   const dds_typeinfo_t* info() const { return info_; }
+  const dds_qos_t* qos() const { return qos_; }
   const TypeId& id() const { return *reinterpret_cast<const TypeId*>(ddsi_typeinfo_complete_typeid(info_)); }
 
  private:
@@ -175,8 +180,10 @@ class TypeOfTopic {
       auto* end = static_cast<dds_builtintopic_endpoint_t*>(loan);
       const dds_typeinfo_t* announced = nullptr;
       if (seen.valid_data && std::strcmp(end->topic_name, topic) == 0 &&
-          dds_builtintopic_get_endpoint_type_info(end, &announced) == DDS_RETCODE_OK && announced)
+          dds_builtintopic_get_endpoint_type_info(end, &announced) == DDS_RETCODE_OK && announced) {
         info_ = ddsi_typeinfo_dup(announced);
+        dds_copy_qos(qos_, end->qos);
+      }
       dds_return_loan(announcements, &loan, 1);
       loan = nullptr;
     }
@@ -184,6 +191,7 @@ class TypeOfTopic {
   }
 
   dds_typeinfo_t* info_ = nullptr;
+  dds_qos_t* qos_ = dds_create_qos();
 };
 
 std::vector<unsigned char> next_sample(dds_entity_t reader, const std::string& what) {
@@ -210,7 +218,7 @@ void print_one(dds_entity_t participant, const char* name) {
       "nobody tells its type");
   const dds_entity_t topic = checked(dds_create_topic(participant, descriptor, name, nullptr, nullptr), name);
   dds_delete_topic_descriptor(descriptor);
-  CdrCursor cdr(next_sample(checked(dds_create_reader(participant, topic, nullptr, nullptr), name), name));
+  CdrCursor cdr(next_sample(checked(dds_create_reader(participant, topic, type.qos(), nullptr), name), name));
   std::printf("topic %s\n", name);
   Printer(participant, cdr).print("", type.id());
   if (!cdr.at_end()) throw std::runtime_error(std::string(name) + ": a sample longer than its type");
