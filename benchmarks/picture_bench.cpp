@@ -3,12 +3,11 @@
 // there is a better one, only its driver's work is seen. A ball of 2,048 triangles and two instruments.
 //   frame/QUALITY      the whole frame: a new state, scene, panel; against frame/coarse
 //   part/state         normals, shade and upload of a new state
-//   part/large_state   the same of 16,386 nodes on the surface; a real liver of 26,000 nodes has 9,400 there
-//   part/no_panel      a faint frame of the same state without the panel
-//   part/empty         and without anything in it: backdrop and stretching
-//   part/panel         that and the panel, laid out and blended as it was kept (panel_refresh.h)
-//   part/new_panel     and drawn anew
-//   part/read_back     for a picture
+//   part/large_state   the same of 16,386 nodes on the surface
+//   part/real_liver    the same of a real liver of 26,000 nodes, 9,400 on its surface, where the data is
+//   there part/no_panel      a faint frame of the same state without the panel part/empty         and without
+//   anything in it: backdrop and stretching part/panel         that and the panel, laid out and blended as it
+//   was kept (panel_refresh.h) part/new_panel     and drawn anew part/read_back     for a picture
 //   settle/LOAD/FROM   until the frame rate's control keeps the rate, in simulated time: loads per piece of
 //                      a tube, vertex or pixel (load_models.h), from the coarsest or finest level
 // --pictures DIR: draws one moment at each quality into DIR instead (Raghupathi 2004, fig. 12).
@@ -22,6 +21,7 @@
 #include "render_node/scene_view.h"
 #include "tests/render_node/ball_organ.h"
 #include "tests/render_node/load_models.h"
+#include "tests/support/real_mesh.h"
 
 #include <benchmark/benchmark.h>
 
@@ -31,6 +31,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <time.h>
 
@@ -41,6 +42,22 @@ using namespace omentum::render;
 constexpr Size kSize{1280, 720};
 constexpr double kRadius_m = 0.08;  // a liver's
 const Vec3 kPressed = kRadius_m * Vec3(0, -0.8, 0.6), kTouched = kRadius_m * Vec3(0.64, -0.6, 0.48);
+
+OrganShape ball(int splits) {
+  return test::ball_organ(kRadius_m, splits);
+}
+
+// None, said on stdout, where the data is absent.
+std::optional<OrganShape> real_liver() {
+  constexpr double kMillimetre = 1e-3;
+  const auto mesh = omentum::test::real_mesh("tet/openhelp_liver_132k.msh", kMillimetre);
+  if (!mesh) return std::nullopt;
+  OrganShape shape;
+  shape.surface = omentum::geometry::extract_surface(*mesh, {});
+  shape.rest = omentum::geometry::surface_positions(*mesh, shape.surface);
+  std::printf("real_liver: %zu nodes, %zu on the surface\n", mesh->positions.size(), shape.rest.size());
+  return shape;
+}
 
 PanelView panel_of_a_session() {
   PanelView panel;
@@ -62,14 +79,13 @@ PanelView panel_of_a_session() {
 
 class Stage {
  public:
-  explicit Stage(int splits)
-      : shape_(test::ball_organ(kRadius_m, splits)),
+  explicit Stage(OrganShape shape, const Vec3& pressed = kPressed)
+      : shape_(std::move(shape)),
         renderer_(gl::open_offscreen(kSize)),
         view_(scene_, std::vector{shape_}, *renderer_),
         panel_(panel_of_a_session()) {
     choices_.orbit = view_.first_camera();
-    for (const double depth_m : {0.004, 0.008})
-      states_.push_back(test::dent(shape_, kPressed, depth_m, 0.02));
+    for (const double depth_m : {0.004, 0.008}) states_.push_back(test::dent(shape_, pressed, depth_m, 0.02));
     tools_ = {test::tool_at(kPressed, {0, -1, 1}), test::tool_at(kTouched, {1, 0, 0})};
   }
 
@@ -164,8 +180,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   setenv("LP_NUM_THREADS", "0", 0);
   try {
-    std::optional<Stage> stage(4);
-    bool is_large = false;
+    std::optional<Stage> stage(ball(4));
     if (const auto folder = pictures_asked(argc, argv)) {
       write_pictures(*stage, *folder);
       return 0;
@@ -189,12 +204,15 @@ int main(int argc, char** argv) {
     add("part/panel", [&] { stage->draw({Quality::kFaint, false}); });
     add("part/new_panel", [&] { stage->draw({Quality::kFaint, false, true, true}); });
     add("part/read_back", [&] { stage->read_back(); });
-    // the last one: it takes the others' place
-    add("part/large_state", [&] {
-      if (!is_large) stage.emplace(6);
-      is_large = true;
-      stage->show_next_state();
-    });
+    // last ones: they take the others' place
+    const auto add_state = [&](const std::string& name, const OrganShape& shape) {
+      add(name, [&stage, shape, is_here = false]() mutable {
+        if (!std::exchange(is_here, true)) stage.emplace(shape, shape.rest.front());
+        stage->show_next_state();
+      });
+    };
+    add_state("part/large_state", ball(6));
+    if (const auto liver = real_liver()) add_state("part/real_liver", *liver);
     omentum::bench::JsonReporter reporter(results);
     benchmark::RunSpecifiedBenchmarks(&reporter);
   } catch (const gl::DisplayError& error) {

@@ -24,9 +24,9 @@ option(OMENTUM_NATIVE "compile the numeric kernels for this machine's vector uni
 set(OMENTUM_SANITIZE "" CACHE STRING "address (with undefined), fuzzer (of clang) or thread; empty for none")
 
 if(OMENTUM_SANITIZE STREQUAL "address")
-  # What a null or misplaced pointer does is seen by the address sanitizer too; to compile these four checks takes half as
-  # long as all the rest in tests, a quarter in libraries, and to run them a quarter.
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr
+  # What a null, misplaced or wrapped pointer does is seen by the address sanitizer too; to compile these five checks takes
+  # longer than half of all the rest in tests, a third in libraries, and to run them a quarter.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow
                       -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 elseif(OMENTUM_SANITIZE STREQUAL "thread")

@@ -87,6 +87,9 @@ void DeformLoop::open_writers() {
       on_wake);
   stress_publisher_ = std::make_unique<StressPublisher>(*stress_writer_, organs_.organs(),
                                                         nodes_per_block(profile), options_.rate_hz, on_wake);
+  touch_writer_ = bus_->writer<msg::TouchingPairs>();
+  touch_publisher_ = std::make_unique<TouchPublisher>(
+      *touch_writer_, organs_, transport::touching_block_pairs(profile), options_.rate_hz, on_wake);
   if (offers_local_models(organs_.organs())) {
     local_writer_ = bus_->writer<msg::LocalModel>();
     local_publisher_ = std::make_unique<LocalPublisher>(*local_writer_, organs_.organs(),
@@ -217,6 +220,7 @@ void DeformLoop::publish(std::int64_t now_ns) noexcept {
   tick.figures = figures_;
   publisher_->publish();
   stress_publisher_->offer({.seq = states_, .stamp_ns = now_ns});
+  touch_publisher_->offer({.seq = states_, .stamp_ns = now_ns});
 }
 
 nlohmann::json DeformLoop::report() const {
@@ -224,6 +228,7 @@ nlohmann::json DeformLoop::report() const {
                         {"loop", runtime::to_json(loop_.record(), options_.rate_hz)},
                         {"states", states_},
                         {"stress_states", stress_publisher_->measured()},
+                        {"touching_moments", touch_publisher_->told()},
                         {"steps", organs_.steps()},
                         {"removed_tetrahedra", organs_.removed_tetrahedra()},
                         {"repaired_tetrahedra", organs_.repaired_tetrahedra()},

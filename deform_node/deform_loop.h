@@ -9,6 +9,7 @@
 #include "deform_node/state_publisher.h"
 #include "deform_node/stress_publisher.h"
 #include "deform_node/time_account.h"
+#include "deform_node/touch_publisher.h"
 #include "node_common/loaded_scene.h"
 #include "node_common/refusal.h"
 #include "node_common/session_orders.h"
@@ -29,10 +30,10 @@ struct DeformOptions {
 };
 
 /// Takes Contact, SessionCommand, SceneInfo and NodeStatus; publishes OrganState, Topology, SceneInfo,
-/// NodeStatus, LocalModel where organs offer any, and OrganStress while somebody reads it. Listens first: who
-/// finds a scene with other organs does not join it, and who finds one that is served stands by, silent but
-/// for Contact, until it is not. Another scene that appears after node::kSettled_s is the newcomer's fault,
-/// and is ignored.
+/// NodeStatus, LocalModel where organs offer any, and OrganStress and TouchingPairs while somebody reads
+/// them. Listens first: who finds a scene with other organs does not join it, and who finds one that is
+/// served stands by, silent but for Contact, until it is not. Another scene that appears after
+/// node::kSettled_s is the newcomer's fault, and is ignored.
 class DeformLoop {
  public:
   /// Loads the scene and joins the domain. Throws what and where. `loop` sets the pace, tells the time and
@@ -95,8 +96,10 @@ class DeformLoop {
   std::unique_ptr<transport::Writer<msg::NodeStatus>> status_writer_;
   std::unique_ptr<transport::Writer<msg::LocalModel>> local_writer_;  // none where no organ offers any
   std::unique_ptr<transport::Writer<msg::OrganStress>> stress_writer_;
+  std::unique_ptr<transport::Writer<msg::TouchingPairs>> touch_writer_;
   std::unique_ptr<StatePublisher> publisher_;
   std::unique_ptr<StressPublisher> stress_publisher_;
+  std::unique_ptr<TouchPublisher> touch_publisher_;
   std::unique_ptr<LocalPublisher> local_publisher_;
   std::unique_ptr<ToolPlaces> tool_places_;  // where some organ offers local models
   std::unique_ptr<transport::Reader<msg::Contact>> contact_reader_;

@@ -40,6 +40,10 @@ class GutModel final : public OrganModel {
   std::span<const CollisionSphere> collidable() const noexcept override;
   void respond(std::span<const OrganContact> contacts) noexcept override;
 
+  std::size_t touches_itself(std::span<physics::Touch> found) const noexcept override {
+    return system_->touches(found);
+  }
+
   const physics::GutReport& report() const noexcept { return system_->report(); }
 
  private:

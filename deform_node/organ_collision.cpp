@@ -59,6 +59,7 @@ OrganCollision::OrganCollision(const std::vector<OrganModel*>& models, runtime::
            .learnt = {}});
   for (Couple& couple : couples_) {
     const ModelSizes one = couple.one->model->sizes(), other = couple.other->model->sizes();
+    couple.touches.reserve(std::min(kMostTouches, kMostOfASphere * std::min(one.spheres, other.spheres)));
     if (one.keeps_pushes && other.keeps_pushes)
       couple.pushes.emplace(kMostOfASphere * std::max(one.spheres, other.spheres));
   }

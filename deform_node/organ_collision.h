@@ -33,6 +33,18 @@ class OrganCollision {
   /// An organ, by its place among the models, was put elsewhere: whom it met is forgotten.
   void reset(std::size_t organ) noexcept;
 
+  /// Two organs, by their places among the models, and where they touch.
+  struct Met {
+    std::size_t one = 0, other = 0;
+    std::span<const physics::Touch> touches{};
+  };
+  static constexpr std::size_t kMostTouches = 1024;  // of two organs
+  /// After run(), in each tick while somebody wants to know: takes down who touched whom in it, which has
+  /// lasted `tick_s`; of two that wait for a step, in the newest one of theirs.
+  void note_touches(double tick_s) noexcept;
+  std::size_t couple_count() const noexcept { return couples_.size(); }
+  Met met(std::size_t couple) const noexcept;
+
  private:
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
@@ -84,9 +96,12 @@ class OrganCollision {
     bool answers = false;  // in this tick
     bool waits = false;    // its pushes still wait for a step of either
     Learnt learnt;
-    std::optional<Pushes> pushes{};  // where both begin with those of the tick before
+    std::optional<Pushes> pushes{};         // where both begin with those of the tick before
+    std::vector<physics::Touch> touches{};  // as they were noted; never beyond its capacity
+    double waited_s = 0;                    // since then
   };
 
+  static void note_touches(Couple& couple, double lasted_s) noexcept;
   void gather() noexcept;
   bool collide(Couple& couple) noexcept;
   bool find_pairs(Body& one, Body& other) noexcept;

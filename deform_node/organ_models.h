@@ -4,6 +4,7 @@
 #include "deform_node/local_patch.h"
 #include "deform_node/organ_contact.h"
 #include "geometry/types.h"
+#include "physics/touch.h"
 
 #include <array>
 #include <cstdint>
@@ -145,6 +146,10 @@ class OrganModel {
   /// What they met, after all organs' steps; empty in most ticks, and then not called. Otherwise some times
   /// in a tick, with what the calls before left to do: each asks collidable() how fast the spheres are now.
   virtual void respond(std::span<const OrganContact> /*contacts*/) noexcept {}
+
+  /// Where it touches itself after its newest step, up to as many as `found` has; how many. Of one that does
+  /// not look for that: nowhere.
+  virtual std::size_t touches_itself(std::span<physics::Touch> /*found*/) const noexcept { return 0; }
 };
 
 }  // namespace omentum::deform

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/served_organ.h"
+#include "deform_node/state_mark.h"
 #include "deform_node/strain_gauge.h"
 #include "runtime/mailbox.h"
 #include "runtime/woken_thread.h"
@@ -12,12 +13,6 @@
 #include <vector>
 
 namespace omentum::deform {
-
-/// Which state is offered.
-struct StateMark {
-  std::uint64_t seq = 0;
-  std::int64_t stamp_ns = 0;
-};
 
 /// Publishes an OrganStress of the newest offered state of each organ whose model has a gauge. What nobody
 /// reads costs the loop nothing, and is asked for anew ten times a second; the first reader waits as long.

@@ -11,7 +11,7 @@ constexpr auto kToolGone_ns = static_cast<std::int64_t>(1e9 * kToolGone_s);
 }  // namespace
 
 ToolPlaces::ToolPlaces(transport::Bus& bus, const scene::Scene& scene, std::function<std::int64_t()> clock)
-    : poses_(bus, {}, std::move(clock)) {
+    : held_(bus, scene), poses_(bus, {}, std::move(clock), held_.admits()) {
   for (const scene::ToolSpec& tool : scene.tools)
     if (tool.id < msg::MAX_TOOLS && !tool.scope) tools_.push_back(tool.id);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deform_node/local_patch.h"
+#include "node_common/held_tools.h"
 #include "scene/scene.h"
 #include "transport/latest.h"
 
@@ -32,6 +33,7 @@ class ToolPlaces {
  private:
   std::vector<std::uint32_t> tools_;  // of the scene
   std::array<ToolPlace, msg::MAX_TOOLS> places_{};
+  node::HeldTools held_;
   transport::LatestByTool<msg::ToolPose> poses_;
 };
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -19,9 +20,9 @@ namespace omentum::device {
 namespace {
 
 constexpr double kUnitTolerance = 1e-3;  // three written digits of a quaternion
-constexpr int kTool = 9;                 // the optional column
-constexpr std::array<std::string_view, 10> kColumns{"t_s", "px", "py", "pz",   "qw",
-                                                    "qx",  "qy", "qz", "grip", "tool"};
+constexpr int kTool = 9, kButtons = 10;  // the optional columns
+constexpr std::array<std::string_view, 11> kColumns{"t_s", "px", "py",   "pz",   "qw",     "qx",
+                                                    "qy",  "qz", "grip", "tool", "buttons"};
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // what spreadsheets put in front of UTF-8
 constexpr const char* kHeader = "t_s,px,py,pz,qw,qx,qy,qz,grip";
 
@@ -92,7 +93,7 @@ class TraceReader {
     for (const std::string_view name : names) {
       const auto column = std::find(kColumns.begin(), kColumns.end(), name);
       if (column == kColumns.end() || seen[column - kColumns.begin()]++ > 0) {
-        refuse("column " + quoted(name), std::string(kHeader) + " and perhaps tool, each once");
+        refuse("column " + quoted(name), std::string(kHeader) + " and perhaps tool and buttons, each once");
       }
       order_.push_back(static_cast<int>(column - kColumns.begin()));
     }
@@ -115,11 +116,15 @@ class TraceReader {
     if (std::abs(q.norm() - 1) > kUnitTolerance) {
       refuse("an orientation of length " + std::to_string(q.norm()), "a unit quaternion qw,qx,qy,qz");
     }
-    Trace& trace = traces[tool(v[kTool])];
+    Trace& trace = traces[whole(v[kTool], "tool", msg::MAX_TOOLS - 1)];
     if (!trace.empty() && v[0] <= trace.back().t_s) {
       refuse("t_s " + std::to_string(v[0]) + " after " + std::to_string(trace.back().t_s), "times that grow");
     }
-    trace.push_back({v[0], {v[1], v[2], v[3]}, q.normalized(), v[8]});
+    trace.push_back({v[0],
+                     {v[1], v[2], v[3]},
+                     q.normalized(),
+                     v[8],
+                     whole(v[kButtons], "buttons", std::numeric_limits<std::uint32_t>::max())});
   }
 
   double number(std::string_view field, std::string_view column) const {
@@ -131,11 +136,9 @@ class TraceReader {
     return value;
   }
 
-  std::uint32_t tool(double value) const {
-    if (value != std::floor(value) || value < 0 || value >= msg::MAX_TOOLS) {
-      refuse("tool " + std::to_string(value),
-             "a whole number from 0 to " + std::to_string(msg::MAX_TOOLS - 1));
-    }
+  std::uint32_t whole(double value, const std::string& column, std::uint32_t most) const {
+    if (value != std::floor(value) || value < 0 || value > most)
+      refuse(column + " " + std::to_string(value), "a whole number from 0 to " + std::to_string(most));
     return static_cast<std::uint32_t>(value);
   }
 
@@ -154,8 +157,8 @@ void write_pose(std::ostream& out, const msg::ToolPose& pose, std::int64_t begin
   const auto& [p, q] = std::tie(pose.position, pose.orientation);
   std::array<char, 256> line{};
   const double t_s = 1e-9 * static_cast<double>(pose.stamp_ns - begin_ns);
-  std::snprintf(line.data(), line.size(), "%.9f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.6g,%u\n", t_s, p.x, p.y,
-                p.z, q.w, q.x, q.y, q.z, pose.grip, pose.tool);
+  std::snprintf(line.data(), line.size(), "%.9f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.6g,%u,%u\n", t_s, p.x,
+                p.y, p.z, q.w, q.x, q.y, q.z, pose.grip, pose.tool, pose.buttons);
   out << line.data();
 }
 
@@ -178,11 +181,12 @@ Measurement trace_at(const Trace& trace, double t_s) noexcept {
           .orientation = a.orientation.slerp(share, b.orientation),
           .linear_velocity = (b.position - a.position) / span_s,
           .angular_velocity = angular_velocity(a.orientation, b.orientation, span_s),
-          .grip = a.grip + share * (b.grip - a.grip)};
+          .grip = a.grip + share * (b.grip - a.grip),
+          .buttons = a.buttons};
 }
 
 TraceLog::TraceLog(const std::filesystem::path& file)
-    : SampleLog(file, std::string(kHeader) + ",tool",
+    : SampleLog(file, std::string(kHeader) + ",tool,buttons",
                 [begin_ns = std::int64_t{-1}, newest_ns = std::array<std::int64_t, msg::MAX_TOOLS>{}](
                     std::ostream& out, std::uint64_t, const msg::ToolPose& pose) mutable {
                   if (!pose.valid || pose.stamp_ns <= newest_ns.at(pose.tool)) return;

@@ -35,14 +35,20 @@ const scene::ToolSpec& tool_of(const scene::Scene& scene, std::uint32_t id, cons
   return *tool;
 }
 
+[[noreturn]] void refuse_enable_button(const Options& options, std::uint32_t tool, const std::string& who) {
+  throw std::runtime_error(options.frames.string() + ": devices: found enable_button of tool " +
+                           std::to_string(tool) + ", which " + who + " never presses; expected a recorded " +
+                           "hand that does (--trace, column buttons), or a device of your own");
+}
+
 // Without this it would play, and its tool never be held.
-void refuse_enable_button(const Options& options) {
-  for (const auto& [id, mapping] : options.bridge.mappings) {
-    if (!mapping.enable_button || !options.trace.empty()) continue;
-    throw std::runtime_error(options.frames.string() + ": devices: found enable_button of tool " +
-                             std::to_string(id) + ", which a simulated hand never presses; a recorded one " +
-                             "may (--trace), and a device of your own");
-  }
+void require_enabled(const Options& options, std::uint32_t tool, const device::Trace* trace) {
+  const auto mapping = options.bridge.mappings.find(tool);
+  if (mapping == options.bridge.mappings.end() || !mapping->second.enable_button) return;
+  const std::uint32_t bit = 1U << *mapping->second.enable_button;
+  if (!trace) refuse_enable_button(options, tool, "a simulated hand");
+  if (std::ranges::none_of(*trace, [&](const device::TracePoint& p) { return (p.buttons & bit) != 0; }))
+    refuse_enable_button(options, tool, options.trace.string());
 }
 
 Devices make_devices(const Options& options, const scene::Scene& scene, const device::RayInbox& rays) {
@@ -52,11 +58,13 @@ Devices make_devices(const Options& options, const scene::Scene& scene, const de
   }
   if (options.mouse && !options.frames.empty()) {
     throw std::runtime_error(
-        "--mouse: found --frames beside it, expected one of them: the tip is where the pointer is");
+        "--mouse: found --frames beside it, expected one of them: the tip is where the pointer is, and only "
+        "motion counts");
   }
   if (!options.trace.empty()) {
     for (auto& [id, trace] : device::read_trace(options.trace)) {
       tool_of(scene, id, options.trace.string());
+      require_enabled(options, id, &trace);
       devices.push_back(std::make_unique<device::TracePlayer>(id, trace, options.bridge.rate_hz));
     }
     return devices;
@@ -64,6 +72,7 @@ Devices make_devices(const Options& options, const scene::Scene& scene, const de
   for (const scene::HandSpec& hand : scene.hands) {
     const scene::ToolSpec& tool = tool_of(scene, hand.tool, scene.file.string());
     const double rate_hz = options.bridge.rate_hz;
+    require_enabled(options, hand.tool, nullptr);
     if (options.mouse) {  // the first one waits for it
       devices.push_back(std::make_unique<device::MouseHand>(hand, tool, rate_hz, rays, devices.empty()));
     } else {
@@ -84,7 +93,6 @@ void run(Options& options) {
   const scene::Scene scene = node::load_scene(options.bridge.node);
   options.bridge.scene = node::loaded_scene(scene, {});
   if (!options.frames.empty()) options.bridge.mappings = device::read_frames(options.frames, scene.tools);
-  refuse_enable_button(options);
   runtime::take_nice(runtime::kHandNice);
   runtime::RateLoop loop(options.bridge.rate_hz);
   runtime::StopSignal stop_signal([&loop] { loop.stop(); });

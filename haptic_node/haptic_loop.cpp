@@ -50,9 +50,10 @@ HapticLoop::HapticLoop(const HapticOptions& options, const transport::OpenBus& o
     log_ = std::make_unique<HapticLog>(options.node.log, setup_.tool_ids);
     loop_.log_to(*log_);
   }
-  for (const std::uint32_t id : setup_.tool_ids) {
-    lines_.push_back(std::make_unique<ToolLine>(id, setup_.limits, faults_));
-  }
+  for (std::size_t i = 0; i < setup_.tool_ids.size(); ++i)
+    lines_.push_back(
+        std::make_unique<ToolLine>(setup_.tool_ids[i], setup_.limits, faults_, setup_.devices[i]));
+  hand_overs_.resize(lines_.size());
   inputs_.resize(lines_.size());
   outputs_.resize(lines_.size());
   accounts_.resize(lines_.size());
@@ -77,7 +78,9 @@ void HapticLoop::connect(const transport::OpenBus& open_bus) {
   if (local_models_)
     local_reader_ =
         bus_->reader<msg::LocalModel>([this](const msg::LocalModel& model) { local_models_->hear(model); });
-  pose_reader_ = bus_->reader<msg::ToolPose>([this](const msg::ToolPose& pose) { hear(pose); });
+  pose_reader_ = bus_->reader<msg::ToolPose>(transport::ByWriter<msg::ToolPose>{
+      [this](const msg::ToolPose& pose, const transport::WriterId& writer) { hear(pose, writer); },
+      [](const transport::WriterId&) {}});  // who left is silent
   device_reader_ = bus_->reader<msg::DeviceInfo>(transport::ByWriter<msg::DeviceInfo>{
       [this](const msg::DeviceInfo& info, const transport::WriterId& writer) { hear(info, writer); },
       [this](const transport::WriterId& writer) {
@@ -91,10 +94,11 @@ void HapticLoop::connect(const transport::OpenBus& open_bus) {
 
 // ---- the vendor's threads
 
-void HapticLoop::hear(const msg::ToolPose& pose) noexcept {
+void HapticLoop::hear(const msg::ToolPose& pose, const transport::WriterId& writer) noexcept {
+  const transport::ParticipantId who = transport::participant_of(writer);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (lines_[i]->id() != pose.tool || !serves(i)) continue;
-    if (lines_[i]->hear(pose, loop_.now_ns())) loop_.wake();
+    if (lines_[i]->hear(pose, loop_.now_ns(), who)) loop_.wake();
   }
 }
 
@@ -153,6 +157,7 @@ void HapticLoop::run() {
   }
   statuses_.reset();
   looks_.reset();
+  tell_hand_overs();
   refusal_.throw_if_any();
 }
 
@@ -244,6 +249,7 @@ void HapticLoop::account() noexcept {
 void HapticLoop::publish_status() {
   snapshots_.fetch();
   const Snapshot& snapshot = snapshots_.value();
+  tell_hand_overs();
   orders_.tell(status_);
   status_.tools_served = served_.load(std::memory_order_relaxed);
   status_.echoes.assign(snapshot.echoes.begin(),
@@ -251,6 +257,13 @@ void HapticLoop::publish_status() {
   node::fill_status(snapshot.record, faults_, status_);
   standing_.store(node::standing_of(status_.ticks, status_.rate_hz), std::memory_order_relaxed);
   node::write_as_link(*status_writer_, status_);
+}
+
+void HapticLoop::tell_hand_overs() {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (const node::HandOver* last = lines_[i]->fetch_hand_over()) hand_overs_[i].take(*last);
+    hand_overs_[i].tell(lines_[i]->id(), loop_.now_ns(), std::cerr);
+  }
 }
 
 nlohmann::json HapticLoop::report() const {
@@ -263,6 +276,7 @@ nlohmann::json HapticLoop::report() const {
                      {"accepted", counts.accepted},
                      {"refused", counts.refused},
                      {"lost", counts.lost},
+                     {"hand_overs", hand_overs_[i].report()},
                      {"energy_given_j", line->safety().tank().given_j()}});
   }
   nlohmann::json hands = nlohmann::json::array();

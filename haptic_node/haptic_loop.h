@@ -3,6 +3,7 @@
 
 #include "haptic_node/contact_teller.h"
 #include "haptic_node/hand_account.h"
+#include "haptic_node/hand_over_log.h"
 #include "haptic_node/haptic_log.h"
 #include "haptic_node/haptic_setup.h"
 #include "haptic_node/local_models.h"
@@ -65,7 +66,7 @@ class HapticLoop {
   void account() noexcept;
   void note(std::size_t line, const msg::ToolForce& force) noexcept;
 
-  void hear(const msg::ToolPose& pose) noexcept;
+  void hear(const msg::ToolPose& pose, const transport::WriterId& writer) noexcept;
   void hear(const msg::DeviceInfo& info, const transport::WriterId& writer) noexcept;
   void hear(const msg::SceneInfo& scene);
   void hear(const msg::NodeStatus& other);
@@ -74,6 +75,7 @@ class HapticLoop {
     return served_.load(std::memory_order_relaxed) >> lines_[line]->id() & 1u;
   }
   void publish_status();
+  void tell_hand_overs();
 
   HapticOptions options_;
   HapticSetup setup_;
@@ -105,6 +107,7 @@ class HapticLoop {
 
   node::Refusal refusal_;
   msg::NodeStatus status_;
+  std::vector<HandOverLog> hand_overs_;                               // [tools] the ordinary thread's
   node::Rivals rivals_;                                               // the status reader's thread
   std::atomic<node::Standing> standing_{node::Standing::kListening};  // as the last status told
   std::atomic<std::uint32_t> served_;                                 // bit t: answers for tool t

@@ -117,7 +117,10 @@ HapticSetup make_setup(const scene::Scene& scene, double rate_hz,
   setup.limits = {h.max_force_n, h.max_torque_nm, h.max_slew_n_s, h.ramp_s,
                   h.stale_s,     h.decay_s,       1 / rate_hz};
   setup.pull_limit_n = scene.score.pull_limit_n;
-  for (const scene::ToolSpec& tool : scene.tools) setup.tool_ids.push_back(tool.id);
+  for (const scene::ToolSpec& tool : scene.tools) {
+    setup.tool_ids.push_back(tool.id);
+    setup.devices.push_back(tool.device);
+  }
   return setup;
 }
 

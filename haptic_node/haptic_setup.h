@@ -23,7 +23,8 @@ struct LocalOrgan {
 struct HapticSetup {
   HapticModel model;
   std::vector<LocalOrgan> local_organs;
-  std::vector<std::uint32_t> tool_ids;  // one per tool of the model
+  std::vector<std::uint32_t> tool_ids;  // one per tool of the model ...
+  std::vector<std::string> devices;     // ... and the device that the scene wants for it, or empty
   ForceLimits limits;
   double pull_limit_n = 0;  // of the trainee's score
   node::LoadedScene scene;

@@ -45,6 +45,8 @@ const char* describe(PoseVerdict verdict) {
       return "marked invalid";
     case PoseVerdict::kSameMeasurement:
       return "not measured anew";
+    case PoseVerdict::kHandedOver:
+      return "waits for the tool";
     case PoseVerdict::kNotFinite:
       return "not finite";
     case PoseVerdict::kNotARotation:
@@ -53,6 +55,8 @@ const char* describe(PoseVerdict verdict) {
       return "repeated or older sequence number or stamp";
     case PoseVerdict::kJump:
       return "jumps farther than an instrument moves";
+    case PoseVerdict::kForeign:
+      return "another device holds the tool";
   }
   return "unknown";
 }

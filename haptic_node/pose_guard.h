@@ -18,12 +18,14 @@ enum class PoseVerdict : std::uint8_t {
   kReconnected,      // accepted: the first one, or a new place or count that lasted
   kInvalid,          // no fault: the device says that it has no measurement
   kSameMeasurement,  // no fault: a new number, but not measured anew (the stamp is the known one)
+  kHandedOver,       // no fault: while the tool goes over to the scene's device (ToolLine)
   kNotFinite,        // NaN or infinity in any number
   kNotARotation,     // the quaternion's length is off
   kOldSequence,      // repeated, or older than what is known, by number or stamp
   kJump,             // farther than an instrument can have moved
+  kForeign,          // of a device that does not hold the tool (ToolLine)
 };
-inline constexpr int kPoseVerdicts = 8;
+inline constexpr int kPoseVerdicts = 10;
 
 /// A short English phrase, e.g. "position jumps".
 const char* describe(PoseVerdict verdict);
@@ -32,7 +34,7 @@ inline bool is_accepted(PoseVerdict verdict) {
   return verdict <= PoseVerdict::kReconnected;
 }
 inline bool is_fault(PoseVerdict verdict) {
-  return verdict > PoseVerdict::kSameMeasurement;
+  return verdict > PoseVerdict::kHandedOver;
 }
 
 /// later - earlier of two stamps from the wire; what does not fit is the largest there is.
@@ -54,6 +56,8 @@ class PoseGuard {
   static constexpr std::int64_t kLongestGap_ns = 20'000'000;
 
   PoseVerdict judge(const msg::ToolPose& pose, std::int64_t arrival_ns) noexcept;
+  /// What the sample is by itself: kAccepted, kInvalid, kNotFinite or kNotARotation.
+  static PoseVerdict form(const msg::ToolPose& pose) noexcept;
 
   /// The next well-formed sample is a new connection (after a reset, when the device's path starts again).
   void forget() noexcept { known_.present = false; }
@@ -68,7 +72,6 @@ class PoseGuard {
     std::int64_t arrival_ns = 0;
   };
 
-  static PoseVerdict form(const msg::ToolPose& pose) noexcept;
   static PoseVerdict follows(const Sample& before, const msg::ToolPose& pose,
                              std::int64_t arrival_ns) noexcept;
   PoseVerdict accept(const msg::ToolPose& pose, std::int64_t arrival_ns, PoseVerdict verdict) noexcept;

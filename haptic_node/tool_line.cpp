@@ -18,6 +18,7 @@ namespace {
 constexpr double kCutShare = 0.5;
 constexpr double kBelievedIntervals = 2;
 static_assert(kLongestStale_s == 1 / 40.0, "the fault says 40 times a second");
+static_assert(kLongestStale_s == node::kYoungAtMost_s, "a hand-over waits for the last force");
 
 // What a device says in degrees or counts must not be booked as work of jaws that cannot open as far.
 double opening_of(const msg::ToolPose& pose) {
@@ -31,8 +32,14 @@ ToolFrame frame_of(const msg::ToolPose& pose) noexcept {
   return {to_vector(pose.position), Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
 }
 
-ToolLine::ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults)
-    : id_(id), limits_(limits), faults_(faults), safety_(limits) {
+ToolLine::ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults,
+                   std::string device)
+    : id_(id),
+      limits_(limits),
+      faults_(faults),
+      holder_(node::hand_over_ns(limits.decay_s)),
+      named_(std::move(device)),
+      safety_(limits) {
   const std::string tool = "tool " + std::to_string(id) + ": ";
   for (int v = 0; v < kPoseVerdicts; ++v) {
     refusals_[v] = tool + "pose refused: " + describe(static_cast<PoseVerdict>(v));
@@ -42,9 +49,33 @@ ToolLine::ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultLi
   source_fault_ = tool + "contact feeds the hand, its force is cut";
 }
 
-bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
+// A pose that is none by itself neither takes a tool nor keeps it.
+PoseVerdict ToolLine::judge(const msg::ToolPose& pose, std::int64_t now_ns,
+                            const transport::ParticipantId& who) noexcept {
   if (forget_.exchange(false, std::memory_order_acquire)) guard_.forget();
+  const PoseVerdict form = PoseGuard::form(pose);
+  if (form != PoseVerdict::kAccepted) return form;
+  known_.fetch();
+  switch (holder_.judge(who, now_ns, known_.value())) {
+    case node::PoseRight::kRefused:
+      return PoseVerdict::kForeign;
+    case node::PoseRight::kWaits:
+      return PoseVerdict::kHandedOver;
+    case node::PoseRight::kTakes:
+      guard_.forget();
+      if (holder_.last().count > 0) handed_.post(holder_.last());
+      break;
+    case node::PoseRight::kHolds:
+      break;
+  }
   const PoseVerdict verdict = guard_.judge(pose, now_ns);
+  if (verdict != PoseVerdict::kSameMeasurement) holder_.heard(now_ns);
+  return verdict;
+}
+
+bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns,
+                    const transport::ParticipantId& who) noexcept {
+  const PoseVerdict verdict = judge(pose, now_ns, who);
   lost_.store(guard_.lost(), std::memory_order_relaxed);
   if (!is_accepted(verdict)) {
     refused_.fetch_add(1, std::memory_order_relaxed);
@@ -66,11 +97,15 @@ bool ToolLine::hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept {
 void ToolLine::hear(const msg::DeviceInfo& info, const transport::WriterId& writer) noexcept {
   for (const RefusedLimit& refused : devices_.hear(info, writer)) tell(refused);
   device_.post(devices_.limits());
+  named_.hear(info, writer);
+  known_.post(named_.known());
 }
 
 void ToolLine::gone(const transport::WriterId& writer) noexcept {
   devices_.gone(writer);
   device_.post(devices_.limits());
+  named_.gone(writer);
+  known_.post(named_.known());
 }
 
 void ToolLine::tell(const RefusedLimit& refused) noexcept {

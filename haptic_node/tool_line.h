@@ -7,6 +7,7 @@
 #include "haptic_node/hold_lead.h"
 #include "haptic_node/pose_guard.h"
 #include "haptic_node/pose_interval.h"
+#include "node_common/tool_holder.h"
 #include "runtime/faults.h"
 #include "runtime/mailbox.h"
 
@@ -30,8 +31,9 @@ class ToolLine {
   /// After so long a silence a device is told nothing more, ns.
   static constexpr std::int64_t kForget_ns = 1'000'000'000;
 
-  /// `id`: which tool of the scene. `faults` must outlive the line.
-  ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults);
+  /// `id`: which tool of the scene; `device`: the name of the device that the scene wants for it, or empty.
+  /// `faults` must outlive the line.
+  ToolLine(std::uint32_t id, const ForceLimits& limits, runtime::FaultList& faults, std::string device = {});
 
   std::uint32_t id() const noexcept { return id_; }
 
@@ -39,8 +41,10 @@ class ToolLine {
 
   /// Whether the pose was accepted: then the loop has something to do. A sample that says itself that it is
   /// none (`valid` down) is counted with the refused ones; any other refused one is a fault as well, and so
-  /// are poses that come less often than kLongestInterval_s.
-  bool hear(const msg::ToolPose& pose, std::int64_t now_ns) noexcept;
+  /// are poses that come less often than kLongestInterval_s. `who` sent it: of several devices one holds the
+  /// tool (node::ToolHolder).
+  bool hear(const msg::ToolPose& pose, std::int64_t now_ns,
+            const transport::ParticipantId& who = {}) noexcept;
   void hear(const msg::DeviceInfo& info, const transport::WriterId& writer = {}) noexcept;
   /// A writer of DeviceInfo left, in whatever way. On the thread of its samples.
   void gone(const transport::WriterId& writer) noexcept;
@@ -50,6 +54,11 @@ class ToolLine {
   /// After a reset the device's path starts elsewhere: its next pose is a new connection.
   void expect_new_connection() noexcept { forget_.store(true, std::memory_order_release); }
   PoseCounts counts() const noexcept;
+
+  // ---- the ordinary thread
+
+  /// The newest hand-over if there was one since the last call.
+  const node::HandOver* fetch_hand_over() noexcept { return handed_.fetch() ? &handed_.value() : nullptr; }
 
   // ---- the loop's thread
 
@@ -91,6 +100,8 @@ class ToolLine {
   /// The text for a field of DeviceInfo, with the first value that was refused: one text however many come.
   using DeviceFault = std::array<char, runtime::FaultList::kTextSize + 1>;
 
+  PoseVerdict judge(const msg::ToolPose& pose, std::int64_t now_ns,
+                    const transport::ParticipantId& who) noexcept;
   void tell(const RefusedLimit& refused) noexcept;
   void take(const HeardPose& heard) noexcept;
   std::int64_t silence_ns(const HeardPose& heard) const noexcept;
@@ -105,6 +116,7 @@ class ToolLine {
 
   // the vendor's threads
   PoseGuard guard_;
+  node::ToolHolder holder_;
   PoseInterval interval_;
   std::uint64_t connections_ = 0;
   std::atomic<bool> forget_{false};
@@ -113,6 +125,9 @@ class ToolLine {
   DeviceBook devices_;
   std::array<DeviceFault, kLimitFields> device_faults_{};
   runtime::Mailbox<DeviceLimits> device_;
+  node::DeviceRegister named_;
+  runtime::Mailbox<node::KnownDevices> known_;  // to the poses' thread
+  runtime::Mailbox<node::HandOver> handed_;     // and from it to the ordinary one
 
   // the loop's thread
   ForceSafety safety_;

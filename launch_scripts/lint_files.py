@@ -4,8 +4,9 @@ Usage: lint_files.py BUILD CHECKS [--apart] FILE ...
   BUILD    the folder of compile_commands.json; BUILD/clean remembers what was clean
   CHECKS   what clang-tidy's --checks gets beside .clang-tidy; may be empty
   --apart  each source by itself, so that one that forgets an include is found too
-Sources of one folder that are compiled alike are looked at together, a dozen at once: most of the time goes to the headers
-that they share. Where that finds something, they are looked at by halves, down to each by itself.
+Sources of one room that are compiled alike are looked at together, two dozen at once: most of the time goes to the headers
+that they share. Those that name things of their own alike are not. Where something is found, they are looked at by halves,
+down to each by itself.
 Prints each FILE and its findings. Exit code: 1 where there are any.
 """
 import concurrent.futures
@@ -18,10 +19,14 @@ import shutil
 import subprocess
 import sys
 
-TOGETHER = 12
+TOGETHER = 24
 INCLUDED = re.compile(r"^\.+ (.+)$")  # a line of -H: a dot for each level, and the header
 QUOTED = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 OUTPUT = re.compile(r" -o \S+")
+UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+NAMED = re.compile(r"^(?:struct|class|enum(?: class)?) (\w+)|^(?!template)[^\s/#}][^(={\[;\n]*?\b(\w+\(.*|\w+ *[={\[])",
+                   re.MULTILINE)
+INCLUDES = re.compile(r" (?:-I|-isystem) ?\S+")
 
 
 def state_of(part, root):
@@ -109,8 +114,14 @@ class Lint:
         folder = self.build / "together" / names[0].replace("/", "__")
         folder.mkdir(parents=True, exist_ok=True)
         source = folder / "all.cpp"
-        source.write_text("".join(f'#include "{self.root / name}"\n' for name in names))
+        # each program's main by a name of its own
+        source.write_text("".join(f'#define main main_{number}\n#include "{self.root / name}"\n#undef main\n'
+                                  for number, name in enumerate(names)))
         command = self.command_of(names[0]).replace(str(self.root / names[0]), str(source))
+        known = INCLUDES.findall(command)
+        for name in names[1:]:
+            more = [folder for folder in INCLUDES.findall(self.command_of(name)) if folder not in known]
+            command, known = command + "".join(more), known + more
         (folder / "compile_commands.json").write_text(
             json.dumps([{"directory": str(self.build.resolve()), "file": str(source), "command": command}]))
         checks = ",".join(part for part in (self.checks, "-bugprone-suspicious-include") if part)
@@ -131,14 +142,35 @@ class Lint:
         return self.together(names) or all([self.batch(names[:middle]), self.batch(names[middle:])])
 
 
+def own_names(text):
+    """What a source names for itself, functions with what they take: two that name things alike cannot be compiled as one."""
+    inner = "".join(UNNAMED.findall(text))
+    return {name for names in NAMED.findall(inner) for name in names if name}
+
+
 def batches_of(names, lint):
-    """Lists of names of one folder that are compiled alike, the long ones first."""
+    """Lists of names of one room that are compiled alike (but for where their headers are) and name nothing alike, the
+    long ones first."""
     alike = {}
     for name in names:
         command = lint.command_of(name)
-        how = name if command is None else OUTPUT.sub("", command).replace(str(lint.root / name), "")
-        alike.setdefault((os.path.dirname(name), how), []).append(name)
-    found = [group[at:at + TOGETHER] for group in alike.values() for at in range(0, len(group), TOGETHER)]
+        how = name if command is None else INCLUDES.sub("", OUTPUT.sub("", command)).replace(str(lint.root / name), "")
+        alike.setdefault((name.split("/")[0], how), []).append(name)
+    found = []
+    for group in alike.values():
+        most = -(-len(group) // -(-len(group) // TOGETHER))  # in each, of as few as can be
+        batches = []
+        for name in group:
+            own = own_names((lint.root / name).read_text(encoding="utf-8", errors="replace"))
+            for members, taken in batches:
+                if len(members) < most and own.isdisjoint(taken):
+                    break
+            else:
+                members, taken = [], set()
+                batches.append((members, taken))
+            members.append(name)
+            taken |= own
+        found += [members for members, _ in batches]
     return sorted(found, key=len, reverse=True)
 
 

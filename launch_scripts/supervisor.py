@@ -60,7 +60,11 @@ def play(session):
 
 def main():
     try:
-        return run(sys.argv[1:])
+        # launch_scripts/run holds Ctrl-C back until here, where it is caught
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        code = run(sys.argv[1:])
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is done: nothing is left to end
+        return code
     except Refusal as refusal:
         print(f"run: {refusal}", file=sys.stderr)
         return 2
@@ -68,6 +72,7 @@ def main():
         print(f"run: {error.filename or 'the system'}: {error.strerror}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
         print("run: ended before the session began", file=sys.stderr)
         return 130
 

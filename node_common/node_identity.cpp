@@ -20,7 +20,7 @@ scene::Scene load_scene(const runtime::NodeOptions& options) {
   return scene;
 }
 
-transport::BusOptions bus_options(const runtime::NodeOptions& options, std::string name) {
+transport::BusOptions bus_options(const runtime::LinkOptions& options, std::string name) {
   return {.vendor = transport::parse_vendor(options.dds),
           .domain = options.domain,
           .profile = transport::parse_profile(options.profile),
@@ -28,7 +28,7 @@ transport::BusOptions bus_options(const runtime::NodeOptions& options, std::stri
           .keystore = options.keystore};
 }
 
-std::unique_ptr<transport::Bus> open_bus(const runtime::NodeOptions& options, const std::string& name) {
+std::unique_ptr<transport::Bus> open_bus(const runtime::LinkOptions& options, const std::string& name) {
   auto bus = transport::Bus::open(bus_options(options, name));
   const std::string warning = bus->warning();
   if (!warning.empty()) std::cerr << name << ": warning: " << warning << std::endl;

@@ -14,11 +14,11 @@ namespace omentum::node {
 scene::Scene load_scene(const runtime::NodeOptions& options);
 
 /// The participant of a node called `name`. Throws std::invalid_argument for an unknown vendor or profile.
-transport::BusOptions bus_options(const runtime::NodeOptions& options, std::string name);
+transport::BusOptions bus_options(const runtime::LinkOptions& options, std::string name);
 
 /// Joins the domain as bus_options() says, and tells on stderr, in one line, what in this machine's settings
 /// will cost samples (transport::Bus::warning). Throws what bus_options() and transport::Bus::open() throw.
-std::unique_ptr<transport::Bus> open_bus(const runtime::NodeOptions& options, const std::string& name);
+std::unique_ptr<transport::Bus> open_bus(const runtime::LinkOptions& options, const std::string& name);
 
 /// A status that says who speaks: `kind` is one of msg::NODE_*; the instance is the start time on the
 /// wall clock, ns, so that of two runs the smaller one is the older, also on two machines.

@@ -44,14 +44,15 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
   });
 }
 
-Inbox::Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
-             runtime::FaultList& faults)
+Inbox::Inbox(transport::Bus& bus, const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
+             const runtime::Clock& clock, runtime::FaultList& faults)
     : bus_(bus),
       clock_(clock),
       faults_(faults),
+      held_(bus, scene),
       poses_(
           bus, [this](const msg::ToolPose& p) { arrivals_[p.tool].add(p.seq, clock_.now_ns()); },
-          [this] { return clock_.now_ns(); }),
+          [this] { return clock_.now_ns(); }, held_.admits()),
       forces_(
           bus, [this](const msg::ToolForce& force) { force_peaks_.take(force); },
           [this] { return clock_.now_ns(); }),
@@ -110,6 +111,7 @@ void Inbox::take_state(const msg::OrganState& block) {
   OrganBox& organ = *organs_[block.organ];
   const std::lock_guard lock(organ.mutex);
   const auto outcome = organ.assembly.take(block, [&](const AssembledState& state) {
+    organ.count.shown(state.seq, state.missing_blocks);
     if (state.missing_blocks > 0) incomplete_states_.fetch_add(1, std::memory_order_relaxed);
     match(state, organ);
   });
@@ -156,6 +158,15 @@ void Inbox::take_status(const msg::NodeStatus& status) {
   orders_.hear(status, now_ns);
   remember_status(status, now_ns, heard_);
   statuses_.post(heard_);
+}
+
+StateCounts Inbox::state_counts() const {
+  StateCounts sum;
+  for (const auto& organ : organs_) {
+    const std::lock_guard lock(organ->mutex);
+    sum += organ->count.counts();
+  }
+  return sum;
 }
 
 const HeardContact& Inbox::contact(std::size_t organ, std::uint32_t tool) {

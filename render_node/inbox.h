@@ -1,9 +1,11 @@
 // Everything that render_node hears, handed from the vendor's threads to the one that draws.
 #pragma once
 
+#include "node_common/held_tools.h"
 #include "node_common/session_orders.h"
 #include "render_node/force_peaks.h"
 #include "render_node/pose_arrivals.h"
+#include "render_node/state_count.h"
 #include "render_node/stress_pairing.h"
 #include "runtime/clock.h"
 #include "runtime/faults.h"
@@ -53,9 +55,9 @@ void remember_status(const msg::NodeStatus& status, std::int64_t now_ns, std::ve
 /// waits.
 class Inbox {
  public:
-  /// `clock` says when something came; `bus` outlives this.
-  Inbox(transport::Bus& bus, const std::vector<LoadedOrgan>& organs, const runtime::Clock& clock,
-        runtime::FaultList& faults);
+  /// `clock` says when something came; `bus` and `clock` outlive this.
+  Inbox(transport::Bus& bus, const scene::Scene& scene, const std::vector<LoadedOrgan>& organs,
+        const runtime::Clock& clock, runtime::FaultList& faults);
 
   bool pose(std::uint32_t tool, transport::Arrived<msg::ToolPose>& out) const {
     return poses_.load(tool, out);
@@ -83,6 +85,8 @@ class Inbox {
   std::uint64_t incomplete_states() const { return incomplete_states_.load(std::memory_order_relaxed); }
   /// Dropped for their topology, of all organs.
   std::uint64_t unmatched_states() const { return unmatched_states_.load(std::memory_order_relaxed); }
+  /// Of all organs; for the report, since it waits for who listens.
+  StateCounts state_counts() const;
 
  private:
   struct OrganBox {
@@ -90,6 +94,7 @@ class Inbox {
     // States and topologies come on threads of their own and meet here. Never taken by who draws.
     std::mutex mutex;
     StateAssembly assembly;
+    StateCount count;
     KnownTopologies topologies;
     std::optional<StressPairing> pairing;  // while stress is read
     std::size_t most_nodes;
@@ -110,6 +115,7 @@ class Inbox {
   runtime::FaultList& faults_;
   std::array<PoseArrivals, msg::MAX_TOOLS> arrivals_;
   ForcePeaks force_peaks_;
+  node::HeldTools held_;
   transport::LatestByTool<msg::ToolPose> poses_;
   transport::LatestByTool<msg::ToolForce> forces_;
   std::vector<std::unique_ptr<OrganBox>> organs_;

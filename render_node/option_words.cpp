@@ -40,6 +40,7 @@ std::string parse_map(const std::string& text, TissueMap& map) {
 }
 
 void add_window_options(runtime::CommandLine& line, RenderOptions& options) {
+  line.flag("--pairs", options.touches, "mark parts of organs that touch (key T switches)");
   line.option(
           "--ui-scale", [&](const std::string& text) { return parse_ui_scale(text, options.ui_scale); },
           "of the panel, 0.5 to 4 (default: as monitor and picture ask for)")

@@ -16,7 +16,7 @@ std::string parse_record(const std::string& text, double& fps);
 /// "strain" or "stress".
 std::string parse_map(const std::string& text, TissueMap& map);
 
-/// --ui-scale and --record.
+/// --pairs, --ui-scale and --record.
 void add_window_options(runtime::CommandLine& line, RenderOptions& options);
 
 }  // namespace omentum::render

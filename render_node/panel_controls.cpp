@@ -43,6 +43,8 @@ Button button_of(Control control, const PanelView& view) {
       return {"Contacts", lit(view.markers)};
     case Control::kWires:
       return {"Lines", lit(view.wires)};
+    case Control::kTouches:
+      return {"Pairs", lit(view.touches.on)};
     case Control::kFolds:
       return {"Folds", lit(view.folds)};
     case Control::kMap:

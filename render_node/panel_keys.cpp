@@ -13,6 +13,7 @@ const std::array<ControlWord, kControlCount>& control_words() {
        {Control::kCamera, 'O', "orbit camera or endoscope", "###O"},
        {Control::kArrows, 'F', "arrows of the forces on the hands", "###F"},
        {Control::kContacts, 'N', "nodes in contact", "###N"},
+       {Control::kTouches, 'T', "pairs of parts that touch, coloured by their push", "###T"},
        {Control::kWires, 'L', "lines: the triangles of the organs", "###L"},
        {Control::kFolds, 'G', "gut coloured by how sharply it is folded", "###G"},
        {Control::kMap, 'S', "map of strain, of stress, or none", "###S"},
@@ -53,6 +54,9 @@ void ask_for(Control control, const PanelView& view, PanelActions& actions) {
       break;
     case Control::kWires:
       actions.switch_wires = true;
+      break;
+    case Control::kTouches:
+      actions.switch_touches = true;
       break;
     case Control::kFolds:
       actions.switch_folds = view.has_tube;

@@ -19,11 +19,12 @@ enum class Control : std::uint8_t {
   kArrows,
   kContacts,
   kWires,
+  kTouches,
   kFolds,
   kMap,
   kHelp
 };
-inline constexpr std::size_t kControlCount = 11;
+inline constexpr std::size_t kControlCount = 12;
 
 struct ControlWord {
   Control control{};

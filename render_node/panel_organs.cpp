@@ -1,6 +1,7 @@
 #include "render_node/panel_organs.h"
 
 #include "render_node/panel_lines.h"
+#include "render_node/panel_touches.h"
 #include "render_node/scene_view.h"
 
 #include <algorithm>
@@ -87,6 +88,7 @@ void scene_lines(const PanelView& view) {
     map_scale(view);
     largest_line(view);
   }
+  lay_out_touches(view.touches);
   if (view.real_time_factor > 0) {
     const bool slow = view.real_time_factor < kKeepsUp;
     figure("real time", format("%.2f x", view.real_time_factor), slow ? &kAmber : nullptr);

@@ -67,6 +67,14 @@ struct OrganRow {
       500'000'000;  // states come at 60 Hz or more; what is drawn is old
 };
 
+/// Parts of organs that touch (touch_view.h).
+struct TouchRow {
+  bool on = false;        // they are shown
+  bool known = false;     // some moment was told, and lately
+  std::size_t count = 0;  // of pairs
+  double hardest_n = 0;   // the largest push
+};
+
 /// A video that is being recorded, or was.
 struct RecordingRow {
   bool on = false;
@@ -83,6 +91,7 @@ struct PanelView {
   bool has_tube = false;    // an organ here can be coloured by its folds
   bool shows_help = false;  // the keys
   RecordingRow recording;
+  TouchRow touches;
   TissueMap map = TissueMap::kOff;
   double full_stress_pa = 0;  // where the scale of stress ends
   std::vector<NodeRow> nodes;
@@ -109,7 +118,7 @@ struct PanelActions {
   bool start = false, pause = false, reset = false, clear_fault = false;
   bool record = false, stop_recording = false;
   bool switch_camera = false, switch_arrows = false, switch_markers = false, switch_wires = false;
-  bool switch_folds = false, switch_map = false, switch_help = false;
+  bool switch_folds = false, switch_touches = false, switch_map = false, switch_help = false;
 };
 
 /// Linear elasticity is trusted up to this share of the mesh's size (Cotin 1999, section 3-3).

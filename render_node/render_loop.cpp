@@ -102,15 +102,14 @@ RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const
   scored_from_s_ = loaded.scene.score.from_s;
   if (loaded.scene.score.camera) exercise_.emplace(loaded.scene, view_);
   view_.surround(load_scenery(loaded.scene.scenery));
-  choices_.orbit = view_.first_camera();
-  choices_.folds = options.folds;
-  choices_.endoscope = loaded.scene.camera.mode == "endoscope";
+  choices_ = first_choices(options, loaded.scene, view_.first_camera());
   if (!options.out.empty()) writer_ = std::make_unique<PictureWriter>(options.out, faults_);
   if (!options.node.log.empty()) log_ = std::make_unique<runtime::LoopLog>(options.node.log);
   status_writer_ = bus_->writer<msg::NodeStatus>();
   command_writer_ = bus_->writer<msg::SessionCommand>();
   pointer_ = std::make_unique<PointerLink>(*bus_, loaded.scene);
-  inbox_ = std::make_unique<Inbox>(*bus_, loaded.organs, pace_, faults_);
+  inbox_ = std::make_unique<Inbox>(*bus_, loaded.scene, loaded.organs, pace_, faults_);
+  touches_ = std::make_unique<TouchView>(*bus_, loaded.organs.size(), renderer, pace_, faults_);
   show_map(options.map);
   if (options.record) recorder_.begin(seconds_since_begin(pace_.now_ns()));
 }
@@ -205,6 +204,7 @@ void RenderLoop::draw(const std::string& picture) {
   view_.set_tube_resolution(picture.empty() ? TubeResolution{level.eps(), level.n()} : kPictureTube);
   Frame frame = view_.frame(choices_, watch_.tools(), covered);
   seen_ = frame.view;
+  touches_->draw(choices_.touches, frame);
   const PointerRays& mouse = pointer_->rays();
   if (mouse.drives()) feel_ring_.add(watch_.tools()[mouse.tool()], max_force_n_, frame);
   frame.quality = picture.empty() ? control_.quality() : schedule_.quality(picture);
@@ -270,6 +270,7 @@ void RenderLoop::command(std::uint32_t command, const std::string& argument) {
 PanelView RenderLoop::panel_view(std::int64_t now_ns) const {
   PanelView panel;
   panel.interactive = renderer_.has_window();
+  panel.touches = touches_->row();
   tell(choices_, panel);
   panel.has_tube = view_.has_tube();
   panel.shows_help = help_;
@@ -300,6 +301,7 @@ nlohmann::json RenderLoop::report() const {
                         {"frames", record.ticks},
                         {"frame_us", runtime::to_json(record.compute.percentiles())},
                         {"deepest_dent_m", watch_.largest_dent_m()},
+                        {"organ_states", to_json(inbox_->state_counts())},
                         {"unmatched_states", watch_.unmatched_states()},
                         {"removed_tetrahedra", removed},
                         {"closed", closed_},

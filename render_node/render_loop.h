@@ -11,6 +11,7 @@
 #include "render_node/picture_writer.h"
 #include "render_node/pointer_link.h"
 #include "render_node/session_watch.h"
+#include "render_node/touch_view.h"
 #include "render_node/video_recorder.h"
 #include "runtime/loop_log.h"
 #include "runtime/node_options.h"
@@ -37,6 +38,7 @@ struct RenderOptions {
   float ui_scale = 0;               // of the panel; 0: as monitor and picture ask for
   TissueMap map = TissueMap::kOff;  // at the start
   bool folds = false;               // ViewChoices::folds
+  bool touches = false;             // ViewChoices::touches
 };
 
 /// A pace's, of the asked rate: a frame that came too late for its tick waits for an eighth of a period, not
@@ -133,6 +135,7 @@ class RenderLoop {
   std::unique_ptr<transport::Writer<msg::SessionCommand>> command_writer_;
   std::unique_ptr<PointerLink> pointer_;
   std::unique_ptr<Inbox> inbox_;
+  std::unique_ptr<TouchView> touches_;
 };
 
 }  // namespace omentum::render

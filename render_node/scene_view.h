@@ -40,6 +40,7 @@ struct ViewChoices {
   TissueMap map = TissueMap::kOff;  // as which organs are drawn whose values are known
   bool folds = false;               // tubes coloured by how they are folded (Raghupathi 2004, fig. 10)
   bool markers = false;  // the nodes in contact: for whoever looks into the contact, not at the organ
+  bool touches = false;  // parts of the organs that touch (touch_view.h)
   bool wires = false;    // the triangles of what is drawn
 };
 

@@ -6,6 +6,10 @@
 
 namespace omentum::render {
 
+struct RenderOptions;
+
+/// At the start; the map is off.
+ViewChoices first_choices(const RenderOptions& options, const scene::Scene& scene, const Camera& orbit);
 /// Does to `choices` what the panel's buttons and the keys ask for; the map is the caller's, whose state it
 /// changes.
 void choose(const PanelActions& actions, ViewChoices& choices);

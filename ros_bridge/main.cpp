@@ -85,14 +85,9 @@ int main(int argc, char** argv) {
                             "NAME/measured_cp, measured_cs, spatial/servo_cf and operating_state");
   Options options;
   int domain = -1;  // of ROS; below 0: what the environment says
-  std::string dds = "fast", profile = "loopback", ros_profile = "lan";
-  line.needs(runtime::kRoomForDds);
-  line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
-  line.option("--domain", options.bus.domain, "the session's DDS domain").between(0, 230).show_default();
-  line.option("--profile", profile, "the session's: loopback (one machine) or lan")
-      .one_of({"loopback", "lan"})
-      .show_default();
-  line.option("--secure", options.bus.keystore, "the session's DDS Security key store").type_name("KEYSTORE");
+  runtime::LinkOptions link;
+  std::string ros_profile = "lan";
+  runtime::add_link_options(line, link);
   line.option("--ros-domain", domain, "of ROS (default: ROS_DOMAIN_ID, or 0)").between(0, ros::kLastDomain);
   line.option("--ros-profile", ros_profile, "of ROS: lan, or loopback for ROS nodes on lo alone")
       .one_of({"loopback", "lan"})
@@ -106,8 +101,8 @@ int main(int argc, char** argv) {
   line.flag("--obey", options.tools.obeys,
             "take NAME/state_command: pause, resume, and enable, which clears a latched fault");
   return line.run(argc, argv, [&] {
-    options.bus.vendor = options.ros.vendor = transport::parse_vendor(dds);
-    options.bus.profile = transport::parse_profile(profile);
+    options.bus = node::bus_options(link, options.bus.name);
+    options.ros.vendor = options.bus.vendor;
     options.ros.domain = domain < 0 ? ros_domain() : domain;
     options.ros.profile = transport::parse_profile(ros_profile);
     run(options);

@@ -32,8 +32,6 @@ class RateLoop final : public Pace {
   std::int64_t now_ns() const noexcept override { return steady_now_ns(); }
 
   double rate_hz() const { return rate_hz_; }
-  /// When the running tick started, steady clock, ns. The loop's thread.
-  std::int64_t tick_start_ns() const { return account_.last_start_ns(); }
 
  private:
   double rate_hz_;

@@ -2,6 +2,7 @@
 
 #include "messages/common.h"
 #include "scene/camera_keys.h"
+#include "scene/device_keys.h"
 #include "scene/dynamics_keys.h"
 #include "scene/hand_way_keys.h"
 #include "scene/intestine_keys.h"
@@ -146,6 +147,7 @@ ToolSpec read_tool(TomlSection& s) {
   s.read("id", tool.id, kRequired, msg::MAX_TOOLS - 1);
   s.read("name", tool.name, kRequired);
   s.read_word("shape", tool.shape, kRequired, {"probe", "grasper", kScopeShape});
+  read_device(s, tool);
   read_points_or_scope(s, tool);
   s.read("shaft_radius_m", tool.shaft_radius_m, kOptional, kPositive);
   s.read("shaft_length_m", tool.shaft_length_m, kOptional, kPositive);

@@ -107,6 +107,7 @@ struct ToolSpec {
   std::optional<Vec3> trocar;      // pivot in W, m: five degrees of freedom (pivot, insertion, roll, grip)
   std::optional<ScopeSpec> scope;  // of an endoscope
   std::vector<Vec3> edge;  // begin and end of what cuts while its button is pressed, in T, m; or empty
+  std::string device;      // the name of that which has it before all others; empty: the first one has it
 };
 
 /// A place that a simulated hand goes to.

@@ -162,6 +162,7 @@ void add(const ToolSpec& tool, Table table) {
     table.add("points[" + std::to_string(i) + "]", tool.points[i]);
   table.add("shaft_radius_m", tool.shaft_radius_m);
   table.add("shaft_length_m", tool.shaft_length_m);
+  if (!tool.device.empty()) table.add("device", tool.device);
   if (tool.shape == "grasper") table.add("grip_force_n", tool.grip_force_n);
   table.add("trocar", tool.trocar);
   if (tool.scope) {

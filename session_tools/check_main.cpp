@@ -1,5 +1,6 @@
 // device_check: does a device's bridge do what docs/devices.md asks of it? Stands in haptic_node's place,
 // answers its poses, and says of each requirement whether it is met.
+#include "node_common/node_identity.h"
 #include "runtime/clock.h"
 #include "runtime/command_line.h"
 #include "runtime/report.h"
@@ -207,14 +208,8 @@ int main(int argc, char** argv) {
       "whether "
       "it is met. Start it and the bridge alone in a domain. Exit code 0: none failed; 1: some did.");
   Options options;
-  std::string dds = "fast", profile = "loopback";
-  line.needs(runtime::kRoomForDds);
-  line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
-  line.option("--domain", options.bus.domain, "DDS domain").between(0, 230).show_default();
-  line.option("--profile", profile, "loopback (one machine) or lan")
-      .one_of({"loopback", "lan"})
-      .show_default();
-  line.option("--secure", options.bus.keystore, "DDS Security key store").type_name("KEYSTORE");
+  runtime::LinkOptions link;
+  runtime::add_link_options(line, link);
   line.option("--tool", options.tool, "the bridge's tool").between(0, 7).show_default();
   line.option("--listen", options.times.listening_s, "time to move and turn the tool, s")
       .between(0.5, 600.0)
@@ -229,10 +224,8 @@ int main(int argc, char** argv) {
   line.option("--report", options.report, "also write the verdicts as JSON").type_name("FILE").writes_file();
   bool passed = false;
   const int code = line.run(argc, argv, [&] {
-    options.bus.vendor = transport::parse_vendor(dds);
-    options.bus.profile = transport::parse_profile(profile);
     // of a key store's roles it plays the one that writes forces
-    options.bus.name = options.bus.keystore.empty() ? "device_check" : "haptic_node";
+    options.bus = node::bus_options(link, link.keystore.empty() ? "device_check" : "haptic_node");
     passed = run(options);
   });
   return code != 0 ? code : passed ? 0 : 1;

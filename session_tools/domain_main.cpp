@@ -69,20 +69,7 @@ void run(const transport::BusOptions& options) {
 
 int main(int argc, char** argv) {
   runtime::CommandLine line("omentum_domain", "Claims a DDS domain on the network for a session.");
-  std::string dds = "cyclone", profile = "lan", keystore;
-  int domain = 0;
-  line.needs(runtime::kRoomForDds);
-  line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
-  line.option("--domain", domain, "DDS domain").between(0, 230).show_default();
-  line.option("--profile", profile, "loopback (one machine) or lan")
-      .one_of({"loopback", "lan"})
-      .show_default();
-  line.option("--secure", keystore, "DDS Security key store").type_name("KEYSTORE");
-  return line.run(argc, argv, [&] {
-    run({.vendor = transport::parse_vendor(dds),
-         .domain = domain,
-         .profile = transport::parse_profile(profile),
-         .name = "omentum_domain",
-         .keystore = keystore});
-  });
+  runtime::LinkOptions link{.dds = "cyclone", .profile = "lan"};
+  runtime::add_link_options(line, link);
+  return line.run(argc, argv, [&] { run(node::bus_options(link, "omentum_domain")); });
 }

@@ -145,29 +145,18 @@ int main(int argc, char** argv) {
   runtime::CommandLine line("omentum_session", "Sends one command to every node of a running session.");
   std::vector<std::string> names;
   for (const auto& [name, number] : commands) names.push_back(name);
-  std::string command, dds = "fast", profile = "loopback", keystore;
-  int domain = 0, nodes = 0;
-  line.needs(runtime::kRoomForDds);
+  std::string command;
+  runtime::LinkOptions link;
+  int nodes = 0;
   line.option("command", command,
               "start, pause, toggle-pause, reset, clear-fault or record (begins a video, or ends it)")
       .required()
       .one_of(names);
-  line.option("--dds", dds, "DDS vendor: fast or cyclone").one_of({"fast", "cyclone"}).show_default();
-  line.option("--domain", domain, "DDS domain").between(0, 230).show_default();
-  line.option("--profile", profile, "loopback (one machine) or lan")
-      .one_of({"loopback", "lan"})
-      .show_default();
-  line.option("--secure", keystore, "DDS Security key store").type_name("KEYSTORE");
+  runtime::add_link_options(line, link);
   line.option("--nodes", nodes, "send as soon as so many nodes listen (0: when no further one is found)")
       .between(0, 64)
       .show_default();
 
-  return line.run(argc, argv, [&] {
-    run({.vendor = transport::parse_vendor(dds),
-         .domain = domain,
-         .profile = transport::parse_profile(profile),
-         .name = "omentum_session",
-         .keystore = keystore},
-        commands.at(command), nodes);
-  });
+  return line.run(argc, argv,
+                  [&] { run(node::bus_options(link, "omentum_session"), commands.at(command), nodes); });
 }

@@ -59,11 +59,21 @@ class Reader {
   virtual EndpointStatus status() const = 0;
 };
 
-/// Names a writer: no two that a reader hears at the same time have the same name.
+/// Names a writer: no two that a reader hears at the same time have the same name. RTPS' own (its GUID),
+/// hence alike at every reader of every vendor; one that left before it could be asked for may have another.
 using WriterId = std::array<std::uint8_t, 16>;
 
-/// For a reader that tells writers apart. Both are called as its callback is (see Reader), never at the same
-/// time.
+/// Names the participant of a writer, the same for all that it writes. Under DDS Security nobody else can
+/// have it; unsecured it is whatever the sender says.
+using ParticipantId = std::array<std::uint8_t, 12>;
+inline ParticipantId participant_of(const WriterId& writer) noexcept {
+  ParticipantId participant{};
+  for (std::size_t i = 0; i < participant.size(); ++i) participant[i] = writer[i];
+  return participant;
+}
+
+/// For a reader that tells writers apart, which needs both. They are called as its callback is (see Reader),
+/// never at the same time.
 template <class M>
 struct ByWriter {
   std::function<void(const M&, const WriterId&)> on_sample;

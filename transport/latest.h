@@ -126,12 +126,17 @@ struct Arrived {
 template <class M>
 class LatestByTool {
  public:
+  /// Whether a sample of this writer counts, ns on the clock.
+  using Admits = std::function<bool(const M&, const WriterId&, std::int64_t)>;
+
   /// on_arrival (may be empty) is called on the vendor's thread, after the sample can be loaded; neither it
-  /// nor the clock (ns, steady) may block.
-  LatestByTool(Bus& bus, std::function<void(const M&)> on_arrival, std::function<std::int64_t()> clock)
+  /// nor the clock (ns, steady) may block, nor `admits` (empty: all count), which is asked before.
+  LatestByTool(Bus& bus, std::function<void(const M&)> on_arrival, std::function<std::int64_t()> clock,
+               Admits admits = {})
       : on_arrival_(std::move(on_arrival)),
         clock_(std::move(clock)),
-        reader_(bus.reader<M>([this](const M& sample) { take(sample); })) {}
+        admits_(std::move(admits)),
+        reader_(bus.reader<M>(callbacks())) {}
 
   /// The tool's newest sample. False, with `out` untouched, when none came yet. Any thread; never waits.
   bool load(std::uint32_t tool, Arrived<M>& out) const noexcept {
@@ -149,8 +154,16 @@ class LatestByTool {
     NewestCell<Arrived<M>> newest;
   };
 
-  void take(const M& sample) {
+  ByWriter<M> callbacks() {
+    ByWriter<M> callbacks{[this](const M& sample, const WriterId& writer) { take(sample, writer); }, {}};
+    // who has to know writers says so by this
+    if (admits_) callbacks.on_gone = [](const WriterId&) {};
+    return callbacks;
+  }
+
+  void take(const M& sample, const WriterId& writer) {
     const std::int64_t now_ns = clock_();
+    if (admits_ && !admits_(sample, writer, now_ns)) return;
     if (sample.tool >= tools_.size() || !tools_[sample.tool].sequence.accept(sample.seq, now_ns)) return;
     tools_[sample.tool].newest.store({sample, now_ns});
     if (on_arrival_) on_arrival_(sample);
@@ -159,6 +172,7 @@ class LatestByTool {
   std::array<Tool, msg::MAX_TOOLS> tools_;
   std::function<void(const M&)> on_arrival_;
   std::function<std::int64_t()> clock_;
+  Admits admits_;
   std::unique_ptr<Reader<M>> reader_;  // last: its callback uses the members above
 };
 

@@ -67,6 +67,8 @@ template <> inline constexpr TopicSpec kTopicSpec<msg::SessionCommand> {
     topic_name<"session_command">(), Reliability::kReliable, Durability::kVolatile, kCommandDepth};
 template <> inline constexpr TopicSpec kTopicSpec<msg::PointerRay> {
     topic_name<"pointer_ray">(), Reliability::kBestEffort, Durability::kVolatile};
+template <> inline constexpr TopicSpec kTopicSpec<msg::TouchingPairs> {
+    topic_name<"touching_pairs">(), Reliability::kBestEffort, Durability::kVolatile};
 // clang-format on
 
 /// Largest RTPS message, bytes: what one datagram carries.
@@ -98,6 +100,15 @@ constexpr std::size_t organ_block_floats(Profile profile) {
 // An OrganStress block has the nodes of its state's block, with two values for three: it fits wherever that
 // does.
 static_assert(3 * msg::MAX_BLOCK_NODES == msg::MAX_BLOCK_FLOATS);
+
+/// Most pairs of one TouchingPairs block: all of them on loopback, one datagram's on a LAN.
+constexpr std::size_t touching_block_pairs(Profile profile) {
+  // RTPS headers 60, key hash 28, encapsulation 4, the block's other members 32 bytes; 11 numbers of 4 in
+  // each
+  constexpr std::size_t kOverhead = 60 + 28 + 4 + 32, kPair = 11 * 4;
+  if (profile == Profile::kLoopback) return msg::MAX_TOUCHING_PAIRS;
+  return (fragment_bytes(profile) - kOverhead) / kPair;
+}
 
 /// Most nodes of one LocalModel. Its compliance is needed whole, so that a LAN carries few: such a sample has
 /// kLocalModelDatagrams, and at 1 % loss nine of ten arrive; one of 96 nodes would have 150, and one of five.

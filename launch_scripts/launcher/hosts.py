@@ -31,6 +31,8 @@ class Hosts:
                 make = Here if spec.here else Elsewhere
                 self.machines[spec.name] = make(spec=spec, environment=environment_of(table, spec))
             at_once(lambda host: host.meet(), self.machines.values(), or_none=True)
+            if table:
+                refuse_one_machine_twice(table.file, list(self.machines.values()))
         except BaseException:
             self.close()
             raise
@@ -165,6 +167,16 @@ def at_once(do, hosts, or_none=False):
         raise
     finally:
         pool.shutdown()
+
+
+def refuse_one_machine_twice(file, machines):
+    """By whatever addresses: its ports, and so its DDS domains, are the same ones, which each of both would find in use."""
+    places = [host.facts["place"] for host in machines]
+    for number, place in enumerate(places):
+        if place and place in places[:number]:
+            other = places.index(place)
+            raise Refusal(f"{file}: hosts[{number}].address: found '{machines[number].spec.address}', the machine of hosts[{other}] "
+                          f"('{machines[other].spec.address}') again, expected one [[hosts]] for each machine, with all of its nodes")
 
 
 def require_runnable(host, program):

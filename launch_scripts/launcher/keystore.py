@@ -21,10 +21,11 @@ from .errors import Refusal
 ROLES = {
     "haptic_node": ("tool_force contact node_status",
                     "tool_pose device_info local_model session_command scene_info node_status"),
-    "deform_node": ("scene_info topology organ_state organ_stress local_model node_status",
-                    "contact tool_pose session_command scene_info node_status"),
+    "deform_node": ("scene_info topology organ_state organ_stress touching_pairs local_model node_status",
+                    "contact tool_pose device_info session_command scene_info node_status"),
     "render_node": ("pointer_ray session_command node_status",
-                    "contact tool_pose tool_force organ_state organ_stress topology scene_info session_command node_status"),
+                    "contact tool_pose device_info tool_force organ_state organ_stress touching_pairs topology scene_info session_command "
+                    "node_status"),
     "virtual_device": ("tool_pose device_info node_status",
                        "tool_force pointer_ray session_command scene_info node_status"),
     "omentum_session": ("session_command", "node_status"),

@@ -7,6 +7,8 @@ import socket
 import struct
 import subprocess
 
+BOOT = pathlib.Path("/proc/sys/kernel/random/boot_id")
+NETWORK = "/proc/self/ns/net"
 RMEM_MAX = pathlib.Path("/proc/sys/net/core/rmem_max")
 GOVERNORS = pathlib.Path("/sys/devices/system/cpu")
 SIOCGIFADDR, SIOCGIFFLAGS = 0x8915, 0x8913
@@ -16,13 +18,21 @@ IFF_UP, IFF_LOOPBACK, IFF_MULTICAST = 0x1, 0x8, 0x1000
 def gather(wanted_interface=None):
     """One dictionary of plain values; `wanted_interface`: the name or address that a person gave, if he did."""
     return {
-        "host": socket.gethostname(), "kernel": platform.release(), "cores": len(os.sched_getaffinity(0)),
+        "place": place(), "host": socket.gethostname(), "kernel": platform.release(), "cores": len(os.sched_getaffinity(0)),
         "rmem_max": number_in(RMEM_MAX),
         "may_be_realtime": may_be_realtime(),
         "governors": governors(),
         "interfaces": interfaces(),
         "interface": wanted_interface,
     }
+
+
+def place():
+    """The same for two programs whose ports are the same: of one machine, in one network of it (a container has its own)."""
+    try:
+        return [BOOT.read_text(encoding="ascii").strip(), os.readlink(NETWORK)]
+    except OSError:
+        return None
 
 
 def number_in(file):

@@ -39,6 +39,7 @@ class Options:
     hosts: host_table.HostTable = None  # None: all on this machine
     split: str = None
     map: str = None
+    pairs: bool = False
     record: float = None  # pictures of a second of video
     ui_scale: float = None
     paused: bool = False
@@ -92,6 +93,7 @@ def build_parser():
     add("--split", choices=("paper",), help="paper: hand and haptic_node on one processor, organ and picture on the "
         "other, as Cotin 1999 did with two machines")
     add("--map", choices=("strain", "stress"), help="draw organs as a map of it (default: as tissue; key S switches)")
+    add("--pairs", action="store_true", help="mark parts of organs that touch (key T switches)")
     add("--record", type=float, nargs="?", const=25.0, metavar="FPS", help="record a video from the start: numbered pictures in "
         "DIR/video, and DIR/video.mp4 where ffmpeg is installed (default: 25 pictures a second; in the window key V)")
     add("--ui-scale", type=float, metavar="SCALE", help="of the window's panel, 0.5 to 4 (default: as monitor and window ask for)")
@@ -111,7 +113,7 @@ def parse(arguments):
     options = Options(
         scene=find_scene(given.scene), seconds=given.seconds, out=pathlib.Path(given.out), dds=parse_dds(given.dds),
         scale=given.scale, fixed=given.fixed, rate_hz=given.rate_hz, headless=given.headless, domain=given.domain,
-        log=given.log, profile=given.profile, split=given.split, map=given.map, record=given.record,
+        log=given.log, profile=given.profile, split=given.split, map=given.map, pairs=given.pairs, record=given.record,
         ui_scale=given.ui_scale, paused=given.paused, restart=given.restart,
         check_only=given.check, prepare_only=given.prepare)
     options.device, options.trace = parse_device(given.device)
@@ -196,6 +198,9 @@ def has_display():
 
 
 def check_values(options):
+    if options.device == "mouse" and options.frames:
+        raise Refusal("--frames: a mouse has no frames: its tip is where the pointer is, and it has a clutch by nature; expected another "
+                      "--device, or none of both")
     if options.device == "mouse" and options.headless:
         raise Refusal("--device mouse needs a window to point at; run it without --headless")
     if options.device == "mouse" and not has_display() and not options.hosts and not options.prepare_only:

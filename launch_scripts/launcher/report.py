@@ -17,7 +17,7 @@ FIELDS = {
     "haptic_node": {"loop": NO_LOOP, "force_n": {"mean": 0.0, "max": 0.0},
                     "contacts": {"ticks_in_contact": 0, "nodes_max": 0},
                     "local_models": {"heard": 0, "dropped": 0, "gone": 0}, "hands": [], "faults": []},
-    "deform_node": {"loop": NO_LOOP, "states": 0, "stress_states": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
+    "deform_node": {"loop": NO_LOOP, "states": 0, "stress_states": 0, "touching_moments": 0, "steps": 0, "removed_tetrahedra": 0, "repaired_tetrahedra": 0,
                     "cuts": {"way_cm": 0.0, "lost_cm3": 0.0, "lost_cm3_per_cm": 0.0}, "real_time_factor": 0.0, "faults": []},
     "render_node": {"frames": 0, "frame_us": NONE_US, "deepest_dent_m": 0.0, "unmatched_states": 0, "removed_tetrahedra": 0, "closed": False, "videos": [],
                     "picture": {"level": "", "asked_fps": 0.0, "reached_fps": 0.0, "changes": 0, "share": {}},

@@ -68,6 +68,8 @@ class Session:
                 own[name] += ["--rate-hz", f"{self.options.rate_hz:g}"]
         if self.headless:
             own["render_node"].append("--headless")
+        if self.options.pairs:
+            own["render_node"].append("--pairs")
         if self.options.map:
             own["render_node"] += ["--map", self.options.map]
         for option, value in (("--record", self.options.record), ("--ui-scale", self.options.ui_scale)):

@@ -1,7 +1,6 @@
 #include "physics/dynamics/kept_factor.h"
 
 #include "physics/dynamics/element_root.h"
-#include "physics/dynamics/flush_tiny.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +9,6 @@
 namespace omentum::physics {
 
 namespace {
-
-using kernels::kTileRows;
 
 // A over all nodes.
 Stiffness system_of(const Stiffness& K, std::span<const double> mass, const SystemWeights& weights) {
@@ -23,11 +20,6 @@ Stiffness system_of(const Stiffness& K, std::span<const double> mass, const Syst
     }
   }
   return A;
-}
-
-// Columns, filled up to whole groups of those that are taken through together.
-std::size_t whole_groups(std::size_t columns) {
-  return (columns + kernels::kTogether - 1) / kernels::kTogether * kernels::kTogether;
 }
 
 std::vector<std::int32_t> free_components(const FreeDofs& free) {
@@ -77,21 +69,19 @@ KeptFactor::KeptFactor(const geometry::TetraMesh& mesh, const MaterialMap& mater
       uncut_(panels_),
       downdate_(panels_),
       changed_(panels_.supernodes().size()),
-      scratch_(std::max(1, panels_.most_rows() / kTileRows)),
+      scratch_(std::max(1, panels_.most_rows() / kernels::kTileRows)),
       x_(panels_.size()),
       residual_(position_.size()),
       correction_(position_.size()),
-      columns_(whole_groups(3 * static_cast<std::size_t>(most_compliance_nodes)) * panels_.size()),
-      together_(kernels::kTogether * scratch_.size()),
-      known_blocks_(most_compliance_nodes),
-      place_(panels_.supernodes().size(), -1) {
+      columns_(panels_, 3 * static_cast<std::size_t>(most_compliance_nodes)),
+      known_blocks_(most_compliance_nodes) {
+  touched_.reserve(position_.size());
   const std::vector<std::int32_t> components = free_components(assembled.free);
   const Supernodes order = assembled.supernodes();
   for (std::int32_t p = 0; p < order.size; ++p) {
     component_[p] = components[order.permutation[p]];
     position_[component_[p]] = p;
   }
-  ways_.reserve(place_.size());
 }
 
 RankSix KeptFactor::root_of(geometry::TetId t) const noexcept {
@@ -218,103 +208,38 @@ void KeptFactor::multiply(std::span<const double> x, std::span<double> y) const 
     y[c] = position_[c] < 0 ? 0.0 : weights_.mass * mass_[c / 3] * x[c] + weights_.stiffness * y[c];
 }
 
-void KeptFactor::mark_ways(std::span<const geometry::NodeId> nodes) noexcept {
-  for (const std::int32_t s : ways_) place_[s] = -1;
-  ways_.clear();
+// Their free components' positions.
+void KeptFactor::touch(std::span<const geometry::NodeId> nodes) noexcept {
+  touched_.clear();
   for (const geometry::NodeId n : nodes) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::int32_t p = position_[3 * n + axis];
-      if (p < 0) continue;
-      for (std::int32_t s = panels_.supernode_of(p); s >= 0 && place_[s] < 0;
-           s = panels_.supernodes()[s].parent) {
-        place_[s] = 0;
-        ways_.push_back(s);
-      }
-    }
-  }
-  std::ranges::sort(ways_);
-  std::int32_t place = 0;
-  for (const std::int32_t s : ways_) {
-    place_[s] = place;
-    place += panels_.supernodes()[s].width;
-  }
-  way_length_ = place;
-}
-
-// On the ways that are marked.
-void KeptFactor::clear_columns(std::size_t width) noexcept {
-  for (std::size_t r = 0; r < whole_groups(width); ++r)
-    std::fill_n(columns_.data() + r * x_.size(), way_length_, 0.0f);
-}
-
-std::size_t KeptFactor::place_on_way(std::int32_t position) const noexcept {
-  const std::int32_t s = panels_.supernode_of(position);
-  return static_cast<std::size_t>(place_[s] + position - panels_.supernodes()[s].first);
-}
-
-// Columns first to first + kTogether of D^(-1/2) L^-1 E, as far as supernode `s` goes.
-void KeptFactor::forward_columns(const FactorPanels::Supernode& s, std::size_t first) noexcept {
-  const std::size_t n = x_.size(), stride = scratch_.size() * kTileRows;
-  const std::int32_t here = place_[&s - panels_.supernodes().data()];
-  const auto height = static_cast<std::size_t>((s.height + kTileRows - 1) / kTileRows * kTileRows);
-  float* v = together_.data()->value;
-  for (std::size_t c = 0; c < kernels::kTogether; ++c) {
-    std::copy_n(columns_.data() + (first + c) * n + here, s.width, v + c * stride);
-    std::fill(v + c * stride + s.width, v + c * stride + height, 0.0f);
-  }
-  panels_.forward_together(s, v, static_cast<std::ptrdiff_t>(stride));
-  for (std::size_t c = 0; c < kernels::kTogether; ++c) {
-    float* z = columns_.data() + (first + c) * n;
-    for (std::int32_t i = 0; i < s.width; ++i)
-      z[here + i] = v[c * stride + i] * std::sqrt(panels_.inverse_pivot(s.first + i));
-    const float* change = v + c * stride + s.width;
-    for (const std::int32_t p : panels_.rows_below(s)) {
-      const std::int32_t above = panels_.supernode_of(p);
-      z[place_[above] + p - panels_.supernodes()[above].first] += *change++;
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      if (const std::int32_t p = position_[3 * n + axis]; p >= 0) touched_.push_back(p);
   }
 }
 
 void KeptFactor::inverse_block(std::span<const geometry::NodeId> nodes, std::span<float> block) noexcept {
   if (known_blocks_.find(nodes, block)) return;
   const std::size_t width = 3 * nodes.size();
-  mark_ways(nodes);
-  clear_columns(width);
+  touch(nodes);
+  columns_.begin(panels_, touched_, width);
   for (std::size_t c = 0; c < width; ++c) {
     const std::int32_t p = position_[3 * nodes[c / 3] + static_cast<std::int32_t>(c % 3)];
-    if (p >= 0) columns_[c * x_.size() + place_on_way(p)] = 1;
+    if (p >= 0) columns_.set(panels_, c, p, 1);
   }
-  square_columns(width, block);
+  columns_.square(panels_, block);
   known_blocks_.keep(nodes, block);
 }
 
 void KeptFactor::project_inverse(std::span<const geometry::NodeId> nodes, std::span<const float> rows,
                                  std::span<float> block) noexcept {
   const std::size_t width = nodes.empty() ? 0 : rows.size() / (3 * nodes.size());
-  mark_ways(nodes);
-  clear_columns(width);
+  touch(nodes);
+  columns_.begin(panels_, touched_, width);
   for (std::size_t c = 0; c < 3 * nodes.size(); ++c) {
     const std::int32_t p = position_[3 * nodes[c / 3] + static_cast<std::int32_t>(c % 3)];
-    for (std::size_t r = 0; p >= 0 && r < width; ++r)
-      columns_[r * x_.size() + place_on_way(p)] = rows[c * width + r];
+    for (std::size_t r = 0; p >= 0 && r < width; ++r) columns_.set(panels_, r, p, rows[c * width + r]);
   }
-  square_columns(width, block);
-}
-
-// With Z = D^(-1/2) L^-1 E the block is Z^T Z: the backward half of a solve is not needed.
-void KeptFactor::square_columns(std::size_t width, std::span<float> block) noexcept {
-  const FlushTiny flush;
-  const std::size_t n = x_.size();
-  for (const std::int32_t s : ways_) {
-    for (std::size_t first = 0; first < width; first += kernels::kTogether)
-      forward_columns(panels_.supernodes()[s], first);
-  }
-  for (std::size_t r = 0; r < width; ++r) {
-    for (std::size_t q = 0; q <= r; ++q) {
-      block[r * width + q] = block[q * width + r] =
-          kernels::column_dot(columns_.data() + r * n, columns_.data() + q * n, way_length_);
-    }
-  }
+  columns_.square(panels_, block);
 }
 
 }  // namespace omentum::physics

@@ -3,6 +3,7 @@
 
 #include "physics/dynamics/body_state.h"
 #include "physics/dynamics/factor_downdate.h"
+#include "physics/dynamics/inverse_columns.h"
 #include "physics/dynamics/known_blocks.h"
 
 #include <cstdint>
@@ -71,9 +72,8 @@ class KeptFactor {
   /// What A is made of, and entries of its factor.
   const SystemWeights& weights() const { return weights_; }
   std::size_t entry_count() const { return panels_.entry_count(); }
-  /// Nodes; degrees of freedom that are free.
+  /// Nodes.
   std::int32_t node_count() const { return static_cast<std::int32_t>(mass_.size()); }
-  std::int32_t free_count() const { return panels_.size(); }
   /// Whether a support holds component `c` of the [3N].
   bool is_held(std::size_t c) const { return position_[c] < 0; }
 
@@ -88,11 +88,7 @@ class KeptFactor {
   bool change_masses(std::span<const geometry::NodeId> nodes, std::span<const double> kg,
                      bool is_added) noexcept;
   bool apply(std::span<const RankSix> roots) noexcept;
-  void mark_ways(std::span<const geometry::NodeId> nodes) noexcept;
-  void clear_columns(std::size_t width) noexcept;
-  std::size_t place_on_way(std::int32_t position) const noexcept;
-  void forward_columns(const FactorPanels::Supernode& s, std::size_t first) noexcept;
-  void square_columns(std::size_t width, std::span<float> block) noexcept;
+  void touch(std::span<const geometry::NodeId> nodes) noexcept;
 
   const geometry::TetraMesh& mesh_;
   MaterialMap material_;
@@ -112,12 +108,9 @@ class KeptFactor {
   std::vector<Row> scratch_;
   std::vector<float> x_;                       // [n]
   std::vector<double> residual_, correction_;  // [3N]
-  std::vector<float> columns_;                 // [3 most_compliance_nodes][n], those on the ways first
-  std::vector<Row> together_;                  // [kTogether][most_rows]
-  KnownBlocks known_blocks_;                   // of what is left
-  std::vector<std::int32_t> ways_;             // supernodes
-  std::int32_t way_length_ = 0;                // columns of all those
-  std::vector<std::int32_t> place_;            // [S] of its first column in columns_; -1: not on a way
+  InverseColumns columns_;
+  std::vector<std::int32_t> touched_;  // positions, capacity 3N
+  KnownBlocks known_blocks_;           // of what is left
 };
 
 }  // namespace omentum::physics

@@ -196,6 +196,7 @@ void GutCollisions::recall_pushes() noexcept {
 }
 
 void GutCollisions::remember_pushes() noexcept {
+  is_carried_ = true;
   pushes_.forget();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const auto [entry, is_new] = pushes_.remember(keys_[c].one, keys_[c].other);
@@ -274,7 +275,10 @@ void GutCollisions::tell(const MovingMasses& masses) noexcept {
 void GutCollisions::reset() noexcept {
   finder_->reset();
   pushes_.forget();
+  is_carried_ = false;
   near_.pairs.clear();
+  contacts_.clear();
+  keys_.clear();
   outcomes_.clear();
   report_ = {};
 }

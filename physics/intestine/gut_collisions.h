@@ -8,6 +8,7 @@
 #include "physics/intestine/gut_state.h"
 #include "physics/intestine/pair_finder.h"
 #include "physics/intestine/pair_memory.h"
+#include "physics/touch.h"
 
 #include <memory>
 
@@ -70,6 +71,9 @@ class GutCollisions {
   std::span<const SphereOutcome> outcomes() const noexcept { return outcomes_; }
   /// Pairs of the newest step that were nearer than their reach at its start, or could be at its end.
   std::span<const NearPair> near_pairs() const noexcept { return near_.pairs; }
+  /// Of the newest step: each place where the gut pushed itself apart, or still overlaps, up to as many as
+  /// `found` has; how many. `x`: [masses], in W, m, at its end.
+  std::size_t touches(std::span<const geometry::Vec3> x, std::span<Touch> found) const noexcept;
   const GutCollisionReport& report() const noexcept { return report_; }
   const GutParts& parts() const noexcept { return parts_; }
   /// Forgets all that was.
@@ -95,6 +99,7 @@ class GutCollisions {
   std::vector<ContactKey> keys_;      // of contacts_
   std::vector<geometry::Vec3> warm_;  // of contacts_: what each gave in the step before, N s in W
   PairMemory<Push> pushes_;           // the same by keys
+  bool is_carried_ = false;           // pushes_ has those of the newest step
   GutCarry carry_;
   std::vector<double> inverse_mass_;            // [masses + spheres], 1/kg
   std::vector<geometry::Vec3> before_, x_, v_;  // [masses + spheres]
@@ -105,6 +110,7 @@ class GutCollisions {
   GutCollisionReport report_;
 
   double watched_m() const noexcept;
+  double push_of(std::size_t contact) const noexcept;
   void recall_pushes() noexcept;
   void remember_pushes() noexcept;
   void take_in(std::span<const geometry::Vec3> before, const GutState& state,

@@ -71,6 +71,9 @@ class GutSystem final : public GutYield {
   /// Of the last step: how far each sphere of the loads came, and the impulse on it.
   std::span<const SphereOutcome> outcomes() const { return collisions_.outcomes(); }
 
+  /// Of the last step: where the gut touches itself (GutCollisions).
+  std::size_t touches(std::span<Touch> found) const noexcept { return collisions_.touches(state_.x, found); }
+
   /// How far each of `masses` moves within a step along a force on each of them, alike in all directions: the
   /// entries of A^-1 of GutBand, [masses x masses], m/N; 0 where held. Neither allocates.
   void compliance(std::span<const geometry::MassId> masses, std::span<double> block) const noexcept;

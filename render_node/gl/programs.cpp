@@ -53,9 +53,10 @@ LookShader shader_of(Look look) {
 
 Program surface_program(Shading shading, const char* name, std::string_view vertex,
                         const std::string& defines, std::string_view fragment, const std::string& is) {
-  if (shading != Shading::kPerVertex) return {name, vertex, prefix_of(shading) + defines, fragment};
-  return {name, vertex, "", shaders::vertex_lit_frag,
-          "#define PER_VERTEX\n#define " + is + "\n" + defines + std::string(shaders::common_glsl) +
+  const std::string of_look = defines + std::string(shaders::mesentery_glsl);
+  if (shading != Shading::kPerVertex) return {name, vertex, prefix_of(shading) + of_look, fragment};
+  return {name, vertex, of_look, shaders::vertex_lit_frag,
+          "#define PER_VERTEX\n#define " + is + "\n" + of_look + std::string(shaders::common_glsl) +
               std::string(shaders::vertex_light_glsl)};
 }
 

@@ -1,21 +1,17 @@
 #include "render_node/tube_compare/comparison.h"
 
 #include "render_node/gl/gl_renderer.h"
-#include "render_node/lighting.h"
 #include "render_node/organ_look.h"
 #include "render_node/png_file.h"
+#include "render_node/tube_compare/half_picture.h"
 #include "render_node/tube_compare/tube_trial.h"
 #include "render_node/tube_cylinder.h"
 
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 
 namespace omentum::render::trial {
 namespace {
-
-constexpr std::size_t kShown = 28;  // masses, from the first one on: three folds
-constexpr Size kHalf{800, 800};
 
 // What either way took and made, over the whole animation.
 struct Figures {
@@ -23,13 +19,6 @@ struct Figures {
   std::size_t vertices = 0, inside_out = 0;
   double smallest_m = INFINITY;  // from a section, or frame, to the next one
 };
-
-// Of this thread: what other programs take does not count.
-double cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
 
 template <class Sections>
 void take_distance(const Sections& sections, Figures& figures) {
@@ -84,33 +73,6 @@ void print(const CompareCommand& command, const Comparison& comparison) {
   row("brute force", comparison.of_brute);
   row("skinned", comparison.of_skinned);
   std::printf("(time: the mean of a frame, of the processor; the rest: the worst of all frames)\n");
-}
-
-// From above; a share of the masses, all of whose wall is seen.
-Frame seen_from_above(std::span<const geometry::Vec3> axis) {
-  Ball ball = ball_around(axis.first(std::min(kShown, axis.size())));
-  ball.radius += kRadius_m;
-  const Camera camera = start_camera({}, ball, geometry::Vec3(0, -0.35, 1), kHalf.aspect());
-  Frame frame;
-  frame.view = view_of(camera, ball, kHalf.aspect(), 0);
-  frame.lighting = light_scene(camera, ball);
-  frame.with_panel = false;
-  return frame;
-}
-
-Picture side_by_side(const Picture& left, const Picture& right) {
-  Picture both{{left.size.width + right.size.width, left.size.height}, {}};
-  const auto width = static_cast<std::size_t>(4 * left.size.width);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(left.size.height); ++row)
-    for (const Picture* half : {&left, &right})
-      both.rgba.insert(both.rgba.end(), half->rgba.begin() + static_cast<std::ptrdiff_t>(row * width),
-                       half->rgba.begin() + static_cast<std::ptrdiff_t>((row + 1) * width));
-  return both;
-}
-
-Picture draw(Renderer& renderer, const Frame& frame) {
-  renderer.draw(frame);
-  return renderer.read_back();
 }
 
 void write_picture(const CompareCommand& command, Comparison& comparison,

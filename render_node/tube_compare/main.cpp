@@ -1,6 +1,7 @@
 // tube_compare: a folding tube, swept by brute force and skinned on adaptive frames, side by side.
 #include "render_node/gl/display.h"
 #include "render_node/tube_compare/comparison.h"
+#include "render_node/tube_compare/levels.h"
 #include "runtime/command_line.h"
 
 int main(int argc, char** argv) {
@@ -24,5 +25,16 @@ int main(int argc, char** argv) {
       .show_default();
   line.flag("--folds", command.folds, "right: coloured by how much it is folded (fig. 10)");
   line.option("--picture", command.picture, "both, of the last frame").type_name("FILE.png").writes_file();
-  return line.run(argc, argv, [&] { trial::compare(command); });
+  std::filesystem::path levels;
+  line.option("--levels", levels,
+              "instead: left as coarsely, right as finely as the frame rate's control may draw (fig. 12)")
+      .type_name("FILE.png")
+      .writes_file();
+  return line.run(argc, argv, [&] {
+    if (levels.empty()) {
+      trial::compare(command);
+    } else {
+      trial::show_levels({levels, command.masses, command.frames, command.folded});
+    }
+  });
 }

@@ -13,7 +13,6 @@ namespace {
 
 namespace fast = transport::fast;
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 template <class End>
 End* made(End* end, const std::string& what) {
@@ -29,14 +28,15 @@ class FastPublisher final : public Publisher<M> {
     auto type = new FastType<M>;
     auto* on_wire = entities.topic(spec, dds::TypeSupport(type));
     writer_ = made(entities.publisher->create_datawriter(
-                       on_wire, fast::writer_qos(spec, entities.profile, type->m_typeSize), nullptr,
+                       on_wire, fast::writer_qos(spec, entities.profile, type->most_bytes()), nullptr,
                        dds::StatusMask::none()),
                    "a writer of " + topic.name);
   }
   ~FastPublisher() override { entities_.publisher->delete_datawriter(writer_); }
 
   bool publish(const M& message) noexcept override try {
-    return writer_->write(const_cast<M*>(&message));  // the vendor's interface has no const; it reads
+    return fast::written(
+        writer_->write(const_cast<M*>(&message)));  // the vendor's interface has no const; it reads
   } catch (const std::exception&) {
     return false;
   }
@@ -71,7 +71,7 @@ class FastSubscription final : public Subscription, private dds::DataReaderListe
   void take_all(dds::DataReader& reader) {
     M message{};
     dds::SampleInfo info;
-    while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
+    while (reader.take_next_sample(&message, &info) == fast::kOk)
       if (info.valid_data) take_(message);
     dds_sample_free(&message, &descriptor<M>(), DDS_FREE_CONTENTS);
   }

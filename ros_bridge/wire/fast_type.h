@@ -2,45 +2,34 @@
 #pragma once
 
 #include "ros_bridge/wire/ros_types.h"
+#include "transport/fast/cdr_names.h"
+#include "transport/fast/plain_type.h"
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-#include <fastdds/dds/topic/TopicDataType.hpp>
-
-#include <functional>
 #include <string>
 
 namespace omentum::ros {
 
-/// Plain CDR of this machine's byte order, without a key. Of what it read the texts are Cyclone's to free:
+/// Plain CDR without a key. Of what it read the texts are Cyclone's to free:
 /// dds_sample_free(message, &descriptor<M>(), DDS_FREE_CONTENTS).
 template <class M>
-class FastType final : public eprosima::fastdds::dds::TopicDataType {
+class FastType final : public transport::fast::PlainType {
  public:
-  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
-  using Cdr = eprosima::fastcdr::Cdr;
+  FastType() : PlainType(descriptor<M>().m_typename, kMostBytes, 0) {}
 
-  FastType() {
-    setName(descriptor<M>().m_typename);
-    m_typeSize = kMostBytes;
-    m_isGetKeyDefined = false;
-  }
-
-  bool serialize(void* message, Payload* payload) override try {
-    eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->max_size);
-    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
-    payload->encapsulation = cdr.endianness() == Cdr::BIG_ENDIANNESS ? CDR_BE : CDR_LE;
+  std::uint32_t write(const void* message, char* bytes, std::uint32_t capacity) const override try {
+    Buffer buffer(bytes, capacity);
+    Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, transport::fast::kPlainCdr);
     cdr.serialize_encapsulation();
-    fields(Encoder{cdr}, *static_cast<M*>(message));
-    payload->length = static_cast<std::uint32_t>(cdr.getSerializedDataLength());
-    return true;
+    // fields() hands out what may be written to as well
+    fields(Encoder{cdr}, *const_cast<M*>(static_cast<const M*>(message)));
+    return static_cast<std::uint32_t>(transport::fast::length_of(cdr));
   } catch (const eprosima::fastcdr::exception::Exception&) {
-    return false;  // longer than kMostBytes
+    return 0;  // longer than kMostBytes
   }
 
-  bool deserialize(Payload* payload, void* message) override try {
-    eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->length);
-    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  bool read(char* bytes, std::uint32_t length, void* message) const override try {
+    Buffer buffer(bytes, length);
+    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, transport::fast::kPlainCdr);
     cdr.read_encapsulation();
     fields(Decoder{cdr}, *static_cast<M*>(message));
     return true;
@@ -48,17 +37,16 @@ class FastType final : public eprosima::fastdds::dds::TopicDataType {
     return false;  // not of this type
   }
 
-  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
-    return [] { return kMostBytes; };
-  }
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
-  void* createData() override { return new M{}; }
-  void deleteData(void* message) override {
+  std::uint32_t bytes_of(const void*) const override { return kMostBytes; }
+  void* make() const override { return new M{}; }
+  void destroy(void* message) const override {
     dds_sample_free(message, &descriptor<M>(), DDS_FREE_CONTENTS);
     delete static_cast<M*>(message);
   }
 
  private:
+  using Cdr = transport::fast::Cdr;
+  using Buffer = transport::fast::FastBuffer;
   // of what we write: a state with two names of at most a hundred letters has half of it
   static constexpr std::uint32_t kMostBytes = 1024;
 

@@ -1,4 +1,4 @@
-// What StressPublisher writes, kept, with its thread's work done at once.
+// What publishers write for who reads, kept, with their threads' work done at once.
 #pragma once
 
 #include "deform_node/stress_publisher.h"
@@ -6,19 +6,21 @@
 namespace omentum::deform {
 
 /// Keeps what is written to so many readers.
-class ReadMessages final : public transport::Writer<msg::OrganStress> {
+template <class M>
+class ReadSamples final : public transport::Writer<M> {
  public:
-  bool write(const msg::OrganStress& sample) noexcept override {
+  bool write(const M& sample) noexcept override {
     all_.push_back(sample);
     return true;
   }
   transport::EndpointStatus status() const override { return {.matched = readers}; }
-  const std::vector<msg::OrganStress>& all() const { return all_; }
+  const std::vector<M>& all() const { return all_; }
   int readers = 0;
 
  private:
-  std::vector<msg::OrganStress> all_;
+  std::vector<M> all_;
 };
+using ReadMessages = ReadSamples<msg::OrganStress>;
 
 /// On this thread, within wake().
 inline std::unique_ptr<runtime::WokenWork> work_at_once(std::function<void()> work) {

@@ -78,6 +78,7 @@ TEST_F(TraceFile, WhatWasRecordedIsReadBack) {
       pose.position = {0.001 * i, -1.0 / 3, 2e-5};
       pose.orientation = {0.6, 0, 0.8, 0};
       pose.grip = 0.25;
+      pose.buttons = i < 100 ? 0x80000001U : 2;
       log.push(pose);
       log.push(
           pose);  // the device had no newer measurement: read_trace would refuse a time that does not grow
@@ -92,6 +93,13 @@ TEST_F(TraceFile, WhatWasRecordedIsReadBack) {
   EXPECT_LT((point.position - Vec3(0.005, -1.0 / 3, 2e-5)).norm(), 1e-9);
   EXPECT_NEAR(point.orientation.y(), 0.8, 1e-9);
   EXPECT_NEAR(point.grip, 0.25, 1e-6);
+  EXPECT_EQ(point.buttons, 0x80000001U);
+  EXPECT_EQ(traces.at(0).back().buttons, 2U);
+}
+
+TEST_F(TraceFile, OneOfBeforeThereWereButtonsPressesNone) {
+  write(kHeader + "0,0,0,0,1,0,0,0,0\n1,0,0,0,1,0,0,0,0\n");
+  EXPECT_EQ(trace_at(read_trace(file).at(0), 0.5).buttons, 0U);
 }
 
 TEST_F(TraceFile, BadOnesAreRefusedNamingFileLineAndWhatWasExpected) {
@@ -115,6 +123,8 @@ TEST_F(TraceFile, BadOnesAreRefusedNamingFileLineAndWhatWasExpected) {
       {kHeader + "0,0,0,0,0.9,0,0,0,0\n", 2, "a unit quaternion"},
       {"t_s,px,py,pz,qw,qx,qy,qz,grip,tool\n0,0,0,0,1,0,0,0,0,8\n", 2, "a whole number from 0 to 7"},
       {"t_s,px,py,pz,qw,qx,qy,qz,grip,tool\n0,0,0,0,1,0,0,0,0,0.5\n", 2, "a whole number from 0 to 7"},
+      {"t_s,px,py,pz,qw,qx,qy,qz,grip,buttons\n0,0,0,0,1,0,0,0,0,-1\n", 2, "buttons -1.000000"},
+      {"t_s,px,py,pz,qw,qx,qy,qz,grip,buttons\n0,0,0,0,1,0,0,0,0,4294967296\n", 2, "0 to 4294967295"},
   };
   for (const Bad& bad : table) {
     write(bad.text);
@@ -149,6 +159,23 @@ TEST(TraceAt, RestsBeforeTheFirstAndAfterTheLastPoint) {
   EXPECT_EQ(trace_at(two_points(), 0).linear_velocity.norm(), 0);
   EXPECT_EQ(trace_at(two_points(), 4).position.x(), 1);
   EXPECT_EQ(trace_at(two_points(), 99).linear_velocity.norm(), 0);
+}
+
+TEST(TraceAt, ButtonsArePressedFromPointToPointAndByNobodyAfterTheLast) {
+  Trace trace = two_points();
+  trace[0].buttons = 1;
+  trace[1].buttons = 5;
+  EXPECT_EQ(trace_at(trace, 2).buttons, 1U);
+  EXPECT_EQ(trace_at(trace, 3.999).buttons, 1U);
+  EXPECT_EQ(trace_at(trace, 4).buttons, 0U);
+}
+
+// A cut and a clutch are in what is played as they were in what was recorded.
+TEST(TracePlayer, PressesTheButtonsThatWerePressed) {
+  TracePlayer player(0, {{.t_s = 0}, {.t_s = 1, .buttons = 1}, {.t_s = 2}, {.t_s = 3}}, 1);
+  std::vector<std::uint32_t> pressed;
+  for (int i = 0; i < 4; ++i) pressed.push_back(player.measure(0).buttons);
+  EXPECT_EQ(pressed, (std::vector<std::uint32_t>{0, 1, 0, 0}));
 }
 
 TEST(TracePlayer, PlaysPausesAndRestarts) {

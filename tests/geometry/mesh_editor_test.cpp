@@ -126,10 +126,13 @@ TEST(MeshEditor, WhatIsKeptGoesOnlyWhenItIsAskedFor) {
   }
   for (const std::uint32_t seed : {1u, 2u, 3u}) {
     MeshEditor editor(mesh, {.smallest_piece_m3 = 1, .kept = kept});
+    std::uint32_t removals = seed;  // books are compared after every third one, another in each order
     for (const TetId t : shuffled(mesh.tetrahedra.size(), seed)) {
       if (kept[static_cast<std::size_t>(t)] != 0) continue;
       editor.remove(std::array{t});
-      ASSERT_EQ(difference(editor, mesh), "") << t;
+      if (++removals % 3 == 0) {
+        ASSERT_EQ(difference(editor, mesh), "") << t;
+      }
       for (std::size_t k = 0; k < kept.size(); ++k) ASSERT_FALSE(kept[k] != 0 && editor.is_removed(TetId(k)));
     }
     editor.remove(std::array{TetId(0)});

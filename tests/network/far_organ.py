@@ -1,4 +1,4 @@
-"""A hand with its haptic_node here and its organ far away: what it feels, beside what it feels with both on one machine."""
+"""A hand whose haptic_node or whose organ is far away: what it feels, beside what it feels with all on one machine."""
 import csv
 import dataclasses
 import json
@@ -12,6 +12,8 @@ from namespaces import Network
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 HERE, FAR = "theatre", "cluster"
+ALL_HERE = {"haptic_node": HERE, "deform_node": HERE, "virtual_device": HERE}
+ORGAN_FAR, HAND_FAR = {**ALL_HERE, "deform_node": FAR}, {**ALL_HERE, "virtual_device": FAR}
 SLEW_N_PER_S = 2000  # scene::HapticsSpec's own: what a force may change
 LIMIT_N = 10  # the scenes' max_force_n
 
@@ -22,11 +24,19 @@ class Felt:
     forces_n: dict
     organs_seen: int
     to_organ_ms: float
-    most_energy_j: float
+    to_force_ms: float
+    most_energy_j: float  # that a hand was given, at any moment, since it came
+    energy_j: float  # ... at the end, all hands; less than none: they gave it
     rows: list
 
     def peak_n(self):
         return max((length(force) for _, force in self.forces_n.values()), default=0)
+
+    def presses(self):
+        """How often the force rose through half of its peak."""
+        half_n = 0.5 * self.peak_n()
+        pressed = [length(force) > half_n for _, force in self.forces_n.values()]
+        return sum(now and not before for before, now in zip([False, *pressed], pressed))
 
 
 def length(vector):
@@ -57,15 +67,15 @@ def rows_of(log):
         return rows
 
 
-def play(programs, scene, folder, seconds, far, *hub, device=()):
-    """What a hand felt of an organ on its own machine or (`far`) across the hub."""
+def play(programs, scene, folder, seconds, hosts, vendors, *hub, device=()):
+    """What a hand felt with the programs on these hosts, and the hub between them."""
     folder.mkdir(parents=True)
     network, nodes = Network(programs, *hub), {}
+    own = {"haptic_node": ["--log", folder / "log.csv"], "virtual_device": device}
     try:
-        for name, host, more in (("haptic_node", HERE, ["--log", folder / "log.csv"]), ("deform_node", FAR if far else HERE, []),
-                                 ("virtual_device", HERE, device)):
-            nodes[name] = network.start(host, [programs / name, "--scene", scene, "--dds", "fast", "--domain", "7", "--profile", "lan",
-                                               "--report", folder / name, *more])
+        for name, host in hosts.items():
+            nodes[name] = network.start(host, [programs / name, "--scene", scene, "--dds", vendors[name], "--domain", "7",
+                                               "--profile", "lan", "--report", folder / name, *own.get(name, [])])
         time.sleep(seconds)
     finally:
         for name in ("virtual_device", "haptic_node", "deform_node"):
@@ -75,9 +85,9 @@ def play(programs, scene, folder, seconds, far, *hub, device=()):
         network.close()
     report = json.loads((folder / "virtual_device").read_text())
     rows = rows_of(folder / "log.csv")
-    organ = report["link"]["tool_to_organ_us"]
-    return Felt({seq: (tip, force) for seq, _, tip, force in rows}, organ["count"], organ["p50"] / 1000,
-                max((one["most_energy_j"] for one in report["hands"]), default=0), rows)
+    organ, force = report["link"]["tool_to_organ_us"], report["link"]["tool_to_force_us"]
+    return Felt({seq: (tip, force) for seq, _, tip, force in rows}, organ["count"], organ["p50"] / 1000, force["p50"] / 1000,
+                max((one["most_energy_j"] for one in report["hands"]), default=0), report["energy_j"], rows)
 
 
 def differences_n(one, other):

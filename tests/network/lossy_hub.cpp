@@ -1,5 +1,5 @@
 // A slow, lossy Ethernet between network namespaces, where the kernel has no netem: a TAP device in each of
-// them, and every frame of one goes to all others, late or never.
+// them, and a frame of one goes to the one that it is for, or to all others, late or never.
 //
 //   lossy_hub --delay-ms 1 --jitter-ms 0.5 [--overtake] --loss 0.01 [--cut FROM_S:FOR_S]
 //   NAMESPACE=ADDRESS/BITS ...
@@ -8,6 +8,7 @@
 // line of JSON: frames and bytes that it was given, and how many of them were for everybody (multicast,
 // broadcast).
 #include "runtime/command_line.h"
+#include "runtime/realtime.h"
 
 #include <fcntl.h>
 #include <linux/if_tun.h>
@@ -18,6 +19,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -26,7 +28,9 @@
 #include <cstring>
 #include <map>
 #include <random>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace {
@@ -35,6 +39,8 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 constexpr const char* kDevice = "lan0";
+// Above the hand's own: a wire does not wait until the programs at its ends leave it a processor.
+constexpr int kPriority = omentum::runtime::kHandLoopPriority + 1;
 
 struct Options {
   double delay_ms = 0, jitter_ms = 0, loss = 0, cut_from_s = -1, cut_for_s = 0;
@@ -74,6 +80,25 @@ struct Count {
   }
 };
 
+/// Where hosts are, by what they sent: as a switch learns it, so that nobody is woken by others' frames.
+class Places {
+ public:
+  static constexpr std::size_t kEverybody = SIZE_MAX;
+
+  /// Where the frame is for, which came from `port`; not known, or for a group: kEverybody.
+  std::size_t of(std::span<const char> frame, std::size_t port) {
+    if (frame.size() < 2 * kSize) return kEverybody;
+    const std::string to(frame.data(), kSize), from(frame.data() + kSize, kSize);
+    ports_[from] = port;
+    const auto found = ports_.find(to);
+    return found == ports_.end() ? kEverybody : found->second;
+  }
+
+ private:
+  static constexpr std::size_t kSize = 6;  // of an address; a frame begins with two
+  std::map<std::string, std::size_t> ports_;
+};
+
 /// Frames on their way.
 class Hub {
  public:
@@ -86,7 +111,8 @@ class Hub {
     std::vector<pollfd> waiting = ports_;
     waiting.push_back({.fd = STDIN_FILENO, .events = POLLIN, .revents = 0});
     while (true) {
-      poll(waiting.data(), waiting.size(), patience_ms());
+      const timespec patience = until_due();
+      ppoll(waiting.data(), waiting.size(), &patience, nullptr);
       if (waiting.back().revents != 0) return;
       for (std::size_t port = 0; port < ports_.size(); ++port)
         if ((waiting[port].revents & POLLIN) != 0) take_all(port);
@@ -102,15 +128,16 @@ class Hub {
 
  private:
   struct Frame {
-    std::size_t from;
+    std::size_t from, to;
     std::vector<char> bytes;
   };
 
-  int patience_ms() const {
-    constexpr int kLongest_ms = 100;
-    if (frames_.empty()) return kLongest_ms;
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(frames_.begin()->first - Clock::now());
-    return static_cast<int>(std::max<std::int64_t>(left.count(), 0));
+  // not in whole milliseconds, as poll() has it: a delay of one would be one to two
+  timespec until_due() const {
+    constexpr std::chrono::nanoseconds kLongest{100'000'000}, kNone{0};
+    if (frames_.empty()) return {.tv_sec = 0, .tv_nsec = kLongest.count()};
+    const std::chrono::nanoseconds left = frames_.begin()->first - Clock::now();
+    return {.tv_sec = 0, .tv_nsec = std::clamp(left, kNone, kLongest).count()};
   }
 
   bool cut() const {
@@ -142,9 +169,11 @@ class Hub {
 
   void take_all(std::size_t port) {
     for (ssize_t size; (size = read(ports_[port].fd, frame_.data(), frame_.size())) > 0;) {
-      count(static_cast<std::size_t>(size));
+      const std::span frame(frame_.data(), static_cast<std::size_t>(size));
+      count(frame.size());
+      const std::size_t to = places_.of(frame, port);
       if (cut() || std::bernoulli_distribution(options_.loss)(chance_)) continue;
-      frames_.emplace(due(port), Frame{port, {frame_.data(), frame_.data() + size}});
+      frames_.emplace(due(port), Frame{port, to, {frame.begin(), frame.end()}});
     }
   }
 
@@ -152,13 +181,18 @@ class Hub {
     for (; !frames_.empty() && frames_.begin()->first <= Clock::now(); frames_.erase(frames_.begin())) {
       const Frame& frame = frames_.begin()->second;
       for (std::size_t to = 0; to < ports_.size(); ++to)
-        // a full queue loses frames, as a switch does
-        if (to != frame.from && write(ports_[to].fd, frame.bytes.data(), frame.bytes.size()) < 0) continue;
+        if (to != frame.from && (frame.to == Places::kEverybody || frame.to == to)) send(frame.bytes, to);
     }
+  }
+
+  void send(const std::vector<char>& bytes, std::size_t port) {
+    // a full queue loses frames, as a switch does
+    if (write(ports_[port].fd, bytes.data(), bytes.size()) < 0) return;
   }
 
   Options options_;
   std::vector<pollfd> ports_;
+  Places places_;
   std::multimap<Clock::time_point, Frame> frames_;  // by when they are due; equal ones as they came
   Count all_, shared_;
   std::array<char, 65536> frame_{};
@@ -189,6 +223,7 @@ int main(int argc, char** argv) {
     if (!cut.empty() && std::sscanf(cut.c_str(), "%lf:%lf", &options.cut_from_s, &options.cut_for_s) != 2)
       throw std::runtime_error("--cut " + cut + ": expected FROM:FOR");
     Hub hub(options);
+    omentum::runtime::request_realtime(kPriority);
     std::puts("ready");
     std::fflush(stdout);
     hub.work();

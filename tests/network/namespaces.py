@@ -22,11 +22,11 @@ def obstacle():
 
 
 class Network:
-    """Three hosts and the hub between them; gone at the end, with all that runs there."""
+    """Hosts and the hub between them; gone at the end, with all that runs there."""
 
-    def __init__(self, programs, *hub):
-        self.spaces = {host: f"omentum-{os.getpid()}-{host}" for host in HOSTS}
-        self.addresses = {host: f"10.77.0.{number}" for number, host in enumerate(HOSTS, 1)}
+    def __init__(self, programs, *hub, hosts=HOSTS):
+        self.spaces = {host: f"omentum-{os.getpid()}-{host}" for host in hosts}
+        self.addresses = {host: f"10.77.0.{number}" for number, host in enumerate(hosts, 1)}
         for space in self.spaces.values():
             subprocess.run(["ip", "netns", "add", space], check=True)
         ports = [f"{space}={self.addresses[host]}/24" for host, space in self.spaces.items()]

@@ -77,7 +77,7 @@ class CutSessionTest : public testing::Test {
   omentum::test::FakeBus bus_;
   std::unique_ptr<transport::Bus> joined_ = bus_.opener()();
   omentum::test::ScriptedPace clock_{1000};
-  Inbox inbox_{*joined_, organs_, clock_, faults_};
+  Inbox inbox_{*joined_, scene_, organs_, clock_, faults_};
   SessionWatch watch_{scene_, organs_, 0};
   std::uint64_t seq_ = 0;
 };

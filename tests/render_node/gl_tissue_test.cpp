@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace omentum::render {
 namespace {
 
@@ -130,6 +133,50 @@ TEST_F(TissueDrawing, WhatLiesBehindAMesenteryShowsThrough) {
   };
   EXPECT_GT(seen_before(0.9f, Quality::kFine), seen_before(0.02f, Quality::kFine) + 12);
   EXPECT_NEAR(seen_before(0.9f, Quality::kCoarse), seen_before(0.02f, Quality::kCoarse), 3) << "opaque";
+}
+
+/// How much the hue (green over red) of what is drawn changes from a pixel to one a few pixels on, in the
+/// mean.
+double variety(const Picture& picture, const Picture& backdrop) {
+  constexpr std::size_t kStep = 4 * 6;  // two pixels of the coarsest picture
+  const auto is_drawn = [&](std::size_t i) {
+    return !std::equal(&picture.rgba[i], &picture.rgba[i + 3], &backdrop.rgba[i]);
+  };
+  const auto hue = [&](std::size_t i) {
+    return picture.rgba[i + 1] / std::max(1.0, static_cast<double>(picture.rgba[i]));
+  };
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i + kStep < picture.rgba.size(); i += 4) {
+    if (!is_drawn(i) || !is_drawn(i + kStep)) continue;
+    sum += std::abs(hue(i) - hue(i + kStep));
+    ++count;
+  }
+  return sum / std::max(1, count);
+}
+
+// Vessels and fat are narrower than the triangles of the coarsest pictures.
+TEST_F(TissueDrawing, AMesenteryKeepsItsVesselsInTheCoarsestPictures) {
+  std::vector<std::unique_ptr<OrganDrawing>> organs;
+  organs.push_back(make_tube_drawing(test::gut_shape(), tissue_material("gut")));
+  SceneView view({}, std::move(organs), *renderer_);
+  ViewChoices choices;
+  choices.orbit = view.first_camera();
+  Frame sheet = view.frame(choices, {}, 0);
+  sheet.tubes.clear();
+  std::erase_if(sheet.items, [](const DrawItem& item) { return item.look != Look::kMesentery; });
+  Frame nothing = sheet, plain = sheet;
+  nothing.items.clear();
+  plain.items.front().look = Look::kTissue;
+  const auto seen = [&](Frame frame, Quality quality) {
+    frame.quality = nothing.quality = quality;
+    return variety(draw(frame), draw(nothing));
+  };
+  const double much = 0.5 * seen(sheet, Quality::kFine);
+  for (const Quality quality : {Quality::kDraft, Quality::kSketch, Quality::kFaint}) {
+    EXPECT_GT(seen(sheet, quality), much) << static_cast<int>(quality);
+    EXPECT_LT(seen(plain, quality), much) << "of tissue that has none, " << static_cast<int>(quality);
+  }
 }
 
 }  // namespace

@@ -274,7 +274,9 @@ TEST_F(RenderLoopTest, DrawsACutOfTheOrganThatItLoaded) {
   bus_.post(state);
   EXPECT_THAT(faults(), IsEmpty());
   EXPECT_THAT(renderer_.frames.back().items, Contains(Field(&DrawItem::look, Look::kBared)));
-  EXPECT_EQ(close()["unmatched_states"], 0);
+  const nlohmann::json report = close();
+  EXPECT_EQ(report["unmatched_states"], 0);
+  EXPECT_EQ(report["organ_states"]["whole"], 1);
 }
 
 /// A session in which deform_node tells what tissue is under.

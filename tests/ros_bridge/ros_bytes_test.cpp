@@ -38,10 +38,10 @@ struct Layout {
 
 template <class M>
 Bytes on_the_wire(const M& message) {
-  FastType<M> type;
-  typename FastType<M>::Payload payload(type.m_typeSize);
-  EXPECT_TRUE(type.serialize(const_cast<M*>(&message), &payload));
-  return {payload.data, payload.data + payload.length};
+  const FastType<M> type;
+  Bytes bytes(type.bytes_of(&message));
+  bytes.resize(type.write(&message, reinterpret_cast<char*>(bytes.data()), type.most_bytes()));
+  return bytes;
 }
 
 // 0x12345678 s and 0x0a0b0c0d ns, "world": 4 + 4 + 4 + 6 bytes, and 6 up to the next multiple of 8.
@@ -102,25 +102,23 @@ TEST_F(RosBytesTest, OperatingState) {
 
 TEST_F(RosBytesTest, ACommandIsReadFromItsBytes) {
   Layout bytes = stamped_world().raw({0, 0, 6, 0, 0, 0, 'p', 'a', 'u', 's', 'e', 0});
-  FastType<StringStamped> type;
-  FastType<StringStamped>::Payload payload(static_cast<std::uint32_t>(bytes.bytes.size()));
-  std::memcpy(payload.data, bytes.bytes.data(), bytes.bytes.size());
-  payload.length = static_cast<std::uint32_t>(bytes.bytes.size());
-  auto* command = static_cast<StringStamped*>(type.createData());
-  ASSERT_TRUE(type.deserialize(&payload, command));
+  const FastType<StringStamped> type;
+  auto* data = reinterpret_cast<char*>(bytes.bytes.data());
+  const auto length = static_cast<std::uint32_t>(bytes.bytes.size());
+  auto* command = static_cast<StringStamped*>(type.make());
+  ASSERT_TRUE(type.read(data, length, command));
   EXPECT_STREQ(command->string_, "pause");
   EXPECT_EQ(command->header_.stamp_.sec_, 0x12345678);
-  payload.length -= 3;  // cut off in the middle of the word
-  EXPECT_FALSE(type.deserialize(&payload, command));
-  type.deleteData(command);
+  EXPECT_FALSE(type.read(data, length - 3, command));  // cut off in the middle of the word
+  type.destroy(command);
 }
 
 TEST_F(RosBytesTest, TheNamesAreThoseOfRos) {
-  EXPECT_STREQ(FastType<PoseStamped>().getName(), "geometry_msgs::msg::dds_::PoseStamped_");
-  EXPECT_STREQ(FastType<WrenchStamped>().getName(), "geometry_msgs::msg::dds_::WrenchStamped_");
-  EXPECT_STREQ(FastType<CartesianState>().getName(), "crtk_msgs::msg::dds_::CartesianState_");
-  EXPECT_STREQ(FastType<OperatingState>().getName(), "crtk_msgs::msg::dds_::OperatingState_");
-  EXPECT_STREQ(FastType<StringStamped>().getName(), "crtk_msgs::msg::dds_::StringStamped_");
+  EXPECT_STREQ(FastType<PoseStamped>().name(), "geometry_msgs::msg::dds_::PoseStamped_");
+  EXPECT_STREQ(FastType<WrenchStamped>().name(), "geometry_msgs::msg::dds_::WrenchStamped_");
+  EXPECT_STREQ(FastType<CartesianState>().name(), "crtk_msgs::msg::dds_::CartesianState_");
+  EXPECT_STREQ(FastType<OperatingState>().name(), "crtk_msgs::msg::dds_::OperatingState_");
+  EXPECT_STREQ(FastType<StringStamped>().name(), "crtk_msgs::msg::dds_::StringStamped_");
 }
 
 }  // namespace

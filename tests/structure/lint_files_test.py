@@ -8,6 +8,8 @@ import tempfile
 import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "launch_scripts" / "lint_files.py"
+sys.path.insert(0, str(SCRIPT.parent))
+import lint_files
 # it finds something in sources that say "wrong", be it by themselves or included
 TIDY = """#!/bin/sh
 for source; do :; done
@@ -88,6 +90,36 @@ class LintFilesTest(unittest.TestCase):
         self.assertEqual(self.lint(*self.names), (0, []))
         self.write("room/b.cpp", "int other;")
         self.assertEqual(self.lint(*self.names), (0, ["b.cpp"]))
+
+    def test_those_that_name_something_alike_are_looked_at_apart(self):
+        def unnamed(text):
+            return f"namespace {{\n\n{text}\n\n}}  // namespace\n"
+        alike = (("constexpr int kPart = 1;", "const double kPart = 2;"), ("struct Part {\n};", "struct Part : int {\n};"),
+                 ("int part(int of) {\n  return of;\n}", "int part(int of) {\n}"), ("int kParts[2];", "int kParts[3];"))
+        different = (("constexpr int kPart = 1;", "constexpr int kOther = 1;"), ("int part(int of) {\n}", "int part(float of) {\n}"),
+                     ("// struct Part {", "struct Part {\n};"), ("int a() {\n  int part = 1;\n}", "int b() {\n  int part = 1;\n}"),
+                     ("using geometry::Vec3;", "using geometry::Vec3;"))
+        for one, other in alike:
+            self.assertTrue(lint_files.own_names(unnamed(one)) & lint_files.own_names(unnamed(other)), (one, other))
+        for one, other in different:
+            self.assertFalse(lint_files.own_names(unnamed(one)) & lint_files.own_names(unnamed(other)), (one, other))
+        for name in self.names:
+            self.write(name, unnamed("int part;\nint own = 1;") if name < "room/c" else "int part;")
+        self.assertEqual(self.lint(*self.names), (0, ["all.cpp", "b.cpp"]))
+
+    def test_a_rooms_folders_are_looked_at_together_each_with_its_headers(self):
+        (self.root / "room/inner").mkdir()
+        self.write("room/inner/a.cpp", "int main() {}")
+        self.write("room/a.cpp", "int main() {}")
+        entries = [{"directory": str(self.root), "file": str(self.root / name), "command": f"c++ {where} -c {self.root / name}"}
+                   for name, where in (("room/a.cpp", "-I/one"), ("room/inner/a.cpp", "-isystem /other -I/one"))]
+        self.write("build/compile_commands.json", json.dumps(entries))
+        self.assertEqual(self.lint("room/a.cpp", "room/inner/a.cpp"), (0, ["all.cpp"]))
+        together = self.root / "build/together/room__a.cpp"
+        command = json.loads((together / "compile_commands.json").read_text())[0]["command"]
+        self.assertEqual(command.split()[:2] + command.split()[-2:], ["c++", "-I/one", "-isystem", "/other"])
+        mains = [line for line in (together / "all.cpp").read_text().splitlines() if line.startswith("#define main ")]
+        self.assertEqual(len(set(mains)), 2, "two programs")
 
     def test_each_by_itself_where_asked(self):
         self.assertEqual(self.lint(*self.names, options=["--apart"]), (0, ["a.cpp", "b.cpp", "c.cpp", "d.cpp"]))

@@ -4,13 +4,13 @@ namespace omentum::test {
 
 class FakeParticipant final : public transport::Bus {
  public:
-  explicit FakeParticipant(FakeBus& bus) : bus_(bus) {}
+  explicit FakeParticipant(FakeBus& bus) : bus_(bus), number_(++bus.participants_) {}
   std::string warning() const override { return {}; }
 
  private:
 #define OMENTUM_FAKE_ENDPOINTS(M)                                                                          \
   std::unique_ptr<transport::Writer<msg::M>> make_writer(msg::MessageTag<msg::M>) override {               \
-    return std::make_unique<FakeWriter<msg::M>>(bus_.topic<msg::M>(), bus_.next_writer());                 \
+    return std::make_unique<FakeWriter<msg::M>>(bus_.topic<msg::M>(), bus_.next_writer(number_));          \
   }                                                                                                        \
   std::unique_ptr<transport::Reader<msg::M>> make_reader(transport::ByWriter<msg::M> callbacks) override { \
     return std::make_unique<FakeReader<msg::M>>(bus_.topic<msg::M>(), std::move(callbacks));               \
@@ -19,6 +19,7 @@ class FakeParticipant final : public transport::Bus {
 #undef OMENTUM_FAKE_ENDPOINTS
 
   FakeBus& bus_;
+  std::uint8_t number_;
 };
 
 FakeBus::~FakeBus() {
@@ -38,8 +39,10 @@ std::vector<std::string> FakeBus::left_over() const {
   return lines;
 }
 
-transport::WriterId FakeBus::next_writer() {
-  return {++writers_};
+transport::WriterId FakeBus::next_writer(std::uint8_t participant) {
+  transport::WriterId writer{participant};
+  writer.back() = ++writers_;
+  return writer;
 }
 
 }  // namespace omentum::test

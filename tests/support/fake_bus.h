@@ -285,10 +285,10 @@ class FakeBus {
   FakeTopic<M>& topic() {
     return std::get<FakeTopic<M>>(topics_);
   }
-  transport::WriterId next_writer();
+  transport::WriterId next_writer(std::uint8_t participant);
 
   decltype(topics_of(msg::AllTopics{})) topics_;
-  std::uint8_t writers_ = 0;
+  std::uint8_t participants_ = 0, writers_ = 0;
 };
 
 }  // namespace omentum::test

@@ -44,7 +44,7 @@ SHAPE = {
         "haptic_node": {"dds": str, "exit": int, "restarts": int, "loop": LOOP, "force_n": {"mean": float, "max": float},
                         "contacts": {"ticks_in_contact": int, "nodes_max": int},
                         "local_models": {"heard": int, "dropped": int, "gone": int}, "hands": list, "faults": list},
-        "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "stress_states": int, "steps": int, "removed_tetrahedra": int,
+        "deform_node": {"dds": str, "exit": int, "loop": LOOP, "states": int, "stress_states": int, "touching_moments": int, "steps": int, "removed_tetrahedra": int,
                         "repaired_tetrahedra": int, "cuts": {"way_cm": float, "lost_cm3": float, "lost_cm3_per_cm": float},
                         "real_time_factor": float, "faults": list},
         "render_node": {"dds": str, "exit": int, "frames": int, "frame_us": TIMES, "deepest_dent_m": float,
@@ -266,6 +266,16 @@ class Endings(LauncherTest):
         self.assertEqual(process.wait(PATIENCE_S), 0, process.stdout.read())
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
         self.check_shape(self.report(), SHAPE)
+
+    def test_ended_before_it_began_it_leaves_no_traceback(self):
+        # while Python starts, reads its modules, checks the words, and the same again
+        for delay_s in (0.02, 0.06, 0.1, 0.14, 0.18, 0.26, 0.34, 0.42):
+            process = subprocess.Popen([RUN, HOLD, "--prepare", "--out", self.out], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                       text=True, start_new_session=True)
+            time.sleep(delay_s)
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to all of them
+            self.assertNotIn("Traceback", process.communicate(timeout=PATIENCE_S)[0], f"after {delay_s} s")
 
     def test_a_closed_terminal_ends_it_like_sigterm(self):
         process = self.start(HOLD, "--headless", "--out", self.out)
@@ -900,6 +910,7 @@ class Refusals(LauncherTest):
         self.check_refused("--dds", "haptic=fast,nose=fast", about="nose")
         self.check_refused("--device", "broom", about="broom")
         self.check_refused("--device", "mouse", about="mouse")
+        self.check_refused("--device", "mouse", "--frames", HOLD, about="--frames: a mouse has no frames")
         self.check_refused("--device", "trace:missing.csv", about="missing.csv")
         self.check_refused("--keystore", "keys", about="--secure")
         self.check_refused("--secure", "--keystore", "missing", about="make_keystore missing")

@@ -194,6 +194,14 @@ class Elsewhere(WithFolder):
         self.assertIn("libselinux1", packages.needed_by(pathlib.Path(shutil.which("sed")).resolve()))
         self.assertEqual(packages.needed_by(self.program("true")), [])
 
+    def test_one_machine_by_two_addresses_is_refused_with_its_place(self):
+        text = TABLE.replace('user = "omentum"', f"directory = '{self.folder}/there'\nreach = ['sh', '-c']")
+        table = host_table.read(self.file("hosts.toml", text.replace('address = "10.0.0.1"', 'address = "10.0.0.1"\nhere = true')))
+        with self.assertRaises(Refusal) as caught:
+            hosts.Hosts(table)
+        self.assertIn(r"hosts.toml: hosts[1].address: found '10.0.0.2', the machine of hosts[0] ('10.0.0.1') again, expected one [[hosts]]",
+                      str(caught.exception))
+
     def test_a_machine_that_cannot_be_reached_is_a_refusal_with_the_reason(self):
         spec = host_table.HostSpec("other", "127.0.0.1", reach=["sh", "-c", "echo Permission denied >&2; exit 255"])
         with self.assertRaisesRegex(Refusal, "other cannot be reached: Permission denied"):

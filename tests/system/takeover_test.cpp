@@ -111,48 +111,63 @@ TEST(TakeoverTest, ADeformNodeThatStoodByGoesOnWithTheCutsAndALatePictureHasThem
   EXPECT_TRUE(session["haptic_node"].running());
 }
 
-/// Whether tool 0 was answered to somebody who counts lower than who was answered before.
-bool changes_hands(const std::vector<msg::ToolForce>& forces) {
+/// Whether the tool was answered to somebody who counts lower than who was answered before.
+bool changes_hands(const std::vector<msg::ToolForce>& forces, std::uint32_t tool) {
   std::uint64_t newest = 0;
   for (const msg::ToolForce& force : forces) {
-    if (force.tool != 0) continue;
+    if (force.tool != tool) continue;
     if (force.echo_seq < newest) return true;
     newest = force.echo_seq;
   }
   return false;
 }
 
-TEST(TakeoverTest, ASecondDeviceOnAToolIsRefusedUntilTheFirstIsGoneAndTheHandIsNotStruck) {
-  constexpr std::uint64_t kApart = 100;  // of their counts: the second one began later
-  SessionOnTrial session(held_scene(), all_on("fast"));
+/// The held scene, whose first tool is for a recorded hand.
+std::string scene_for_a_trace() {
+  std::string text = read_text(held_scene());
+  const std::string probe = "id = 0\n";
+  const std::size_t at = text.find(probe);
+  EXPECT_NE(at, std::string::npos);
+  text.insert(std::min(at, text.size()), "device = \"trace\"\n");
+  const auto scene = std::filesystem::path(held_scene()).parent_path() / "for_a_trace.toml";
+  std::ofstream(scene) << text;
+  return scene;
+}
+
+TEST(TakeoverTest, TheScenesDeviceTakesItsToolAndAnotherToolOnlyWhenItsHandIsGoneAndNobodyIsStruck) {
+  const ScratchFolder folder;
+  const std::string scene = scene_for_a_trace(), trace = folder / "rests_above.csv";
+  std::ofstream(trace) << "t_s,px,py,pz,qw,qx,qy,qz,grip,tool\n0,-0.05,-0.02,0.07,1,0,0,0,0,0\n"
+                          "0,0.03,0,0.07,1,0,0,0,0,1\n";
+  SessionOnTrial session(scene, all_on("fast"));
   Observer observer(session.domain(), transport::Vendor::kCyclone);
   session.start_all({"haptic_node", "deform_node", "virtual_device"});
-  ASSERT_TRUE(comes_true([&] {
-    const auto force = observer.force();
-    return force && force->echo_seq > 2 * kApart;
-  })) << "the first one is not answered";
-  Second other(session, "virtual_device", held_scene(), "cyclone");
-  ASSERT_TRUE(comes_true([&] {
-    const auto pose = observer.pose();
-    const auto force = observer.force();
-    return pose && force && pose->seq + kApart < force->echo_seq;
-  })) << "the second one is not heard: "
-      << other.process().messages();
   ASSERT_TRUE(comes_true([&] { return observer.force_n() > 0.1; })) << "the first one does not press";
-  observer.forget();
-  std::this_thread::sleep_for(milliseconds(500));  // ten times what a device that is alone needs to be taken
-  const std::vector<msg::ToolForce> meanwhile = observer.forces();
-  EXPECT_GT(meanwhile.size(), 100u);
-  EXPECT_FALSE(changes_hands(meanwhile)) << "somebody else's pose was answered";
-  EXPECT_GT(observer.force_n(), 0.1) << "the first hand lost what it feels";
 
+  Second wanted(session, "virtual_device", scene, "cyclone", {"--trace", trace});
+  ASSERT_TRUE(comes_true([&] { return changes_hands(observer.forces(), 0); }))
+      << "the scene's is not taken: " << wanted.process().messages();
+  std::this_thread::sleep_for(milliseconds(300));  // six times what a device that is alone needs to be taken
+  const std::vector<msg::ToolForce> meanwhile = observer.forces();
+  EXPECT_FALSE(changes_hands(meanwhile, 1)) << "of two that nobody asked for the first one stays";
+  observer.forget();
+  std::this_thread::sleep_for(milliseconds(100));
+  const std::vector<msg::ToolForce> later = observer.forces();
+  EXPECT_FALSE(changes_hands(later, 0)) << "it went back";
   session.kill("virtual_device");
-  EXPECT_TRUE(comes_true([&] { return changes_hands(observer.forces()); })) << "the second one is not taken";
-  for (const std::uint32_t tool : {0U, 1U})
+  EXPECT_TRUE(comes_true([&] { return changes_hands(observer.forces(), 1); }))
+      << "the other tool is not taken";
+  for (const std::uint32_t tool : {0U, 1U}) {
+    EXPECT_LE(steepest(meanwhile, tool), 1 + 1e-6) << "a hand was struck";
     EXPECT_LE(steepest(observer.forces(), tool), 1 + 1e-6) << "a hand was struck";
+  }
   EXPECT_EQ(session["haptic_node"].terminate(), 0);
-  const std::string told = read_text(session.report_of("haptic_node"));
-  EXPECT_NE(told.find("tool 0: pose refused"), std::string::npos) << told;
+  for (const char* tool : {"0", "1"})
+    EXPECT_TRUE(
+        says(session["haptic_node"], std::string("tool ") + tool + " goes from 'virtual hand' to 'trace'"))
+        << session["haptic_node"].messages();
+  const json told = json::parse(read_text(session.report_of("haptic_node")));
+  for (const json& poses : told["poses"]) EXPECT_EQ(poses["hand_overs"]["count"], 1) << poses;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace omentum::transport {
 namespace {
@@ -88,6 +89,32 @@ TEST_P(ByWriterTest, OfAKilledOneIsSaidThatItLeft) {
   ASSERT_TRUE(eventually([&] { return count() == 1; }));
   peer.kill_it();
   EXPECT_TRUE(eventually([&] { return count() == 0; }));
+}
+
+TEST_P(ByWriterTest, WhatOneParticipantWritesHasItsNameWhateverTheTopic) {
+  std::map<ParticipantId, std::set<std::uint64_t>> moved;  // tools, by who moves them
+  const auto poses = bus_->reader<msg::ToolPose>(
+      ByWriter<msg::ToolPose>{[&](const msg::ToolPose& pose, const WriterId& writer) {
+                                const std::lock_guard lock(mutex_);
+                                moved[participant_of(writer)].insert(pose.tool);
+                              },
+                              [](const WriterId&) {}});
+  auto one = open(GetParam().second), two = open(GetParam().second);
+  auto weak = one->writer<msg::DeviceInfo>(), strong = two->writer<msg::DeviceInfo>();
+  auto left = one->writer<msg::ToolPose>(), right = two->writer<msg::ToolPose>();
+  weak->write(info_of(0.5));
+  strong->write(info_of(10));
+  msg::ToolPose pose_of_left{}, pose_of_right{};
+  pose_of_right.tool = 1;
+  EXPECT_TRUE(eventually([&] {
+    left->write(pose_of_left);
+    right->write(pose_of_right);
+    const std::lock_guard lock(mutex_);
+    return moved.size() == 2 && said_.size() == 2;
+  }));
+  const std::lock_guard lock(mutex_);
+  for (const auto& [writer, force_n] : said_)
+    EXPECT_EQ(moved[participant_of(writer)], (std::set<std::uint64_t>{force_n < 1 ? 0U : 1U}));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -86,6 +86,17 @@ TEST(Cdr, AnOrganStressBlockIsNoLargerThanItsStates) {
   EXPECT_LE(bytes_of(stress).size(), bytes_of(state).size());
 }
 
+TEST(Cdr, ATouchingPairsBlockFitsADatagramOfALan) {
+  msg::TouchingPairs block;
+  block.pairs.resize(touching_block_pairs(Profile::kLan));
+  constexpr std::size_t kHeaders = 60 + 28;  // of RTPS and a key hash
+  EXPECT_LE(bytes_of(block).size() + kHeaders, fragment_bytes(Profile::kLan));
+  block.pairs.resize(block.pairs.size() + 1);
+  EXPECT_GT(bytes_of(block).size() + kHeaders, fragment_bytes(Profile::kLan)) << "as many as fit";
+  block.pairs.resize(touching_block_pairs(Profile::kLoopback));
+  EXPECT_LE(bytes_of(block).size(), fragment_bytes(Profile::kLoopback));
+}
+
 TEST(Cdr, BytesThatEndEarlyAreRefused) {
   msg::for_each_topic(msg::AllTopics{}, []<class M>(msg::MessageTag<M>) {
     const M message = test::Filler(3, test::Lengths::kOne).make<M>();

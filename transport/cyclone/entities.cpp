@@ -2,33 +2,36 @@
 
 #include "transport/keystore.h"
 
-#include <dds/security/dds_security_api_defs.h>
-
 #include <stdexcept>
 
 namespace omentum::transport::cyclone {
 
 namespace {
 
+struct Plugin {
+  std::string kind, library, action;
+};
+
+void load(dds_qos_t* qos, const Plugin& plugin) {
+  const std::string library = "dds.sec." + plugin.kind + ".library.";
+  dds_qset_prop(qos, (library + "path").c_str(), plugin.library.c_str());
+  dds_qset_prop(qos, (library + "init").c_str(), ("init_" + plugin.action).c_str());
+  dds_qset_prop(qos, (library + "finalize").c_str(), ("finalize_" + plugin.action).c_str());
+}
+
 void secure(dds_qos_t* qos, const Credentials& credentials) {
+  load(qos, {"auth", "dds_security_auth", "authentication"});
+  load(qos, {"access", "dds_security_ac", "access_control"});
+  load(qos, {"crypto", "dds_security_crypto", "crypto"});
   const auto set_file = [&](const char* name, const std::filesystem::path& file) {
     dds_qset_prop(qos, name, ("file:" + file.string()).c_str());
   };
-  dds_qset_prop(qos, DDS_SEC_PROP_AUTH_LIBRARY_PATH, "dds_security_auth");
-  dds_qset_prop(qos, DDS_SEC_PROP_AUTH_LIBRARY_INIT, "init_authentication");
-  dds_qset_prop(qos, DDS_SEC_PROP_AUTH_LIBRARY_FINALIZE, "finalize_authentication");
-  dds_qset_prop(qos, DDS_SEC_PROP_ACCESS_LIBRARY_PATH, "dds_security_ac");
-  dds_qset_prop(qos, DDS_SEC_PROP_ACCESS_LIBRARY_INIT, "init_access_control");
-  dds_qset_prop(qos, DDS_SEC_PROP_ACCESS_LIBRARY_FINALIZE, "finalize_access_control");
-  dds_qset_prop(qos, DDS_SEC_PROP_CRYPTO_LIBRARY_PATH, "dds_security_crypto");
-  dds_qset_prop(qos, DDS_SEC_PROP_CRYPTO_LIBRARY_INIT, "init_crypto");
-  dds_qset_prop(qos, DDS_SEC_PROP_CRYPTO_LIBRARY_FINALIZE, "finalize_crypto");
-  set_file(DDS_SEC_PROP_AUTH_IDENTITY_CA, credentials.identity_authority);
-  set_file(DDS_SEC_PROP_AUTH_IDENTITY_CERT, credentials.certificate);
-  set_file(DDS_SEC_PROP_AUTH_PRIV_KEY, credentials.key);
-  set_file(DDS_SEC_PROP_ACCESS_PERMISSIONS_CA, credentials.permissions_authority);
-  set_file(DDS_SEC_PROP_ACCESS_GOVERNANCE, credentials.governance);
-  set_file(DDS_SEC_PROP_ACCESS_PERMISSIONS, credentials.permissions);
+  set_file("dds.sec.auth.identity_ca", credentials.identity_authority);
+  set_file("dds.sec.auth.identity_certificate", credentials.certificate);
+  set_file("dds.sec.auth.private_key", credentials.key);
+  set_file("dds.sec.access.permissions_ca", credentials.permissions_authority);
+  set_file("dds.sec.access.governance", credentials.governance);
+  set_file("dds.sec.access.permissions", credentials.permissions);
 }
 
 dds_entity_t create_participant(const BusOptions& options) {

@@ -4,22 +4,16 @@
 #include "transport/cyclone/complaints.h"
 #include "transport/cyclone/conversion.h"
 #include "transport/cyclone/entities.h"
+#include "transport/cyclone/writer_names.h"
 #include "transport/departures.h"
 #include "transport/reader_counters.h"
 
 #include <atomic>
-#include <cstring>
 #include <stdexcept>
 
 namespace omentum::transport::cyclone {
 
 namespace {
-
-WriterId writer_id(dds_instance_handle_t publication) {
-  WriterId id{};
-  std::memcpy(id.data(), &publication, sizeof publication);
-  return id;
-}
 
 template <class M>
 class CycloneWriter final : public Writer<M> {
@@ -103,7 +97,7 @@ class CycloneReader final : public Reader<M> {
                                       void* self) {
     if (status.current_count_change >= 0) return;
     auto& me = *static_cast<CycloneReader*>(self);
-    me.departures_.left(writer_id(status.last_publication_handle));
+    me.departures_.left(handle_id(status.last_publication_handle));
     me.arrivals_.announce([&] { me.take_all(reader); });
   }
 
@@ -116,7 +110,7 @@ class CycloneReader final : public Reader<M> {
   void take_all(dds_entity_t reader) {
     const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
     while (take_some(reader)) continue;
-    for (const WriterId& writer : gone) callbacks_.on_gone(writer);
+    for (const WriterId& handle : gone) callbacks_.on_gone(names_.forget(handle));
   }
 
   bool take_some(dds_entity_t reader) {
@@ -126,9 +120,14 @@ class CycloneReader final : public Reader<M> {
     const std::int32_t count = dds_take(reader, loans, infos, kAtOnce, kAtOnce);
     if (count <= 0) return false;
     for (std::int32_t i = 0; i < count; ++i)
-      if (infos[i].valid_data) deliver(loans[i], writer_id(infos[i].publication_handle));
+      if (infos[i].valid_data) deliver(loans[i], name_of(reader, infos[i].publication_handle));
     dds_return_loan(reader, loans, count);
     return true;
+  }
+
+  // nobody asks who does not want to know who left
+  WriterId name_of(dds_entity_t reader, dds_instance_handle_t publication) {
+    return callbacks_.on_gone ? names_.find(reader, publication) : handle_id(publication);
   }
 
   void deliver(const void* loan, const WriterId& writer) {
@@ -138,7 +137,8 @@ class CycloneReader final : public Reader<M> {
   }
 
   ByWriter<M> callbacks_;
-  Departures departures_;  // where somebody asks for them
+  Departures departures_;  // of handles, where somebody asks for them
+  WriterNames names_;      // for whoever takes samples
   M message_;              // its sequences keep their memory from sample to sample
   Arrivals arrivals_;
   ReaderCounters<M> counters_;

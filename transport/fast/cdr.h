@@ -3,11 +3,8 @@
 #pragma once
 
 #include "transport/bounds.h"
-
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-#include <fastcdr/exceptions/BadParamException.h>
-#include <fastcdr/exceptions/Exception.h>
+#include "transport/fast/cdr_names.h"
+#include "transport/fast/key_hash.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +13,6 @@
 namespace omentum::transport::fast {
 
 inline constexpr std::size_t kEncapsulationBytes = 4;
-inline constexpr std::size_t kKeyHashBytes = 16;
 
 /// Counts the bytes that a message takes behind its encapsulation.
 class SizeCounter {
@@ -61,7 +57,7 @@ class SizeCounter {
 /// Writes members; throws eprosima's Exception when the buffer is too small.
 class Encoder {
  public:
-  explicit Encoder(eprosima::fastcdr::Cdr& cdr) : cdr_(cdr) {}
+  explicit Encoder(Cdr& cdr) : cdr_(cdr) {}
 
   template <class T>
   void operator()(const msg::Field&, const T& value) {
@@ -83,20 +79,20 @@ class Encoder {
     cdr_.serialize(static_cast<std::uint32_t>(values.size()));
     if constexpr (std::is_arithmetic_v<T>) {
       // an empty sequence is not followed by the padding of its elements
-      if (!values.empty()) cdr_.serializeArray(values.data(), values.size());
+      if (!values.empty()) put_array(cdr_, values.data(), values.size());
     } else {
       for (const T& value : values) put(value);
     }
   }
 
-  eprosima::fastcdr::Cdr& cdr_;
+  Cdr& cdr_;
 };
 
 /// Reads members; throws eprosima's Exception when the bytes end early or a bound of the IDL is breached.
 /// A sequence is given memory only for as many elements as its bound allows.
 class Decoder {
  public:
-  Decoder(eprosima::fastcdr::Cdr& cdr, bool keys_only) : cdr_(cdr), keys_only_(keys_only) {}
+  Decoder(Cdr& cdr, bool keys_only) : cdr_(cdr), keys_only_(keys_only) {}
 
   template <class T>
   void operator()(const msg::Field& field, T& value) {
@@ -124,13 +120,13 @@ class Decoder {
     if (size > bound) throw eprosima::fastcdr::exception::BadParamException("sequence over its bound");
     values.resize(size);
     if constexpr (std::is_arithmetic_v<T>) {
-      if (size > 0) cdr_.deserializeArray(values.data(), values.size());
+      if (size > 0) get_array(cdr_, values.data(), values.size());
     } else {
       for (T& value : values) get(value, element_bound, 0);
     }
   }
 
-  eprosima::fastcdr::Cdr& cdr_;
+  Cdr& cdr_;
   bool keys_only_;
 };
 
@@ -147,12 +143,11 @@ std::size_t encoded_bytes(const M& message) {
 template <class M>
 std::size_t encode(const M& message, char* data, std::size_t capacity) noexcept {
   try {
-    eprosima::fastcdr::FastBuffer buffer(data, capacity);
-    eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS,
-                               eprosima::fastcdr::Cdr::DDS_CDR);
+    FastBuffer buffer(data, capacity);
+    Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, kPlainCdr);
     cdr.serialize_encapsulation();
     for_each_field(message, Encoder(cdr));
-    return cdr.getSerializedDataLength();
+    return length_of(cdr);
   } catch (const eprosima::fastcdr::exception::Exception&) {
     return 0;
   }
@@ -163,9 +158,8 @@ std::size_t encode(const M& message, char* data, std::size_t capacity) noexcept 
 template <class M>
 bool decode(char* data, std::size_t bytes, bool keys_only, M& message) noexcept {
   try {
-    eprosima::fastcdr::FastBuffer buffer(data, bytes);
-    eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN,
-                               eprosima::fastcdr::Cdr::DDS_CDR);
+    FastBuffer buffer(data, bytes);
+    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, kPlainCdr);
     cdr.read_encapsulation();
     for_each_field(message, Decoder(cdr, keys_only));
     return true;
@@ -174,14 +168,13 @@ bool decode(char* data, std::size_t bytes, bool keys_only, M& message) noexcept 
   }
 }
 
-/// The key hash (RTPS 2.5 section 9.6.4.8): the key members in big-endian CDR, padded with zeros. The
-/// generator refuses keys above 16 bytes, which would be hashed.
+/// The generator refuses keys above 16 bytes, which would be hashed.
 template <class M>
-std::array<char, kKeyHashBytes> key_hash(const M& message) {
+KeyHash key_hash(const M& message) {
   static_assert(msg::MessageInfo<M>::kKeyBytes <= kKeyHashBytes);
-  std::array<char, kKeyHashBytes> hash{};
-  eprosima::fastcdr::FastBuffer buffer(hash.data(), hash.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::BIG_ENDIANNESS);
+  KeyHash hash{};
+  FastBuffer buffer(hash.data(), hash.size());
+  Cdr cdr(buffer, Cdr::BIG_ENDIANNESS, kPlainCdr);
   Encoder encoder(cdr);
   for_each_field(message, [&](const msg::Field& field, const auto& member) {
     if (field.key) encoder(field, member);

@@ -1,13 +1,9 @@
 #include "transport/fast/entities.h"
 
 #include "transport/fast/complaints.h"
+#include "transport/fast/domain_names.h"
 #include "transport/keystore.h"
 #include "transport/settings.h"
-
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -15,9 +11,6 @@
 namespace omentum::transport::fast {
 
 namespace {
-
-namespace rtps = eprosima::fastdds::rtps;
-using eprosima::fastrtps::Duration_t;
 
 // A reader that lost a sample learns of it within this; the default of 3 s would stall durable topics.
 constexpr int kHeartbeat_ms = 50;
@@ -45,7 +38,7 @@ std::size_t largest_datagram(Profile profile, bool secured) {
 // UDP alone, on one machine too: whoever writes through Fast DDS' shared memory takes a lock that each reader
 // takes, and waits for as long as a reader of lower priority is kept from its processor, or is stopped.
 void set_transports(dds::DomainParticipantQos& qos, Profile profile, bool secured) {
-  auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
+  auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
   udp->maxMessageSize = static_cast<std::uint32_t>(largest_datagram(profile, secured));
@@ -67,8 +60,8 @@ void add_peers(dds::DomainParticipantQos& qos, const std::vector<std::string>& p
   std::vector<std::string> addresses = peers;
   addresses.push_back("239.255.0.1");
   for (const std::string& address : addresses) {
-    eprosima::fastrtps::rtps::Locator_t locator;
-    eprosima::fastrtps::rtps::IPLocator::setIPv4(locator, address);
+    rtps::Locator_t locator;
+    rtps::IPLocator::setIPv4(locator, address);
     list.push_back(locator);
   }
 }
@@ -103,13 +96,6 @@ dds::DomainParticipantQos participant_qos(const BusOptions& options) {
   return qos;
 }
 
-// Delivery inside the process would run callbacks on the writing thread, within its locks.
-void turn_off_delivery_inside_the_process() {
-  eprosima::fastrtps::LibrarySettingsAttributes settings;
-  settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
-}
-
 template <class Qos>
 void set_common(Qos& qos, const TopicSpec& spec) {
   qos.reliability().kind = spec.reliability == Reliability::kReliable ? dds::RELIABLE_RELIABILITY_QOS
@@ -123,7 +109,7 @@ void set_common(Qos& qos, const TopicSpec& spec) {
   qos.resource_limits().max_instances = 0;
   qos.resource_limits().max_samples_per_instance = 0;
   qos.resource_limits().allocated_samples = spec.depth;
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   qos.data_sharing().off();
   if (spec.liveliness_lease.count() > 0) {
     qos.liveliness().kind = dds::AUTOMATIC_LIVELINESS_QOS;
@@ -137,6 +123,7 @@ void set_common(Qos& qos, const TopicSpec& spec) {
 
 Entities::Entities(const BusOptions& options) : profile(options.profile) {
   tell_complaints_once();
+  // it would run callbacks on the writing thread, within its locks
   turn_off_delivery_inside_the_process();
   auto* factory = dds::DomainParticipantFactory::get_instance();
   participant = factory->create_participant(static_cast<std::uint32_t>(options.domain),
@@ -159,7 +146,7 @@ Entities::~Entities() {
 dds::Topic* Entities::topic(const TopicSpec& spec, const dds::TypeSupport& type) {
   const std::lock_guard lock(mutex_);
   dds::Topic*& topic = topics_[spec.name];
-  if (!topic && participant->register_type(type) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
+  if (!topic && participant->register_type(type) == kOk)
     topic = participant->create_topic(spec.name, type.get_type_name(), dds::TopicQos());
   if (!topic) throw std::runtime_error(std::string("Fast DDS refused the topic ") + spec.name);
   return topic;
@@ -169,7 +156,7 @@ dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_
   dds::DataWriterQos qos;
   set_common(qos, spec);
   if (spec.deadline.count() > 0) qos.deadline().period = duration(spec.deadline);
-  qos.reliable_writer_qos().times.heartbeatPeriod = duration(kHeartbeat_ms);
+  set_heartbeat_period(qos.reliable_writer_qos().times, duration(kHeartbeat_ms));
   // a sample that fits no single message is sent by Fast DDS' own thread; smaller ones without that hop
   qos.publish_mode().kind =
       max_bytes > max_message_bytes(profile) ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;

@@ -1,6 +1,7 @@
 // The Fast DDS objects behind a participant, and how topics.h reads in Fast DDS' terms.
 #pragma once
 
+#include "transport/fast/names.h"
 #include "transport/topics.h"
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -18,8 +19,6 @@
 #include <string>
 
 namespace omentum::transport::fast {
-
-namespace dds = eprosima::fastdds::dds;
 
 /// Owns the participant; deletes everything it contains at its end.
 struct Entities {

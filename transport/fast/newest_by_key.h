@@ -4,7 +4,6 @@
 #include "transport/fast/cdr.h"
 #include "transport/topics.h"
 
-#include <array>
 #include <map>
 
 namespace omentum::transport::fast {
@@ -27,7 +26,7 @@ class NewestByKey {
   }
 
  private:
-  std::map<std::array<char, kKeyHashBytes>, M> newest_;
+  std::map<KeyHash, M> newest_;
 };
 
 }  // namespace omentum::transport::fast

@@ -13,14 +13,13 @@
 #include <atomic>
 #include <shared_mutex>
 #include <stdexcept>
+#include <type_traits>
 
 namespace omentum::transport::fast {
 
 namespace {
 
-using eprosima::fastrtps::types::ReturnCode_t;
-
-WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication) {
+WriterId writer_id(const dds::InstanceHandle_t& publication) {
   WriterId id{};
   for (std::size_t i = 0; i < id.size(); ++i) id[i] = publication.value[i];
   return id;
@@ -28,6 +27,16 @@ WriterId writer_id(const eprosima::fastrtps::rtps::InstanceHandle_t& publication
 
 // A process that stood still for so long forgot some others and not all, or they it.
 constexpr auto kForgottenAfter = std::chrono::milliseconds(std::min(kCycloneLease_ms, kFastLease_ms)) * 3 / 4;
+
+// On a LAN a block fits a datagram, whatever its type's bound. So its writer sends it, alone: Fast DDS' own
+// thread would put those that wait into one message, secured of up to 8 kB, which IP splits. Of what is split
+// the kernel keeps the rest for 30 s when a part is lost, until it has no room for any.
+template <class M>
+constexpr std::size_t largest_sample(Profile profile) {
+  constexpr bool kBlocks = std::is_same_v<M, msg::OrganState> || std::is_same_v<M, msg::OrganStress>;
+  if (kBlocks && profile == Profile::kLan) return fragment_bytes(profile);
+  return kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes;
+}
 
 template <class M>
 class FastWriter final : public Writer<M>, private Endpoint {
@@ -56,7 +65,7 @@ class FastWriter final : public Writer<M>, private Endpoint {
   void join(Entities& entities) override {
     const TopicSpec& spec = kTopicSpec<M>;
     dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    const auto qos = writer_qos(spec, entities.profile, kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes);
+    const auto qos = writer_qos(spec, entities.profile, largest_sample<M>(entities.profile));
     const std::lock_guard lock(mutex_);
     writer_ = entities.publisher->create_datawriter(topic, qos, nullptr, dds::StatusMask::none());
     if (!writer_) throw std::runtime_error(std::string("Fast DDS refused a writer of ") + spec.name);
@@ -89,7 +98,7 @@ class FastWriter final : public Writer<M>, private Endpoint {
   bool hand_over(const M& sample) {
     // serialize() and getKey() only read it
     SampleRef<M> data{const_cast<M*>(&sample)};
-    return writer_->write(&data);
+    return written(writer_->write(&data));
   }
 
   Membership& membership_;
@@ -151,8 +160,7 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     arrivals_.announce([&] { take_all(*reader); });
   }
 
-  void on_liveliness_changed(dds::DataReader*,
-                             const eprosima::fastrtps::LivelinessChangedStatus& status) override {
+  void on_liveliness_changed(dds::DataReader*, const LivelinessChangedStatus& status) override {
     counters_.liveliness_changed(status.not_alive_count_change);
   }
 
@@ -160,7 +168,7 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
     SampleRef<M> data{&message_};
     dds::SampleInfo info;
-    while (reader.take_next_sample(&data, &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader.take_next_sample(&data, &info) == kOk) {
       if (!info.valid_data) continue;
       if (!data.decoded) {
         counters_.rejected();

@@ -1,15 +1,15 @@
+#include "transport/fast/domain_names.h"
+#include "transport/fast/plain_type.h"
 #include "transport/yardstick/bare_link.h"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include <cstring>
 #include <stdexcept>
@@ -21,38 +21,30 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 
 // A ToolPose's memory is its plain CDR form: every member lies at a multiple of its own size.
-class RawPoseType final : public dds::TopicDataType {
+class RawPoseType final : public fast::PlainType {
  public:
-  static constexpr std::uint32_t kHeader = 4;
+  RawPoseType() : PlainType("omentum::msg::ToolPose", kMostBytes, sizeof(msg::ToolPose::tool)) {}
 
-  RawPoseType() {
-    setName("omentum::msg::ToolPose");
-    m_typeSize = kHeader + sizeof(msg::ToolPose);
-    m_isGetKeyDefined = true;
-  }
-  bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override {
+  std::uint32_t write(const void* pose, char* bytes, std::uint32_t) const override {
     constexpr std::uint8_t kPlainCdrLittleEndian[kHeader] = {0, 1, 0, 0};
-    std::memcpy(payload->data, kPlainCdrLittleEndian, kHeader);
-    std::memcpy(payload->data + kHeader, data, sizeof(msg::ToolPose));
-    payload->length = m_typeSize;
-    payload->encapsulation = CDR_LE;
+    std::memcpy(bytes, kPlainCdrLittleEndian, kHeader);
+    std::memcpy(bytes + kHeader, pose, sizeof(msg::ToolPose));
+    return kMostBytes;
+  }
+  bool read(char* bytes, std::uint32_t length, void* pose) const override {
+    if (length < kMostBytes) return false;
+    std::memcpy(pose, bytes + kHeader, sizeof(msg::ToolPose));
     return true;
   }
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override {
-    if (payload->length < m_typeSize) return false;
-    std::memcpy(data, payload->data + kHeader, sizeof(msg::ToolPose));
-    return true;
+  std::uint32_t bytes_of(const void*) const override { return kMostBytes; }
+  fast::KeyHash key_of(const void* pose) const override {
+    return {0, 0, 0, static_cast<char>(static_cast<const msg::ToolPose*>(pose)->tool)};
   }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
-    return [size = m_typeSize] { return size; };
-  }
-  void* createData() override { return new msg::ToolPose; }
-  void deleteData(void* data) override { delete static_cast<msg::ToolPose*>(data); }
-  bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool) override {
-    eprosima::fastrtps::rtps::octet* value = handle->value;
-    value[3] = static_cast<std::uint8_t>(static_cast<msg::ToolPose*>(data)->tool);
-    return true;
-  }
+  void* make() const override { return new msg::ToolPose; }
+  void destroy(void* pose) const override { delete static_cast<msg::ToolPose*>(pose); }
+
+ private:
+  static constexpr std::uint32_t kHeader = 4, kMostBytes = kHeader + sizeof(msg::ToolPose);
 };
 
 class BareFast final : public BareLink, private dds::DataReaderListener {
@@ -86,7 +78,7 @@ class BareFast final : public BareLink, private dds::DataReaderListener {
  private:
   static dds::DomainParticipantQos participant_qos() {
     // as ours (fast/entities.cpp), and on lo only: by default it hears no discovery there
-    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    auto udp = std::make_shared<fast::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {"127.0.0.1"};
     dds::DomainParticipantQos qos;
     qos.transport().use_builtin_transports = false;
@@ -100,7 +92,7 @@ class BareFast final : public BareLink, private dds::DataReaderListener {
 
   void on_data_available(dds::DataReader* reader) override {
     dds::SampleInfo info;
-    while (reader->take_next_sample(&pose_, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
+    while (reader->take_next_sample(&pose_, &info) == fast::kOk)
       if (info.valid_data) on_sample_(pose_);
   }
 

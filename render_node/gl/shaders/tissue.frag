@@ -71,30 +71,11 @@ const vec3 web_tint = vec3(0.20, 0.030, 0.030);
 #endif
 
 #ifdef SHEET
-// A tree of vessels: trunks at the root, each parting into two from belt to belt on its way to the gut. The belts' width, m,
-// the distance of the last branches, the half width of a branch there and how much it grows away from the gut, 1/m; an
-// artery and, beside it, a vein. Fat stands along them, lobed, and thins out in between to a reddish film.
-const float belt = 0.036, branch_spacing = 0.021, branch_width = 0.00055, branch_growth = 14.0;
-const float meander_period = 0.26, meander_reach = 0.028;
-const vec3 artery_tint = vec3(0.25, 0.035, 0.028), vein_tint = vec3(0.090, 0.034, 0.060);
-const float vein_beside = 3.4;  // half widths
-const vec3 film_tint = vec3(0.37, 0.185, 0.130);
-const float fat_reach = 0.2;    // of the way from a branch to the next
 // How much of what lies behind is hidden by film, fat and vessels, seen straight on; along the sheet light goes through more.
 const float film_hides = 0.52, fat_hides = 0.90, vessel_hides = 0.92, along_hides = 0.55;
 // Light from the other side comes through, reddened, most where there is no fat.
 const vec3 through_film = vec3(0.50, 0.33, 0.26), through_fat = vec3(0.20, 0.13, 0.07);
 const float lobe_period = 0.026, lobe_slope = 0.34, lobe_weight = 0.45;
-
-// How far along the gut a place is from the nearest branch, m, and from the next one, as the share of half their distance.
-vec2 off_branch(vec2 p) {
-  float level = clamp(floor(p.y / belt), 0.0, 4.0);
-  float parent = 2.0 * branch_spacing * exp2(level);
-  float x = (fract(p.x / parent) - 0.5) * parent;
-  float parted = level < 4.0 ? 1.0 - smoothstep(0.0, 1.0, p.y / belt - level) : 0.0;
-  float off = abs(x) - 0.25 * parent * parted;
-  return vec2(off, abs(off) / (0.25 * parent));
-}
 #endif
 
 // The pattern's share in the colour, and the tint of spots where blood stands.
@@ -162,15 +143,14 @@ void main() {
   albedo = mix(albedo, web_tint, web_share * thread * smoothstep(0.40, 0.65, mottle.a));
 #endif
 #ifdef SHEET
-  vec2 sway = vec2(texture(pattern, rest / meander_period).a, texture(pattern, rest.yxz / meander_period + 0.37).a);
-  vec2 bent = rest.xy + meander_reach * (sway - 0.5);
+  vec2 bent = rest.xy + meander_reach * (vec2(texture(pattern, sway_of(rest)).a, texture(pattern, sway_across(rest)).a) - 0.5);
   vec2 off = off_branch(bent);
-  float width = branch_width * (1.0 + branch_growth * max(0.0, rest.y));
+  float width = branch_width_at(rest.y);
   albedo *= 1.0 + lobe_weight * (lobes.a - 0.5);
   float fat = 1.0 - smoothstep(fat_reach, 1.1, off.y + 0.8 * (lobes.a - 0.5));
   albedo = mix(film_tint, albedo, fat);
-  float blur = fwidth(bent.x) + 0.0001, beside = off.x - vein_beside * width;
-  float off_vein = smoothstep(width, width + blur, abs(beside)), off_artery = smoothstep(width, width + blur, abs(off.x));
+  float blur = fwidth(bent.x) + 0.0001;
+  float off_vein = beyond(off.x - vein_beside * width, width, blur), off_artery = beyond(off.x, width, blur);
   albedo = mix(vein_tint, albedo, 0.35 + 0.65 * off_vein);
   albedo = mix(artery_tint, albedo, 0.25 + 0.75 * off_artery);
   float hides = mix(vessel_hides, mix(film_hides, fat_hides, fat), min(off_vein, off_artery));

@@ -30,16 +30,26 @@ const float contrast = 0.20;
 const float contrast = 0.38;
 #endif
 
-vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred, float pale) {
+struct Lit {
+  vec3 body, shine;  // of an albedo of 1; whatever it is
+};
+
+vec3 bleached(vec3 albedo, float pale) { return mix(albedo, sqrt(albedo), bloodless * pale); }
+
+vec3 albedo_of(vec3 at_rest, float charred, float pale) {
   float mottle = textureLod(pattern, at_rest / mottle_period, 0.0).a - 0.5;
   float fine = textureLod(pattern, at_rest / grain_period, 0.0).a - 0.5;
   float spot = 1.7 * mottle + 0.8 * fine;
   vec3 albedo = material_colour * (1.0 + contrast * spot);
   albedo = mix(albedo, albedo * blood_tint, clamp(-spot, 0.0, 1.0));
-  albedo = mix(albedo, sqrt(albedo), bloodless * pale);
+  albedo = bleached(albedo, pale);
 #ifdef CUT
   albedo = mix(albedo, burnt_tint, 0.85 * smoothstep(0.5, 1.0, charred));
 #endif
+  return albedo;
+}
+
+Lit light_on(Meeting m, vec3 p, float open) {
   vec3 w = clamp((vec3(m.nl) + creep) / (1.0 + creep), 0.0, 1.0);
   float torch = clamp(unit_length * torch_sight / distance(eye, p), 0.0, torch_most);
   vec3 light = key_colour * w * w * (1.0 + scattered * (1.0 - w)) + fill_colour * torch * m.nv;
@@ -49,7 +59,24 @@ vec3 tissue(Meeting m, vec3 p, vec3 at_rest, float open, float charred, float pa
   glint += gloss(m.n, m.v, m.v, max(material_roughness, widest_film), vec3(0.028)) * fill_colour * torch;
   float grazing = pow(1.0 - m.nv, 5.0);
   vec3 mirror = room(reflect(-m.v, m.n), 0.6) * (0.045 + 0.75 * grazing) * open * open;
-  return albedo * light * mix(vec3(1.0), kept, hollow_share) + glint * pi * open + mirror;
+  return Lit(light * mix(vec3(1.0), kept, hollow_share), glint * pi * open + mirror);
+}
+#endif
+
+#ifdef SHEET
+// Vessels are narrower than a triangle: a pixel chooses by `bent` and `width` (vertex_lit.frag) between `seen`, which is
+// fat, and these.
+out vec3 seen_film, seen_artery, seen_vein;
+out vec2 bent;    // rest.xy, swayed
+out float width;  // half of a vessel's
+
+void light_vessels(Lit lit, vec3 at_rest, float pale) {
+  seen_film = developed(bleached(film_tint, pale) * lit.body + lit.shine);
+  seen_artery = developed(bleached(artery_tint, pale) * lit.body + lit.shine);
+  seen_vein = developed(bleached(vein_tint, pale) * lit.body + lit.shine);
+  vec2 sway = vec2(textureLod(pattern, sway_of(at_rest), 0.0).a, textureLod(pattern, sway_across(at_rest), 0.0).a);
+  bent = at_rest.xy + meander_reach * (sway - 0.5);
+  width = branch_width_at(at_rest.y);
 }
 #endif
 
@@ -96,7 +123,11 @@ void light_vertex(vec3 p, vec3 n, vec3 at_rest, float open, float charred, float
   m.nl = dot(m.n, towards_key);
   m.nv = clamp(dot(m.n, m.v), 0.0, 1.0);
 #if defined(TISSUE)
-  vec3 light = tissue(m, p, at_rest, open, charred, pale);
+  Lit lit = light_on(m, p, open);
+  vec3 light = albedo_of(at_rest, charred, pale) * lit.body + lit.shine;
+#ifdef SHEET
+  light_vessels(lit, at_rest, pale);
+#endif
 #elif defined(SOLID)
   vec3 light = solid(m);
 #elif defined(GROUND)

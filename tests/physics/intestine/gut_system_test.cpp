@@ -2,6 +2,7 @@
 
 #include "geometry/gut_anatomy.h"
 #include "tests/physics/intestine/gut_shapes.h"
+#include "tests/support/effort.h"
 #include "tests/support/heap_count.h"
 
 #include <gtest/gtest.h>
@@ -251,7 +252,7 @@ TEST(GutSystem, ProbesWithoutSenseGiveItNoEnergyToKeep) {
   std::uniform_real_distribution<double> place(-0.2, 0.2);
   Vec3 at(0, 0, 0.5);
   double most_j = 0;
-  for (int motion = 0; motion < 1000; ++motion) {
+  for (int motion = 0; motion < test::tried(1000); ++motion) {
     const Vec3 to(place(generator), place(generator), std::abs(place(generator)));
     const std::array probe{MovingSphere{.before = at, .after = to, .radius_m = 0.01}};
     gut.step({.obstacles = plane, .spheres = probe});

@@ -1,0 +1,41 @@
+// Which poses are those of the tools' holders, for who shows or follows tools and answers nobody.
+#pragma once
+
+#include "node_common/tool_holder.h"
+#include "runtime/mailbox.h"
+#include "scene/scene.h"
+#include "transport/latest.h"
+
+#include <array>
+#include <memory>
+#include <string>
+
+namespace omentum::node {
+
+/// Decides as haptic_node does, from the same topics, where the scene names a tool's device; elsewhere
+/// everything counts. Hears DeviceInfo only where it has to.
+class HeldTools {
+ public:
+  HeldTools(transport::Bus& bus, const scene::Scene& scene);
+
+  /// Of ToolPose; empty where the scene names no device. This must outlive its user. For one thread at a
+  /// time.
+  transport::LatestByTool<msg::ToolPose>::Admits admits();
+
+ private:
+  struct Tool {
+    Tool(const std::string& device, std::int64_t silence_ns) : names(device), holder(silence_ns) {}
+
+    DeviceRegister names;  // the thread of DeviceInfo
+    runtime::Mailbox<KnownDevices> known;
+    ToolHolder holder;  // the thread of poses
+    std::int64_t stamp_ns = 0;
+  };
+
+  bool admits(const msg::ToolPose& pose, const transport::WriterId& writer, std::int64_t now_ns) noexcept;
+
+  std::array<std::unique_ptr<Tool>, msg::MAX_TOOLS> tools_;    // those that have a device
+  std::unique_ptr<transport::Reader<msg::DeviceInfo>> infos_;  // last: its callbacks use the tools
+};
+
+}  // namespace omentum::node

@@ -1,0 +1,89 @@
+// Who shows a tool shows the hand that holds it.
+#include "node_common/held_tools.h"
+
+#include "tests/support/fake_bus.h"
+
+#include <gtest/gtest.h>
+
+namespace omentum::node {
+namespace {
+
+constexpr transport::WriterId kGuest{0x21}, kWanted{0x42};
+constexpr std::int64_t kPeriod_ns = 1'000'000;
+
+class HeldToolsTest : public testing::Test {
+ protected:
+  static scene::Scene scene_for(const std::string& device) {
+    scene::Scene scene;
+    scene.tools.resize(2);
+    scene.tools[1].id = 3;
+    scene.tools[1].device = device;
+    return scene;
+  }
+  void begin(const std::string& device) {
+    bus_ = fake_.opener()();
+    held_ = std::make_unique<HeldTools>(*bus_, scene_for(device));
+    poses_ = std::make_unique<transport::LatestByTool<msg::ToolPose>>(
+        *bus_, std::function<void(const msg::ToolPose&)>{}, [this] { return now_ns_; }, held_->admits());
+  }
+  void introduce(const std::string& name, const transport::WriterId& writer) {
+    msg::DeviceInfo info{};
+    info.tool = 3;
+    info.name = name;
+    fake_.post(info, writer);
+  }
+  /// Poses of tool 3 for so many ms; how far each of both is away is who he is.
+  void go(int ms, std::initializer_list<transport::WriterId> writers, bool valid = true) {
+    for (int i = 0; i < ms; ++i) {
+      now_ns_ += kPeriod_ns;
+      for (const transport::WriterId& writer : writers) {
+        msg::ToolPose pose{};
+        pose.tool = 3;
+        pose.seq = ++seq_;
+        pose.stamp_ns = now_ns_;
+        pose.valid = valid;
+        pose.position.x = writer[0];
+        fake_.post(pose, writer);
+      }
+    }
+  }
+  std::optional<double> seen() {
+    transport::Arrived<msg::ToolPose> pose;
+    if (!poses_->load(3, pose) || pose.age_ns(now_ns_) > kPeriod_ns) return std::nullopt;
+    return pose.sample.position.x;
+  }
+
+  test::FakeBus fake_;
+  std::int64_t now_ns_ = kPeriod_ns;
+  std::uint64_t seq_ = 0;
+  std::unique_ptr<transport::Bus> bus_;
+  std::unique_ptr<HeldTools> held_;
+  std::unique_ptr<transport::LatestByTool<msg::ToolPose>> poses_;
+};
+
+TEST_F(HeldToolsTest, TheScenesDeviceIsSeenWhoeverElseMovesTheTool) {
+  begin("omega");
+  go(10, {kGuest});
+  EXPECT_EQ(seen(), kGuest[0]) << "nobody else is there";
+  introduce("omega", kWanted);
+  go(100, {kWanted, kGuest});
+  EXPECT_EQ(seen(), kWanted[0]) << "the last pose is the guest's, and it does not count";
+  go(10, {kGuest}, false);
+  go(1, {kWanted});
+  EXPECT_EQ(seen(), kWanted[0]);
+  fake_.leave<msg::DeviceInfo>(kWanted);
+  go(60, {kGuest});
+  EXPECT_EQ(seen(), kGuest[0]);
+}
+
+TEST_F(HeldToolsTest, WhereTheSceneNamesNoDeviceEverythingCounts) {
+  begin("");
+  EXPECT_FALSE(held_->admits());
+  go(10, {kWanted, kGuest});
+  EXPECT_EQ(seen(), kGuest[0]);
+  go(1, {kGuest, kWanted});
+  EXPECT_EQ(seen(), kWanted[0]);
+}
+
+}  // namespace
+}  // namespace omentum::node
