@@ -7,7 +7,7 @@ namespace omentum::render {
 namespace {
 
 std::string force_words(double newton) {
-  return newton < 1 ? format("%.3g mN", 1e3 * newton) : format("%.2f N", newton);
+  return newton < 1 ? format("%.3g mN", 1e3 * newton) : format("%.3g N", newton);
 }
 
 // A square of each band's colour, and between two the force that parts them.

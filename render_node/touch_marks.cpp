@@ -21,7 +21,7 @@ Vec3f other_of(const msg::TouchingPair& pair) {
 }
 
 // From other to one; of two with one middle any will do.
-Vec3f along(const msg::TouchingPair& pair) {
+Vec3f towards_one(const msg::TouchingPair& pair) {
   const Vec3f way = one_of(pair) - other_of(pair);
   const float length = way.norm();
   return length > 0 ? Vec3f(way / length) : Vec3f::UnitZ();
@@ -43,7 +43,7 @@ void add_octahedron(const Vec3f& middle, const std::array<Vec3f, 3>& axes, MeshD
 }
 
 void add_mark(const msg::TouchingPair& pair, MeshData& mesh) {
-  const Vec3f n = along(pair), place = touch_place(pair);
+  const Vec3f n = towards_one(pair), place = touch_place(pair);
   const Vec3f u = n.unitOrthogonal(), v = n.cross(u);
   const float thin = std::min(pair.radius_one, pair.radius_other);
   const float dot = kDotRadius * thin, rod = kRodRadius * thin;
@@ -68,7 +68,7 @@ const std::array<Vec3f, kTouchBands>& touch_colours() {
 
 Vec3f touch_place(const msg::TouchingPair& pair) {
   const float overlap = pair.radius_one + pair.radius_other - (one_of(pair) - other_of(pair)).norm();
-  return other_of(pair) + (pair.radius_other - overlap / 2) * along(pair);
+  return other_of(pair) + (pair.radius_other - overlap / 2) * towards_one(pair);
 }
 
 void TouchMarks::show(std::span<const msg::TouchingPair> pairs) {

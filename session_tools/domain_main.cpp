@@ -69,7 +69,9 @@ void run(const transport::BusOptions& options) {
 
 int main(int argc, char** argv) {
   runtime::CommandLine line("omentum_domain", "Claims a DDS domain on the network for a session.");
-  runtime::LinkOptions link{.dds = "cyclone", .profile = "lan"};
+  runtime::LinkOptions link;
+  link.dds = "cyclone";
+  link.profile = "lan";
   runtime::add_link_options(line, link);
   return line.run(argc, argv, [&] { run(node::bus_options(link, "omentum_domain")); });
 }

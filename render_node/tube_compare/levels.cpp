@@ -9,6 +9,7 @@
 #include "render_node/tube_frames.h"
 #include "render_node/tube_resolution.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace omentum::render::trial {

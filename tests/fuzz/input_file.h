@@ -7,7 +7,8 @@
 
 namespace omentum::fuzz {
 
-/// A file in memory, there while this lives.
+/// A temporary file, there while this lives. It has a name: HDF5 opens none that was unlinked or never had
+/// one.
 class InputFile {
  public:
   explicit InputFile(std::string_view contents);
@@ -15,10 +16,10 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+  const std::filesystem::path& path() const { return path_; }
 
  private:
-  int descriptor_;
+  std::filesystem::path path_;
 };
 
 /// A refusal names the file and is one line.

@@ -102,7 +102,7 @@ TEST_F(TouchViewTest, APairIsMarkedBetweenItsPartsInItsForcesColour) {
   for (const Vertex& vertex : renderer_.mesh_of(items[1]).vertices) {
     EXPECT_GE(vertex.position.x(), 0.2f) << "not beyond the parts' middles";
     EXPECT_LE(vertex.position.x(), 0.218f);
-    EXPECT_LT(vertex.position.tail<2>().norm(), 0.002f);
+    EXPECT_LT(vertex.position.tail<2>().norm(), 0.0021f);
   }
   EXPECT_EQ(view_.row().count, 3U);
   EXPECT_FLOAT_EQ(static_cast<float>(view_.row().hardest_n), 0.5f);

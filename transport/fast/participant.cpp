@@ -33,7 +33,8 @@ constexpr auto kForgottenAfter = std::chrono::milliseconds(std::min(kCycloneLeas
 // the kernel keeps the rest for 30 s when a part is lost, until it has no room for any.
 template <class M>
 constexpr std::size_t largest_sample(Profile profile) {
-  constexpr bool kBlocks = std::is_same_v<M, msg::OrganState> || std::is_same_v<M, msg::OrganStress>;
+  constexpr bool kBlocks = std::is_same_v<M, msg::OrganState> || std::is_same_v<M, msg::OrganStress> ||
+                           std::is_same_v<M, msg::TouchingPairs>;
   if (kBlocks && profile == Profile::kLan) return fragment_bytes(profile);
   return kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes;
 }
