@@ -9,7 +9,7 @@ namespace omentum::node {
 namespace {
 
 constexpr transport::WriterId kGuest{0x21}, kWanted{0x42};
-constexpr std::int64_t kPeriod_ns = 1'000'000;
+constexpr std::int64_t kPosePeriod_ns = 1'000'000;
 
 class HeldToolsTest : public testing::Test {
  protected:
@@ -35,7 +35,7 @@ class HeldToolsTest : public testing::Test {
   /// Poses of tool 3 for so many ms; how far each of both is away is who he is.
   void go(int ms, std::initializer_list<transport::WriterId> writers, bool valid = true) {
     for (int i = 0; i < ms; ++i) {
-      now_ns_ += kPeriod_ns;
+      now_ns_ += kPosePeriod_ns;
       for (const transport::WriterId& writer : writers) {
         msg::ToolPose pose{};
         pose.tool = 3;
@@ -49,12 +49,12 @@ class HeldToolsTest : public testing::Test {
   }
   std::optional<double> seen() {
     transport::Arrived<msg::ToolPose> pose;
-    if (!poses_->load(3, pose) || pose.age_ns(now_ns_) > kPeriod_ns) return std::nullopt;
+    if (!poses_->load(3, pose) || pose.age_ns(now_ns_) > kPosePeriod_ns) return std::nullopt;
     return pose.sample.position.x;
   }
 
   test::FakeBus fake_;
-  std::int64_t now_ns_ = kPeriod_ns;
+  std::int64_t now_ns_ = kPosePeriod_ns;
   std::uint64_t seq_ = 0;
   std::unique_ptr<transport::Bus> bus_;
   std::unique_ptr<HeldTools> held_;
