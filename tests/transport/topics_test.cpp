@@ -26,7 +26,7 @@ TEST(Topics, NamesCarryTheProtocolVersionAndTheMessage) {
     EXPECT_EQ(kTopicSpec<M>.name, expected);
     names.insert(kTopicSpec<M>.name);
   });
-  EXPECT_EQ(names.size(), 12U);
+  EXPECT_EQ(names.size(), 13U);
 }
 
 TEST(Topics, WhatALateJoinerNeedsIsDurable) {
