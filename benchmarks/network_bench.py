@@ -55,6 +55,13 @@ def chosen_rows(patterns):
     return [row for row in all_rows() if not patterns or any(meant(row, pattern) for pattern in patterns)]
 
 
+def positive(text):
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a number of seconds above 0")
+    return value
+
+
 # the figures
 def entry(name, value, unit, reference):
     made = {"name": name, "value": value, "unit": unit, "reference": reference}
@@ -177,7 +184,7 @@ def main():
     parser = argparse.ArgumentParser(prog="network_bench", description=__doc__.split("\n", 1)[0])
     parser.add_argument("--rows", nargs="+", default=[], metavar="ROW",
                         help="WAY/VENDORS/KEYS (* is any), or one of the three words; --list says which (default: all)")
-    parser.add_argument("--seconds", type=float, default=14.0, metavar="N", help="that a row's hand is there (default: 14)")
+    parser.add_argument("--seconds", type=positive, default=14.0, metavar="N", help="that a row's hand is there (default: 14)")
     parser.add_argument("--list", action="store_true", help="say which rows there are, and end")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="write the figures there")
     arguments = parser.parse_args()

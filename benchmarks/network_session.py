@@ -98,12 +98,15 @@ class Pings:
         """What each found, by its name."""
         for process in self.running.values():
             process.stdin.close()
-        found = {name: json.loads(process.stdout.read()) for name, process in self.running.items()}
+        said = {name: process.stdout.read() for name, process in self.running.items()}
         for process in (*self.running.values(), *self.echoes.values()):
             process.stdin.close()
             process.wait()
             process.stdout.close()
-        return found
+        try:
+            return {name: json.loads(text) for name, text in said.items()}
+        except json.JSONDecodeError as error:
+            raise RuntimeError("udp_ping ended without its figures") from error
 
 
 def end(nodes):
@@ -145,8 +148,10 @@ def play(programs, scene, way, vendors, seconds, folder, keystore=None):
             pings.start()
             time.sleep(seconds)
         finally:
-            pinged = pings.end()
-            stuck = end(nodes)
+            try:
+                pinged = pings.end()
+            finally:
+                stuck = end(nodes)
     failed = [name for name, process in nodes.items() if process.returncode != 0]
     if failed or stuck:
         name = (failed or stuck)[0]

@@ -39,8 +39,8 @@ class OrganCollision {
     std::span<const physics::Touch> touches{};
   };
   static constexpr std::size_t kMostTouches = 1024;  // of two organs
-  /// After run(), in each tick while somebody wants to know: takes down who touched whom in it, which has
-  /// lasted `tick_s`; of two that wait for a step, in the newest one of theirs.
+  /// After run(), in each tick: takes down who touched whom in it, which has lasted `tick_s`; of two that
+  /// wait for a step, in the newest one of theirs.
   void note_touches(double tick_s) noexcept;
   std::size_t couple_count() const noexcept { return couples_.size(); }
   Met met(std::size_t couple) const noexcept;

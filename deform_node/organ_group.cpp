@@ -35,7 +35,7 @@ void OrganGroup::step(ContactBook& book, double dt_s) noexcept {
     organs_[organ].model->step({.presses = book.loads(i), .cuts = book.cuts(i)}, dt_s);
   });
   if (!collision_.run()) faults_.raise("organs meet in more places than there is room for");
-  if (notes_touches_) collision_.note_touches(dt_s);
+  collision_.note_touches(dt_s);
   for (std::uint32_t i = 0; i < organs_.size(); ++i) {
     heed(i, book);
     book.now_at(i, organs_[i].model->view().topology_version);

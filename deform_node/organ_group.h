@@ -30,8 +30,6 @@ class OrganGroup {
   void take_up(const std::vector<OrganCuts>& cuts, ContactBook& book) noexcept;
 
   const std::vector<ServedOrgan>& organs() const { return organs_; }
-  /// Whether steps from the next one on take down which organs touch which (OrganCollision::met).
-  void note_touches(bool wanted) noexcept { notes_touches_ = wanted; }
   const OrganCollision& collision() const noexcept { return collision_; }
   /// Over all organs.
   std::uint64_t steps() const;
@@ -50,7 +48,6 @@ class OrganGroup {
   runtime::FaultList& faults_;
   runtime::Crew crew_;
   OrganCollision collision_;
-  bool notes_touches_ = false;
 };
 
 }  // namespace omentum::deform

@@ -1,6 +1,7 @@
 // Where organs touch one another: what OrganCollision tells of its newest tick.
 #include "deform_node/organ_collision.h"
 
+#include <cmath>
 #include <utility>
 
 namespace omentum::deform {
@@ -20,13 +21,14 @@ void OrganCollision::note_touches(Couple& couple, double lasted_s) noexcept {
     const Pair& pair = couple.pairs[i];
     const bool is_touching = pair.pushed > 0 || couple.of_one[i].depth_m > 0;
     if (!is_touching || couple.touches.size() == couple.touches.capacity()) continue;
+    const double push_n = lasted_s > 0 ? pair.pushed * pair.weight_kg / lasted_s : 0;
     const CollisionSphere& one = couple.one->spheres[static_cast<std::size_t>(pair.one)];
     const CollisionSphere& other = couple.other->spheres[static_cast<std::size_t>(pair.other)];
     couple.touches.push_back({.one = one.centre,
                               .other = other.centre,
                               .radius_one_m = one.radius_m,
                               .radius_other_m = other.radius_m,
-                              .push_n = lasted_s > 0 ? pair.pushed * pair.weight_kg / lasted_s : 0});
+                              .push_n = std::isfinite(push_n) ? push_n : 0});
   }
 }
 

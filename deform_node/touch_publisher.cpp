@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace omentum::deform {
 
@@ -28,10 +27,8 @@ TouchPublisher::TouchPublisher(transport::Writer<msg::TouchingPairs>& writer, Or
 
 void TouchPublisher::offer(const StateMark& state) noexcept {
   const bool is_read = is_read_.load(std::memory_order_relaxed);
-  const bool noted = std::exchange(noted_, is_read);
-  organs_.note_touches(is_read);
   if (ticks_++ % ticks_per_moment_ != 0) return;
-  if (is_read && noted) {
+  if (is_read) {
     Offered& draft = newest_.draft();
     draft.state = state;
     draft.parts.take(organs_);

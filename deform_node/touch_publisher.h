@@ -36,7 +36,6 @@ class TouchPublisher {
   OrganGroup& organs_;
   std::size_t pairs_per_block_;
   std::uint64_t ticks_ = 0, ticks_per_moment_;
-  bool noted_ = false;  // the newest step was asked to
   runtime::Mailbox<Offered> newest_;
   std::atomic<bool> is_read_ = false;
   std::atomic<std::uint64_t> told_ = 0;

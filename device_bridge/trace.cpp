@@ -153,6 +153,9 @@ Measurement at_rest(const TracePoint& point) {
   return {.valid = true, .position = point.position, .orientation = point.orientation, .grip = point.grip};
 }
 
+// Behind the newest valid pose, where invalid ones begin.
+constexpr std::int64_t kReleasedAfter_ns = 1'000;
+
 void write_pose(std::ostream& out, const msg::ToolPose& pose, std::int64_t begin_ns) {
   const auto& [p, q] = std::tie(pose.position, pose.orientation);
   std::array<char, 256> line{};
@@ -187,12 +190,19 @@ Measurement trace_at(const Trace& trace, double t_s) noexcept {
 
 TraceLog::TraceLog(const std::filesystem::path& file)
     : SampleLog(file, std::string(kHeader) + ",tool,buttons",
-                [begin_ns = std::int64_t{-1}, newest_ns = std::array<std::int64_t, msg::MAX_TOOLS>{}](
+                [begin_ns = std::int64_t{-1}, newest = std::array<msg::ToolPose, msg::MAX_TOOLS>{}](
                     std::ostream& out, std::uint64_t, const msg::ToolPose& pose) mutable {
-                  if (!pose.valid || pose.stamp_ns <= newest_ns.at(pose.tool)) return;
+                  msg::ToolPose& known = newest.at(pose.tool);
+                  if (pose.valid ? pose.stamp_ns <= known.stamp_ns : known.buttons == 0) return;
                   if (begin_ns < 0) begin_ns = pose.stamp_ns;
-                  newest_ns[pose.tool] = pose.stamp_ns;
-                  write_pose(out, pose, begin_ns);
+                  const std::int64_t released_ns = known.stamp_ns + kReleasedAfter_ns;
+                  if (pose.valid) {
+                    known = pose;
+                  } else {
+                    known.buttons = 0;
+                    known.stamp_ns = released_ns;
+                  }
+                  write_pose(out, known, begin_ns);
                 }) {}
 
 }  // namespace omentum::device

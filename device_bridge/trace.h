@@ -36,7 +36,8 @@ std::map<std::uint32_t, Trace> read_trace(const std::filesystem::path& file);
 Measurement trace_at(const Trace& trace, double t_s) noexcept;
 
 /// Writes valid poses as a trace that read_trace reads, with tool and buttons; times count from the first
-/// pose. A measurement that was sent again is written once.
+/// pose. A measurement that was sent again is written once. Where poses begin to be invalid all buttons are
+/// let go: what is pressed is pressed until the next point.
 class TraceLog : public runtime::SampleLog<msg::ToolPose> {
  public:
   /// Throws std::runtime_error when `file` cannot be written.

@@ -1,5 +1,7 @@
 #include "haptic_node/pose_guard.h"
 
+#include "node_common/pose_form.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,22 +9,9 @@
 namespace omentum::haptic {
 namespace {
 
-// A quaternion off by this has gone through more than rounding and normalizing.
-constexpr double kUnitTolerance = 1e-3;
 // Noise that any tracker may have between two samples, m and rad.
 constexpr double kPlaceNoise_m = 1e-3;
 constexpr double kTurnNoise_rad = 0.02;
-
-bool finite(const msg::Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool finite(const msg::ToolPose& pose) {
-  const msg::Quat& q = pose.orientation;
-  return finite(pose.position) && finite(pose.linear_velocity) && finite(pose.angular_velocity) &&
-         std::isfinite(pose.grip) && std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) &&
-         std::isfinite(q.z);
-}
 
 double distance(const msg::Vec3& a, const msg::Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
@@ -56,7 +45,7 @@ const char* describe(PoseVerdict verdict) {
     case PoseVerdict::kJump:
       return "jumps farther than an instrument moves";
     case PoseVerdict::kForeign:
-      return "another device holds the tool";
+      return "the tool is another device's";
   }
   return "unknown";
 }
@@ -69,11 +58,16 @@ std::int64_t stamp_difference_ns(std::int64_t earlier_ns, std::int64_t later_ns)
 }
 
 PoseVerdict PoseGuard::form(const msg::ToolPose& pose) noexcept {
-  if (!pose.valid) return PoseVerdict::kInvalid;
-  if (!finite(pose)) return PoseVerdict::kNotFinite;
-  const msg::Quat& q = pose.orientation;
-  const double length = std::hypot(std::hypot(q.w, q.x), std::hypot(q.y, q.z));
-  if (std::abs(length - 1) > kUnitTolerance) return PoseVerdict::kNotARotation;
+  switch (node::form_of(pose)) {
+    case node::PoseForm::kInvalid:
+      return PoseVerdict::kInvalid;
+    case node::PoseForm::kNotFinite:
+      return PoseVerdict::kNotFinite;
+    case node::PoseForm::kNotARotation:
+      return PoseVerdict::kNotARotation;
+    case node::PoseForm::kWell:
+      break;
+  }
   return PoseVerdict::kAccepted;
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Prepares and runs one session; launch_scripts/run calls it when everything is built."""
 import os
+import shutil
 import signal
 import sys
 
@@ -32,8 +33,9 @@ def run(arguments):
     if chosen.prepare_only:
         print(f"run: {scene}")
         return 0
-    if chosen.keystore == options.OWN_KEYSTORE and not chosen.keystore.exists():
+    if chosen.keystore == options.OWN_KEYSTORE and not keystore.is_current(chosen.keystore):
         print("run: making keys for --secure", flush=True)
+        shutil.rmtree(chosen.keystore, ignore_errors=True)
         keystore.make(chosen.keystore)
     hosts = Hosts(chosen.hosts)
     try:

@@ -1,5 +1,7 @@
 #include "node_common/held_tools.h"
 
+#include "node_common/pose_form.h"
+
 namespace omentum::node {
 
 HeldTools::HeldTools(transport::Bus& bus, const scene::Scene& scene) {
@@ -33,20 +35,22 @@ transport::LatestByTool<msg::ToolPose>::Admits HeldTools::admits() {
   };
 }
 
-bool HeldTools::admits(const msg::ToolPose& pose, const transport::WriterId& writer,
-                       std::int64_t now_ns) noexcept {
-  if (pose.tool >= tools_.size() || !tools_[pose.tool]) return true;
+transport::Admission HeldTools::admits(const msg::ToolPose& pose, const transport::WriterId& writer,
+                                       std::int64_t now_ns) noexcept {
+  using transport::Admission;
+  if (pose.tool >= tools_.size() || !tools_[pose.tool]) return Admission::kContinues;
   Tool& tool = *tools_[pose.tool];
   const transport::ParticipantId who = transport::participant_of(writer);
-  // that a device has no measurement is its own tool's affair, and takes nobody's
-  if (!pose.valid) return !tool.holder.holder() || tool.holder.holder() == who;
+  // one that is none by itself takes nobody's tool
+  if (form_of(pose) != PoseForm::kWell)
+    return !tool.holder.holder() || tool.holder.holder() == who ? Admission::kContinues : Admission::kRefused;
   tool.known.fetch();
   const PoseRight right = tool.holder.judge(who, now_ns, tool.known.value());
-  if (right != PoseRight::kHolds && right != PoseRight::kTakes) return false;
+  if (right != PoseRight::kHolds && right != PoseRight::kTakes) return Admission::kRefused;
   // one that is sent again was not measured anew
   if (right == PoseRight::kTakes || pose.stamp_ns != tool.stamp_ns) tool.holder.heard(now_ns);
   tool.stamp_ns = pose.stamp_ns;
-  return true;
+  return right == PoseRight::kTakes ? Admission::kBegins : Admission::kContinues;
 }
 
 }  // namespace omentum::node

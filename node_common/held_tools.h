@@ -32,7 +32,8 @@ class HeldTools {
     std::int64_t stamp_ns = 0;
   };
 
-  bool admits(const msg::ToolPose& pose, const transport::WriterId& writer, std::int64_t now_ns) noexcept;
+  transport::Admission admits(const msg::ToolPose& pose, const transport::WriterId& writer,
+                              std::int64_t now_ns) noexcept;
 
   std::array<std::unique_ptr<Tool>, msg::MAX_TOOLS> tools_;    // those that have a device
   std::unique_ptr<transport::Reader<msg::DeviceInfo>> infos_;  // last: its callbacks use the tools

@@ -23,7 +23,8 @@ nlohmann::json to_json(const LoopRecord& record, double rate_hz) {
 }
 
 void write_report(const nlohmann::json& report, const std::filesystem::path& file) {
-  files::write_whole(file, report.dump(2) + '\n');
+  // texts that came from elsewhere may be of any bytes
+  files::write_whole(file, report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace omentum::runtime

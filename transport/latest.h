@@ -71,7 +71,8 @@ struct SequenceCounters {
   std::uint64_t lost = 0;          // numbers that were skipped
   std::uint64_t duplicates = 0;    // the newest number again; dropped
   std::uint64_t out_of_order = 0;  // an older number; dropped
-  std::uint64_t restarts = 0;      // an older number after a silence: the sender began anew; accepted
+  std::uint64_t restarts =
+      0;  // an older number after a silence, or another sender's: it began anew; accepted
 };
 
 /// Decides which samples of one tool are new. accept() is for one thread, counters() for any.
@@ -81,10 +82,12 @@ class SequenceTracker {
   /// restarted sender after it: networks do not reorder across 100 ms, and no process restarts within.
   static constexpr std::int64_t kRestartSilence_ns = 100'000'000;
 
-  /// Whether the sample is newer than all before it. now_ns: when it arrived, on any steady clock.
-  bool accept(std::uint64_t seq, std::int64_t now_ns) noexcept {
+  /// Whether the sample is newer than all before it. now_ns: when it arrived, on any steady clock. `begins`:
+  /// another sender's first, whatever its number.
+  bool accept(std::uint64_t seq, std::int64_t now_ns, bool begins = false) noexcept {
     const bool first = received_.load(std::memory_order_relaxed) == 0;
-    const bool restarted = !first && seq < newest_seq_ && now_ns - newest_ns_ > kRestartSilence_ns;
+    const bool is_older_after_silence = seq < newest_seq_ && now_ns - newest_ns_ > kRestartSilence_ns;
+    const bool restarted = !first && (begins || is_older_after_silence);
     if (!first && !restarted && seq <= newest_seq_) {
       count(seq == newest_seq_ ? duplicates_ : out_of_order_, 1);
       return false;
@@ -121,13 +124,20 @@ struct Arrived {
   std::int64_t age_ns(std::int64_t now_ns) const noexcept { return now_ns - arrived_ns; }
 };
 
+/// What becomes of a writer's sample.
+enum class Admission : std::uint8_t {
+  kRefused,
+  kContinues,
+  kBegins,  // the first one of a writer that goes on where another one was
+};
+
 /// Reads a topic whose samples have `tool` and `seq` (ToolPose, ToolForce) and keeps each tool's newest.
 /// Duplicates and late samples are dropped; tools from msg::MAX_TOOLS on are ignored.
 template <class M>
 class LatestByTool {
  public:
   /// Whether a sample of this writer counts, ns on the clock.
-  using Admits = std::function<bool(const M&, const WriterId&, std::int64_t)>;
+  using Admits = std::function<Admission(const M&, const WriterId&, std::int64_t)>;
 
   /// on_arrival (may be empty) is called on the vendor's thread, after the sample can be loaded; neither it
   /// nor the clock (ns, steady) may block, nor `admits` (empty: all count), which is asked before.
@@ -163,8 +173,10 @@ class LatestByTool {
 
   void take(const M& sample, const WriterId& writer) {
     const std::int64_t now_ns = clock_();
-    if (admits_ && !admits_(sample, writer, now_ns)) return;
-    if (sample.tool >= tools_.size() || !tools_[sample.tool].sequence.accept(sample.seq, now_ns)) return;
+    const Admission admission = admits_ ? admits_(sample, writer, now_ns) : Admission::kContinues;
+    if (admission == Admission::kRefused || sample.tool >= tools_.size()) return;
+    const bool begins = admission == Admission::kBegins;
+    if (!tools_[sample.tool].sequence.accept(sample.seq, now_ns, begins)) return;
     tools_[sample.tool].newest.store({sample, now_ns});
     if (on_arrival_) on_arrival_(sample);
   }

@@ -3,6 +3,7 @@
     KEYSTORE/identity_ca.pem, permissions_ca.pem, governance.p7s    of all machines
     KEYSTORE/VENDOR/ROLE/cert.pem, key.pem, permissions.p7s         of the machines that play the role
     KEYSTORE/authority/                                             the keys that sign: of no machine in a session
+    KEYSTORE/rights                                                 a hash of what all roles may, for is_current
 
 A role is the name with which a program joins. transport/keystore.h reads what is written here.
 """
@@ -59,6 +60,18 @@ GOVERNANCE = f"""<?xml version="1.0" encoding="UTF-8"?>
   </topic_rule></topic_access_rules>
 </domain_rule></domain_access_rules></dds>
 """
+
+
+def hash_of_rights():
+    return hashlib.sha256(repr((GOVERNANCE, sorted(ROLES.items()), DEVICE)).encode()).hexdigest() + "\n"
+
+
+def is_current(folder):
+    """Whether a key store gives each role what its program writes and reads today."""
+    try:
+        return (pathlib.Path(folder) / "rights").read_text(encoding="ascii") == hash_of_rights()
+    except (OSError, UnicodeDecodeError):
+        return False
 
 
 def permissions(subject, rights, first, last):
@@ -169,6 +182,7 @@ def write_into(folder, devices, days):
             new_key(own / "key.pem")
             identity.certify(subject, own / "key.pem", own / "cert.pem")
             permission.sign(permissions(subject, rights, first, last), own / "permissions.p7s")
+    (folder / "rights").write_text(hash_of_rights(), encoding="ascii")
 
 
 def make(folder, devices=(), days=VALID_DAYS):

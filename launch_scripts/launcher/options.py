@@ -5,7 +5,7 @@ import pathlib
 import tomllib
 from dataclasses import dataclass, field
 
-from . import host_table
+from . import host_table, keystore
 from .errors import Refusal
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
@@ -155,6 +155,9 @@ def parse_keystore(secure, given):
         raise Refusal("--keystore is for --secure, which is missing")
     if given and not pathlib.Path(given).is_dir():
         raise Refusal(f"--keystore: {given}: no such folder; launch_scripts/make_keystore {given} makes it")
+    if given and not keystore.is_current(given):
+        raise Refusal(f"--keystore: {given}: was made for other topics than the programs have now; make a new one with "
+                      "launch_scripts/make_keystore")
     return pathlib.Path(given).resolve() if given else OWN_KEYSTORE if secure else None
 
 

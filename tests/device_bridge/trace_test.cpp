@@ -86,7 +86,11 @@ TEST_F(TraceFile, WhatWasRecordedIsReadBack) {
   }
   const auto traces = read_trace(file);
   ASSERT_EQ(traces.size(), 2u);
-  EXPECT_EQ(traces.at(0).size(), 149u);  // the invalid one is left out
+  EXPECT_EQ(traces.at(0).size(), 150u);  // for the invalid one the buttons are let go
+  EXPECT_EQ(traces.at(0)[2].buttons, 0x80000001U);
+  EXPECT_NEAR(traces.at(0)[3].t_s, 4 * 0.0005 + 1e-6, 1e-9);
+  EXPECT_EQ(traces.at(0)[3].position, traces.at(0)[2].position);
+  EXPECT_EQ(traces.at(0)[3].buttons, 0U);
   EXPECT_EQ(traces.at(1).size(), 150u);
   const TracePoint& point = traces.at(1)[2];  // i = 5
   EXPECT_NEAR(point.t_s, 5 * 0.0005, 1e-9);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace omentum::node {
 namespace {
 
@@ -32,16 +34,21 @@ class HeldToolsTest : public testing::Test {
     info.name = name;
     fake_.post(info, writer);
   }
+  static msg::ToolPose well() {
+    msg::ToolPose pose{};
+    pose.valid = true;
+    pose.orientation.w = 1;
+    return pose;
+  }
   /// Poses of tool 3 for so many ms; how far each of both is away is who he is.
-  void go(int ms, std::initializer_list<transport::WriterId> writers, bool valid = true) {
+  void go(int ms, std::initializer_list<transport::WriterId> writers, const msg::ToolPose& like = well()) {
     for (int i = 0; i < ms; ++i) {
       now_ns_ += kPosePeriod_ns;
       for (const transport::WriterId& writer : writers) {
-        msg::ToolPose pose{};
+        msg::ToolPose pose = like;
         pose.tool = 3;
-        pose.seq = ++seq_;
+        pose.seq = ++seq_[writer[0]];
         pose.stamp_ns = now_ns_;
-        pose.valid = valid;
         pose.position.x = writer[0];
         fake_.post(pose, writer);
       }
@@ -55,7 +62,7 @@ class HeldToolsTest : public testing::Test {
 
   test::FakeBus fake_;
   std::int64_t now_ns_ = kPosePeriod_ns;
-  std::uint64_t seq_ = 0;
+  std::map<std::uint8_t, std::uint64_t> seq_{{kGuest[0], 1000}};  // each counts for himself
   std::unique_ptr<transport::Bus> bus_;
   std::unique_ptr<HeldTools> held_;
   std::unique_ptr<transport::LatestByTool<msg::ToolPose>> poses_;
@@ -68,12 +75,35 @@ TEST_F(HeldToolsTest, TheScenesDeviceIsSeenWhoeverElseMovesTheTool) {
   introduce("omega", kWanted);
   go(100, {kWanted, kGuest});
   EXPECT_EQ(seen(), kWanted[0]) << "the last pose is the guest's, and it does not count";
-  go(10, {kGuest}, false);
+  msg::ToolPose invalid = well();
+  invalid.valid = false;
+  go(10, {kGuest}, invalid);
   go(1, {kWanted});
   EXPECT_EQ(seen(), kWanted[0]);
   fake_.leave<msg::DeviceInfo>(kWanted);
   go(60, {kGuest});
   EXPECT_EQ(seen(), kGuest[0]);
+}
+
+TEST_F(HeldToolsTest, WhoSendsNoPosesTakesNoTool) {
+  begin("omega");
+  go(10, {kGuest});
+  introduce("omega", kWanted);
+  msg::ToolPose before_calibration = well();
+  before_calibration.orientation = {0, 0, 0, 0};
+  for (int i = 0; i < 100; ++i) {
+    go(1, {kWanted}, before_calibration);
+    go(1, {kGuest});
+  }
+  EXPECT_EQ(seen(), kGuest[0]);
+}
+
+TEST_F(HeldToolsTest, AHandThatCountsLowerIsSeenAsSoonAsItHasTheTool) {
+  begin("omega");
+  go(10, {kGuest});
+  introduce("omega", kWanted);
+  go(60, {kWanted});
+  EXPECT_EQ(seen(), kWanted[0]);
 }
 
 TEST_F(HeldToolsTest, WhereTheSceneNamesNoDeviceEverythingCounts) {

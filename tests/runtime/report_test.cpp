@@ -36,6 +36,13 @@ TEST(Report, HoldsExactlyTheFieldsOfTheContract) {
   EXPECT_EQ(json["period_us"]["count"], 1);
 }
 
+TEST(Report, OfATextOfAnyBytesIsWritten) {
+  const auto file = empty_folder("report_bytes_test") / "report.json";
+  write_report({{"name", "exampl\xe9"}}, file);
+  std::ifstream in(file);
+  EXPECT_EQ(nlohmann::json::parse(in)["name"], "exampl\xef\xbf\xbd");
+}
+
 TEST(Report, ReplacesAnOlderOneAndLeavesNoDraft) {
   const auto folder = empty_folder("report_test");
   write_report({{"run", 1}}, folder / "report.json");

@@ -10,8 +10,11 @@ import shutil
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 MAKE, FOLDER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+sys.path.insert(0, str(MAKE.parent))
+from launcher import keystore  # noqa: E402
 DEVICE = "an_arm"
 
 
@@ -38,6 +41,12 @@ def der_subject(certificate):
 
 
 class Keystore(unittest.TestCase):
+    def test_one_that_was_made_for_other_topics_is_known(self):
+        self.assertTrue(keystore.is_current(FOLDER / "ours"))
+        with unittest.mock.patch.dict(keystore.ROLES, {"omentum_domain": ("node_status", "")}):
+            self.assertFalse(keystore.is_current(FOLDER / "ours"))
+        self.assertFalse(keystore.is_current(FOLDER / "none"))
+
     def test_every_key_is_its_owners_alone(self):
         keys = [*(FOLDER / "ours").rglob("key.pem"), *(FOLDER / "ours" / "authority").glob("*.key")]
         self.assertGreater(len(keys), 10)

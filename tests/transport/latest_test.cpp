@@ -37,6 +37,16 @@ TEST(SequenceTracker, DropsDuplicatesAndLateSamples) {
   EXPECT_EQ(tracker.counters().lost, 0U);
 }
 
+TEST(SequenceTracker, AnotherSendersFirstIsNewWhateverItsNumber) {
+  SequenceTracker tracker;
+  EXPECT_TRUE(tracker.accept(1000, 0));
+  EXPECT_TRUE(tracker.accept(5, 1, true));
+  EXPECT_FALSE(tracker.accept(4, 2));
+  EXPECT_TRUE(tracker.accept(9000, 3, true));
+  EXPECT_EQ(tracker.counters().lost, 0u);
+  EXPECT_EQ(tracker.counters().restarts, 2u);
+}
+
 TEST(SequenceTracker, ASmallerNumberAfterASilenceIsARestartedSender) {
   SequenceTracker tracker;
   tracker.accept(1000, 0);
