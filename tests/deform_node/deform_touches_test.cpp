@@ -176,8 +176,6 @@ TEST_F(TouchPublisherTest, TellsAMomentInBlocksOnlyToWhoReads) {
   tick(2);
   EXPECT_THAT(written_.all(), IsEmpty()) << "only now it is known that somebody reads";
   tick(3);
-  EXPECT_THAT(written_.all(), IsEmpty()) << "the step before was not asked to take touches down";
-  tick(4);
   const std::size_t heap = test::heap_allocations();
   TouchingParts parts(4000);
   const std::size_t of_room = test::heap_allocations() - heap;
@@ -189,8 +187,8 @@ TEST_F(TouchPublisherTest, TellsAMomentInBlocksOnlyToWhoReads) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     EXPECT_EQ(blocks[b].block, b);
     EXPECT_EQ(blocks[b].block_count, blocks.size());
-    EXPECT_EQ(blocks[b].seq, 4U);
-    EXPECT_EQ(blocks[b].stamp_ns, 40);
+    EXPECT_EQ(blocks[b].seq, 3U);
+    EXPECT_EQ(blocks[b].stamp_ns, 30);
     EXPECT_EQ(blocks[b].touching, parts.all().size());
     EXPECT_LE(blocks[b].pairs.size(), 10U);
     pairs += blocks[b].pairs.size();
@@ -212,7 +210,7 @@ TEST_F(TouchPublisherTest, WhereNothingTouchesOneBlockSaysSo) {
   OrganGroup organs(std::move(served_), faults_, 1);
   TouchPublisher publisher(written_, organs, 10, 20, work_at_once);
   written_.readers = 1;
-  for (std::uint64_t seq = 1; seq < 4; ++seq) publisher.offer({.seq = seq});
+  for (std::uint64_t seq = 1; seq < 3; ++seq) publisher.offer({.seq = seq});
   ASSERT_THAT(written_.all(), SizeIs(1));
   EXPECT_EQ(written_.all()[0].block_count, 1U);
   EXPECT_THAT(written_.all()[0].pairs, IsEmpty());

@@ -110,7 +110,8 @@ TEST_F(HeldToolsTest, WhereTheSceneNamesNoDeviceEverythingCounts) {
   begin("");
   EXPECT_FALSE(held_->admits());
   go(10, {kWanted, kGuest});
-  EXPECT_EQ(seen(), kGuest[0]);
+  EXPECT_EQ(seen(), kGuest[0]) << "who counts higher";
+  seq_[kWanted[0]] = 2000;
   go(1, {kGuest, kWanted});
   EXPECT_EQ(seen(), kWanted[0]);
 }
