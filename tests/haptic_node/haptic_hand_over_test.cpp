@@ -94,7 +94,7 @@ TEST_F(HandOverTest, TheScenesDeviceTakesThePressedToolAndNeitherHandIsStruck) {
   EXPECT_LT(largest_to_wanted_n_, 0.1 * pressed_n) << "a hand that did not press begins with nothing";
   go(*node, 300, kPressed, kPressed);
   EXPECT_FALSE(guest_is_felt()) << "whoever else goes on moving it";
-  EXPECT_THAT(faults(), testing::ElementsAre(HasSubstr("tool 0: pose refused: another device holds")));
+  EXPECT_THAT(faults(), testing::ElementsAre(HasSubstr("tool 0: pose refused: the tool is another")));
   EXPECT_EQ(node->end(), "");
   const nlohmann::json told = node->loop().report()["poses"][0]["hand_overs"];
   EXPECT_EQ(told, (nlohmann::json{{"count", 1}, {"from", "guest"}, {"to", "omega"}}));
