@@ -48,8 +48,9 @@ void DeviceRegister::hear(const msg::DeviceInfo& info, const transport::WriterId
 
 void DeviceRegister::gone(const transport::WriterId& writer) noexcept {
   const std::span<Device> all(known_.devices.data(), known_.count);
-  const auto left = std::ranges::remove(all, writer, &Device::writer);
-  known_.count -= left.size();
+  const auto end =
+      std::remove_if(all.begin(), all.end(), [&](const Device& d) { return d.writer == writer; });
+  known_.count = static_cast<std::size_t>(end - all.begin());
 }
 
 }  // namespace omentum::node
