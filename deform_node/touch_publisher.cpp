@@ -15,7 +15,7 @@ constexpr std::size_t kMostParts = 4 * std::size_t{msg::MAX_TOUCHING_PAIRS};
 
 }  // namespace
 
-TouchPublisher::TouchPublisher(transport::Writer<msg::TouchingPairs>& writer, OrganGroup& organs,
+TouchPublisher::TouchPublisher(transport::Writer<msg::TouchingPairs>& writer, const OrganGroup& organs,
                                std::size_t pairs_per_block, double rate_hz, const runtime::StartWork& start)
     : writer_(writer),
       organs_(organs),

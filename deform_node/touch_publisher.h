@@ -12,11 +12,11 @@
 namespace omentum::deform {
 
 /// Publishes TouchingPairs for people to look at, less often than states. As StressPublisher: what nobody
-/// reads costs the loop nothing, and is asked for anew as often as it would be told.
+/// reads is not copied, and is asked for anew as often as it would be told.
 class TouchPublisher {
  public:
   /// Writer and organs outlive this. `rate_hz`: of the ticks. `start`: how the publishing thread is made.
-  TouchPublisher(transport::Writer<msg::TouchingPairs>& writer, OrganGroup& organs,
+  TouchPublisher(transport::Writer<msg::TouchingPairs>& writer, const OrganGroup& organs,
                  std::size_t pairs_per_block, double rate_hz, const runtime::StartWork& start);
 
   /// The loop's thread, in every tick, after the steps. Neither waits nor allocates.
@@ -33,7 +33,7 @@ class TouchPublisher {
   void write(Offered& offered);
 
   transport::Writer<msg::TouchingPairs>& writer_;
-  OrganGroup& organs_;
+  const OrganGroup& organs_;
   std::size_t pairs_per_block_;
   std::uint64_t ticks_ = 0, ticks_per_moment_;
   runtime::Mailbox<Offered> newest_;

@@ -18,7 +18,7 @@ class TouchingParts {
   TouchingParts() = default;
   explicit TouchingParts(std::size_t most) : parts_(most), of_organ_(most) {}
 
-  /// Each organ with itself, then each two, as OrganGroup::note_touches() had them taken down.
+  /// Each organ with itself, then each two, as the newest step left them (OrganCollision::met).
   void take(const OrganGroup& organs) noexcept;
   std::span<TouchingPart> all() noexcept { return std::span(parts_).first(count_); }
 

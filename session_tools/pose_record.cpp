@@ -1,5 +1,7 @@
 #include "session_tools/pose_record.h"
 
+#include "node_common/pose_form.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,11 +9,10 @@ namespace omentum::session {
 
 namespace {
 
-constexpr double kSlowest_hz = 40;       // below it every pose is stale before the next one comes
-constexpr double kLongestGap = 2.5;      // of a device's own intervals: then its pose is stale
-constexpr double kLateGaps = 0.01;       // of all: more are felt as a force that comes and goes
-constexpr double kLostPoses = 0.05;      // of all, on a link that loses some
-constexpr double kUnitTolerance = 1e-3;  // of a quaternion's length
+constexpr double kSlowest_hz = 40;   // below it every pose is stale before the next one comes
+constexpr double kLongestGap = 2.5;  // of a device's own intervals: then its pose is stale
+constexpr double kLateGaps = 0.01;   // of all: more are felt as a force that comes and goes
+constexpr double kLostPoses = 0.05;  // of all, on a link that loses some
 constexpr double kWorkspaceMargin_m = 0.01;
 constexpr double kClockTolerance = 0.05;  // a clock of another unit is off by a thousand
 
@@ -21,13 +22,6 @@ constexpr double kAgreement = 0.7, kRatioLow = 0.5, kRatioHigh = 2;
 
 bool finite(const msg::Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool finite(const msg::ToolPose& pose) {
-  const msg::Quat& q = pose.orientation;
-  return finite(pose.position) && finite(pose.linear_velocity) && finite(pose.angular_velocity) &&
-         std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) &&
-         std::isfinite(pose.grip);
 }
 
 bool within(const msg::Vec3& p, const msg::DeviceInfo& info) {
@@ -82,13 +76,12 @@ void PoseRecord::watch_order(const msg::ToolPose& pose, std::int64_t arrival_ns)
 }
 
 void PoseRecord::watch_form(const msg::ToolPose& pose) {
-  if (!finite(pose)) {
+  const node::PoseForm form = node::form_of(pose);
+  if (form == node::PoseForm::kNotFinite) {
     ++not_finite_;
     return;
   }
-  const msg::Quat& q = pose.orientation;
-  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  not_unit_ += std::abs(length - 1) > kUnitTolerance;
+  not_unit_ += form == node::PoseForm::kNotARotation;
   outside_ += info_ && !within(pose.position, *info_);
 }
 
