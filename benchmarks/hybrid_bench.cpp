@@ -4,6 +4,8 @@
 //   step/cut         after 100 removals
 //   whole, whole/pressed  all tetrahedra with masses
 //   remove           one dynamic tetrahedron
+//   hold             the condensed stiffness of the connection times a vector (physics/symmetric_tiles.h)
+//   hold/plain       the same by Eigen
 //   patch            the compliance of 24 nodes across the border, anew
 //   anywhere...      the same of an organ that is cut in either part (physics/hybrid/hybrid_cut_step.h)
 //   static/remove    as anywhere/remove, of an organ without masses (physics/static_factor.h)
@@ -18,6 +20,7 @@
 #include "physics/dynamics/imposed_press.h"
 #include "physics/hybrid/hybrid_cut_step.h"
 #include "physics/static_factor.h"
+#include "physics/symmetric_tiles.h"
 
 #include <benchmark/benchmark.h>
 
@@ -129,6 +132,24 @@ void removals(benchmark::State& state, const Body& body, LargeStep& stepper) {
   stepper.restore();
 }
 
+void holds(benchmark::State& state, const Eigen::MatrixXd& S) {
+  SymmetricTiles tiles(S);
+  std::vector<double> u(tiles.size(), 1e-3), f(u.size());
+  for (auto _ : state) {
+    tiles.product(u, f);
+    benchmark::ClobberMemory();
+  }
+}
+
+void holds_plainly(benchmark::State& state, const Eigen::MatrixXd& S) {
+  const Eigen::VectorXd u = Eigen::VectorXd::Constant(S.rows(), 1e-3);
+  Eigen::VectorXd f(S.rows());
+  for (auto _ : state) {
+    f.noalias() = S * u;
+    benchmark::ClobberMemory();
+  }
+}
+
 // Of both parts alike, and of an organ that is in equilibrium throughout (quasi-static-cut).
 template <class Cut>
 void removals_anywhere(benchmark::State& state, const Body& body, Cut& cut) {
@@ -156,6 +177,7 @@ void run(const Body& body) {
   const auto cut = std::make_shared<HybridCutStep>(
       HybridTissue{body.organ.mesh, body.organ.material, body.inertia, body.precomputed}, kStep_s,
       kPatchNodes);
+  const Eigen::MatrixXd S = PrecomputedPart(*body.split.compliance, body.split.connection, {}).stiffness();
   const auto still = std::make_shared<StaticFactor>(body.organ.mesh, body.organ.material, body.organ.fixed);
   const auto add = [&](const char* name, int count, std::function<void(benchmark::State&)> what) {
     benchmark::RegisterBenchmark(
@@ -184,6 +206,8 @@ void run(const Body& body) {
   add("anywhere/remove", kRemoved, [=, &body](auto& s) { removals_anywhere(s, body, *cut); });
   add("anywhere/patch", 100, [=, &body](auto& s) { patches(s, body, *cut); });
   add("static/remove", kRemoved, [=, &body](auto& s) { removals_anywhere(s, body, *still); });
+  add("hold", 2000, [=](auto& s) { holds(s, S); });
+  add("hold/plain", 2000, [=](auto& s) { holds_plainly(s, S); });
   add("patch", 100, [=, &body](auto& s) { patches(s, body, *hybrid); });
   add("whole/patch", 100, [=, &body](auto& s) { patches(s, body, *whole); });
 }
@@ -203,6 +227,7 @@ int main(int argc, char** argv) {
   results.compare("step", "whole");
   results.compare("step/pressed", "whole/pressed");
   results.compare("step/cut", "whole");
+  results.compare("hold", "hold/plain");
   results.compare("remove", "whole/remove");
   results.compare("patch", "whole/patch");
   results.compare("anywhere", "step");

@@ -1,7 +1,5 @@
 #include "physics/dynamics/added_forces.h"
 
-#include <utility>
-
 namespace omentum::physics {
 
 namespace {
@@ -12,24 +10,24 @@ Eigen::Index place(std::size_t k) {
 
 }  // namespace
 
-AddedForces::AddedForces(AddedStiffness added)
-    : added_(std::move(added)), u_(added_.K.rows()), f_(added_.K.rows()) {}
+AddedForces::AddedForces(const AddedStiffness& added)
+    : nodes_(added.nodes), K_(added.K), u_(added.K.rows()), f_(added.K.rows()) {}
 
 void AddedForces::multiply(std::span<const double> u) noexcept {
-  for (std::size_t k = 0; k < added_.nodes.size(); ++k)
-    u_.segment<3>(place(k)) = Eigen::Map<const Eigen::Vector3d>(u.data() + 3 * added_.nodes[k]);
-  f_.noalias() = added_.K * u_;
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    u_.segment<3>(place(k)) = Eigen::Map<const Eigen::Vector3d>(u.data() + 3 * nodes_[k]);
+  K_.product({u_.data(), K_.size()}, {f_.data(), K_.size()});
 }
 
 void AddedForces::add_product(double scale, std::span<const double> u, std::span<double> f) noexcept {
-  if (added_.nodes.empty()) return;
+  if (nodes_.empty()) return;
   multiply(u);
-  for (std::size_t k = 0; k < added_.nodes.size(); ++k)
-    Eigen::Map<Eigen::Vector3d>(f.data() + 3 * added_.nodes[k]) += scale * f_.segment<3>(place(k));
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    Eigen::Map<Eigen::Vector3d>(f.data() + 3 * nodes_[k]) += scale * f_.segment<3>(place(k));
 }
 
 double AddedForces::energy(std::span<const double> u) noexcept {
-  if (added_.nodes.empty()) return 0;
+  if (nodes_.empty()) return 0;
   multiply(u);
   return u_.dot(f_) / 2;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/stiffness.h"
+#include "physics/symmetric_tiles.h"
 
 #include <Eigen/Dense>
 
@@ -14,7 +15,7 @@ namespace omentum::physics {
 /// construction; one thread at a time.
 class AddedForces {
  public:
-  explicit AddedForces(AddedStiffness added);
+  explicit AddedForces(const AddedStiffness& added);
 
   /// f += scale K u, N; only its nodes are touched.
   void add_product(double scale, std::span<const double> u, std::span<double> f) noexcept;
@@ -22,12 +23,13 @@ class AddedForces {
   double energy(std::span<const double> u) noexcept;
 
   /// The nodes that are tied.
-  std::span<const geometry::NodeId> nodes() const { return added_.nodes; }
+  std::span<const geometry::NodeId> nodes() const { return nodes_; }
 
  private:
   void multiply(std::span<const double> u) noexcept;
 
-  AddedStiffness added_;
+  std::vector<geometry::NodeId> nodes_;
+  SymmetricTiles K_;
   Eigen::VectorXd u_, f_;  // [3n]
 };
 

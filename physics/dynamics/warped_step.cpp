@@ -121,15 +121,14 @@ void WarpedStep::linearize(const BodyState& state) noexcept {
 
 void WarpedStep::find_forces(std::span<const double> v) noexcept {
   law_.forces(ahead_, forces_);
-  added_.add_product(-1, ahead_, forces_);
-  linear_.add_product(-1, ahead_, forces_);
   law_.product(v, product_);
-  added_.add_product(1, v, product_);
-  linear_.add_product(1, v, product_);
+  const double b = inertia_.stiffness_damping_s;
   for (std::size_t c = 0; c < forces_.size(); ++c) {
-    forces_[c] -= inertia_.mass_damping_per_s * carried_.kg()[c / 3] * v[c] +
-                  inertia_.stiffness_damping_s * product_[c];
+    forces_[c] -= inertia_.mass_damping_per_s * carried_.kg()[c / 3] * v[c] + b * product_[c];
+    turned_[c] = ahead_[c] + b * v[c];  // what is linear holds both at once
   }
+  added_.add_product(-1, turned_, forces_);
+  linear_.add_product(-1, turned_, forces_);
 }
 
 // Nodes that are held in part are not turned: a held component has to stay one. Nor are those that are tied,

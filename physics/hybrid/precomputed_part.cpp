@@ -13,6 +13,10 @@ Eigen::MatrixXd stiffness_of(const SurfaceCompliance& compliance, std::span<cons
   return condensed_stiffness(compliance_among(tiles, connection));
 }
 
+std::span<double> components(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+
 Eigen::Index row(std::size_t node) {
   return static_cast<Eigen::Index>(3 * node);
 }
@@ -25,6 +29,7 @@ PrecomputedPart::PrecomputedPart(const SurfaceCompliance& compliance, std::vecto
       connection_(std::move(connection)),
       sag_(std::move(sag)),
       stiffness_(stiffness_of(compliance, connection_)),
+      hold_(stiffness_),
       sag_force_(Eigen::VectorXd::Zero(stiffness_.rows())),
       lifted_(stiffness_.rows()),
       reaction_(stiffness_.rows()),
@@ -49,12 +54,13 @@ void PrecomputedPart::condense(const Loads& loads, Sag sag, std::span<double> f_
       u += compliance_.block(connection_[k], loads.nodes[q]) * loads.forces[q];
     lifted_.segment<3>(row(k)) = u;
   }
-  force.noalias() += stiffness_ * lifted_;
+  hold_.product(components(lifted_), components(reaction_));
+  force += reaction_;
 }
 
 void PrecomputedPart::follow(std::span<const double> w_c, const Loads& loads, Sag sag,
                              std::span<const double> f_c, std::span<double> w) noexcept {
-  reaction_.noalias() = stiffness_ * Eigen::Map<const Eigen::VectorXd>(w_c.data(), stiffness_.rows());
+  hold_.product(w_c, components(reaction_));
   reaction_ -= Eigen::Map<const Eigen::VectorXd>(f_c.data(), stiffness_.rows());
   pushed_.assign(loads.nodes.begin(), loads.nodes.end());
   pushes_.assign(loads.forces.begin(), loads.forces.end());
@@ -76,7 +82,7 @@ void PrecomputedPart::passed_on(std::span<const SurfaceId> nodes, Eigen::Ref<Eig
     for (int axis = 0; axis < 3; ++axis) {
       for (std::size_t k = 0; k < connection_.size(); ++k)
         lifted_.segment<3>(row(k)) = compliance_.block(connection_[k], nodes[p]).col(axis);
-      B.col(row(p) + axis).noalias() = stiffness_ * lifted_;
+      hold_.product(components(lifted_), {B.col(row(p) + axis).data(), hold_.size()});
     }
   }
 }

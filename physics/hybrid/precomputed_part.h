@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/surface_compliance.h"
+#include "physics/symmetric_tiles.h"
 
 #include <Eigen/Dense>
 
@@ -60,6 +61,7 @@ class PrecomputedPart {
   std::vector<SurfaceId> connection_;
   std::vector<Vec3> sag_;
   Eigen::MatrixXd stiffness_;
+  SymmetricTiles hold_;                // the same
   Eigen::VectorXd sag_force_;          // [3c] S sag_c
   Eigen::VectorXd lifted_, reaction_;  // [3c]
   std::vector<SurfaceId> pushed_;      // A, then c
