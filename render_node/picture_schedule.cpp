@@ -22,10 +22,6 @@ bool PictureSchedule::indent_due(double time_s, double dent_m) const {
   return indent_m_ == 0 || time_s - indent_written_s_ >= kIndentPeriod_s;
 }
 
-Quality PictureSchedule::quality(const std::string& name) const {
-  return dear_ && name != kLastPicture ? Quality::kPlain : Quality::kFine;
-}
-
 PicturesDue PictureSchedule::due(double time_s, double dent_m) {
   PicturesDue due;
   if (frame_due(time_s)) {
@@ -45,7 +41,8 @@ PicturesDue PictureSchedule::due(double time_s, double dent_m) {
 PictureSchedule schedule_of(double asked_period_s, const Renderer& renderer) {
   const bool has_window = renderer.has_window();
   const double period_s = asked_period_s >= 0 ? asked_period_s : has_window ? 0 : kPeriod_s;
-  return PictureSchedule(period_s, has_window && !renderer.software().empty());
+  const bool stalls = has_window && !renderer.software().empty();
+  return PictureSchedule(period_s, stalls ? Quality::kDraft : Quality::kFine);
 }
 
 }  // namespace omentum::render

@@ -3,6 +3,7 @@
 
 #include "render_node/renderer.h"
 
+#include <algorithm>
 #include <string>
 
 namespace omentum::render {
@@ -22,15 +23,18 @@ struct PicturesDue {
 /// clock: times are given. One thread.
 class PictureSchedule {
  public:
-  /// period_s <= 0: no numbered frames. `dear`: fine pictures would be, by what is known before the first.
-  explicit PictureSchedule(double period_s, bool dear = false) : period_s_(period_s), dear_(dear) {}
+  /// period_s <= 0: no numbered frames. `others`: of all pictures but the last one, until they prove dear.
+  explicit PictureSchedule(double period_s, Quality others = Quality::kFine)
+      : period_s_(period_s), others_(others) {}
 
   /// `dent_m`: depth of the deepest dent in this frame (dent.h). Times must not decrease.
   PicturesDue due(double time_s, double dent_m);
   /// What a frame with pictures cost, s.
-  void took(double cost_s) { dear_ = dear_ || cost_s > kDear_s; }
-  /// Of the picture of that name: where fine ones are dear, all but the last one are plain.
-  Quality quality(const std::string& name) const;
+  void took(double cost_s) {
+    if (cost_s > kDear_s) others_ = std::max(others_, Quality::kPlain);
+  }
+  /// Of the picture of that name. The last one is fine whatever it costs.
+  Quality quality(const std::string& name) const { return name == kLastPicture ? Quality::kFine : others_; }
 
  private:
   // A program that draws takes this from the organ, which then falls behind the clock.
@@ -44,11 +48,12 @@ class PictureSchedule {
   double next_s_ = 0;
   double indent_m_ = 0;  // in indent.png
   double indent_written_s_ = 0;
-  bool dear_;
+  Quality others_;
 };
 
-/// `asked_period_s` negative: every 2 s off-screen, none in a window. Where software draws a window, fine
-/// pictures are dear: a person would see it stand still for half a second.
+/// `asked_period_s` negative: every 2 s off-screen, none in a window. Where software draws a window, only the
+/// last picture is finer than a frame may be: a person would see the window stand still while a hand presses,
+/// for half a second (fine) or a third (plain).
 PictureSchedule schedule_of(double asked_period_s, const Renderer& renderer);
 
 }  // namespace omentum::render

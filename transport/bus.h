@@ -33,7 +33,8 @@ struct EndpointStatus {
   std::uint64_t samples = 0;          // handed to DDS, or to the callback
   std::uint64_t rejected = 0;         // writer: over a bound of the IDL, or refused; reader: not decodable
   std::uint64_t deadline_missed = 0;  // periods in which nothing came (or was written), all keys together
-  std::uint64_t liveliness_lost = 0;  // how often a writer's liveliness ended
+  // how often a writer's liveliness ended: of a reader only where it asked who is gone (ByWriter::on_gone)
+  std::uint64_t liveliness_lost = 0;
   std::uint64_t incompatible_qos = 0;
 };
 

@@ -70,7 +70,8 @@ class CycloneReader final : public Reader<M> {
     dds_lset_data_available(listener.get(), on_data_available);
     dds_lset_liveliness_changed(listener.get(), on_liveliness_changed);
     if (callbacks_.on_gone) dds_lset_subscription_matched(listener.get(), on_subscription_matched);
-    reader_ = checked(dds_create_reader(entities.participant, topic, reader_qos(spec).get(), listener.get()),
+    const Qos qos = reader_qos(requested(spec, static_cast<bool>(callbacks_.on_gone)));
+    reader_ = checked(dds_create_reader(entities.participant, topic, qos.get(), listener.get()),
                       std::string("a reader of ") + spec.name);
   }
 

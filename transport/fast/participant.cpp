@@ -135,7 +135,8 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     if (callbacks_.on_gone)
       for (const WriterId& writer : departures_.take_all()) callbacks_.on_gone(writer);
     arrivals_.open();
-    dds::DataReader* reader = entities.subscriber->create_datareader(topic, reader_qos(spec), this, mask);
+    const dds::DataReaderQos qos = reader_qos(requested(spec, static_cast<bool>(callbacks_.on_gone)));
+    dds::DataReader* reader = entities.subscriber->create_datareader(topic, qos, this, mask);
     if (!reader) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
     const std::lock_guard lock(mutex_);
     reader_ = reader;
