@@ -8,29 +8,17 @@
 namespace omentum::geometry {
 namespace {
 
-constexpr double kParallel = 1e-3;  // sine of an angle below which a direction across is rounding
-
-// Of `guide`, what is across t, unit; zero where hardly anything is.
-Vec3 unit_across(const Vec3& guide, const Vec3& t) {
-  const Vec3 left = guide - guide.dot(t) * t;
-  const double length = left.norm();
-  return length > kParallel * guide.norm() ? Vec3(left / length) : Vec3::Zero();
-}
+constexpr double kStraightBack = 1e-6;  // 1 + cosine of a turn that has no plane but by rounding
 
 Vec3 direction(const Vec3& slope, const Vec3& otherwise) {
   const double length = slope.norm();
   return length > 0 ? Vec3(slope / length) : otherwise;
 }
 
-// eq. 12, and what stands in for it
-void turn_into(const Vec3& k_before, const Vec3& b_before, TubeFrame& frame) {
-  frame.k = unit_across(k_before, frame.t);
-  if (frame.k.isZero(0)) {
-    frame.b = unit_across(b_before, frame.t);
-    if (frame.b.isZero(0)) frame.b = frame.t.unitOrthogonal();
-    frame.k = frame.b.cross(frame.t);
-  }
-  frame.b = frame.t.cross(frame.k);
+// `k`, across `from`, after the smallest turn that takes `from` to `to`. Straight back it stays as it is.
+Vec3 turned_along(const Vec3& k, const Vec3& from, const Vec3& to) {
+  const double forwards = 1 + from.dot(to);
+  return forwards > kStraightBack ? Vec3(k - k.dot(to) / forwards * (from + to)) : k;
 }
 
 }  // namespace
@@ -114,15 +102,18 @@ TubeFrame frame_after(const TubeFrame& before, const AxisPoint& point) {
   TubeFrame frame;
   frame.origin = point.place;
   frame.t = direction(point.slope, before.t);
-  turn_into(before.k, before.b, frame);
+  const Vec3 k = turned_along(before.k, before.t, frame.t);
+  const Vec3 across = k - k.dot(frame.t) * frame.t;  // rounding does not add up
+  frame.k = before.k.isZero(0) ? frame.t.unitOrthogonal() : Vec3(across.normalized());
+  frame.b = frame.t.cross(frame.k);
   return frame;
 }
 
-void carry_frames(const TubeAxis& axis, std::span<const double> u, const Vec3& first_k,
+void carry_frames(const TubeAxis& axis, std::span<const double> u, const TubeFrame& last_first,
                   std::span<TubeFrame> frames, std::span<double> speeds) {
   require(u.size() == frames.size(), "a frame for each parameter");
   require(speeds.empty() || speeds.size() == u.size(), "a speed for each parameter");
-  TubeFrame before{Vec3::Zero(), Vec3::UnitX(), first_k, Vec3::Zero()};
+  TubeFrame before = last_first;
   for (std::size_t j = 0; j < u.size(); ++j) {
     const AxisPoint point = axis.at(u[j]);
     before = frames[j] = frame_after(before, point);

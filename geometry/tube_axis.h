@@ -73,22 +73,26 @@ class AxisSampling {
   std::vector<double> sum_;  // up to each chord's end, m
 };
 
-/// A cross-section of a tube: where, and three unit vectors: t along the axis, k and b = t x k across.
+/// A cross-section of a tube: where, and three unit vectors: t along the axis, k and b = t x k across. No
+/// frame where k is zero.
 struct TubeFrame {
-  Vec3 origin, t, k, b;
+  Vec3 origin = Vec3::Zero(), t = Vec3::UnitX(), k = Vec3::Zero(), b = Vec3::Zero();
 };
 
-/// The frame at `point` that is turned about the axis as little as can be against `before` (Raghupathi 2004,
-/// eq. 12; see carry_frames()).
+/// The frame at `point` that is not turned about the axis against `before`: k after the smallest rotation
+/// that takes one t to the other, t_{j-1} to t_j,
+///   k_j = k_{j-1} - (k_{j-1} . t_j) / (1 + t_{j-1} . t_j) (t_{j-1} + t_j)
+/// Raghupathi 2004, eq. 12 (b_j = t_j x k_{j-1}, k_j = b_j x t_j) projects k instead, which is the same for
+/// frames without a turn between them; between others it turns k about the axis towards the normal of the
+/// bend's plane, by up to a quarter of the turn's square: at each fold of a gut a little more. Any direction
+/// across where `before` is no frame; where the axis turns straight back k stays.
 TubeFrame frame_after(const TubeFrame& before, const AxisPoint& point);
 
-/// Frames at ascending parameters that turn about the axis as little as can be (Raghupathi 2004, eq. 12):
-///   b_j = t_j x k_{j-1},   k_j = b_j x t_j
-/// where that is undefined, because the axis turned into k, b goes on instead. `first_k`: of the same tube's
-/// last state, so that nothing swims from state to state; zero for none: any direction across. `frames` and
-/// `u` are of one size. A place without slope has the direction before it. `speeds`: the axis' slopes there,
-/// m; as many, or none where nobody asks. No heap.
-void carry_frames(const TubeAxis& axis, std::span<const double> u, const Vec3& first_k,
+/// Frames at ascending parameters, each frame_after() the one before it. `last_first`: the first one of the
+/// same tube's last state, so that nothing swims from state to state; no frame for none. `frames` and `u` are
+/// of one size. A place without slope has the direction before it. `speeds`: the axis' slopes there, m; as
+/// many, or none where nobody asks. No heap.
+void carry_frames(const TubeAxis& axis, std::span<const double> u, const TubeFrame& last_first,
                   std::span<TubeFrame> frames, std::span<double> speeds = {});
 
 }  // namespace omentum::geometry

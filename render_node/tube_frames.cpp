@@ -49,7 +49,6 @@ TubeFrames::TubeFrames(std::span<const geometry::Vec3> rest, double radius_m)
       shade_(radius_m),
       pale_(points_.size() - 1, 0) {
   for (std::size_t s = 0; s < u_.size(); ++s) u_[s] = static_cast<double>(s) / geometry::TubeSplit::kThirds;
-  stations_.front().k.setZero();
   frames_.reserve(geometry::TubeSplit::kMostCuts * points_.size());
   for (std::size_t i = 0, m = 0; i < points_.size(); ++i, m += stride_) {
     points_[i] = rest[std::min(m, rest.size() - 1)];
@@ -65,7 +64,7 @@ void TubeFrames::deform(std::span<const geometry::Vec3> masses) {
     points_[i] = masses[std::min(i * stride_, masses.size() - 1)];
   length_m_ = length_of(masses);
   axis_.set(points_);
-  geometry::carry_frames(axis_, u_, geometry::Vec3(stations_.front().k), stations_, speeds_);
+  geometry::carry_frames(axis_, u_, stations_.front(), stations_, speeds_);
   const double station_m = rest_at_.back() / static_cast<double>(u_.size() - 1);
   const double stride = station_m > 0 ? std::round(kBallSpacing * radius_m_ / station_m) : 1;
   shade_.set(stations_,

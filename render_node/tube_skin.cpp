@@ -67,7 +67,6 @@ TubeSkin::TubeSkin(std::span<const geometry::Vec3> rest, double radius_m)
       bend_(u_.size(), Vec3f::Zero()),
       walls_(((u_.size() - 1) / kShadeStride + 2) * kShadeAround, 1.0f),
       shade_(radius_m) {
-  frames_.front().k.setZero();
   make_rings(u_.size());
   make_triangles();
   deform(rest);
@@ -103,7 +102,7 @@ void TubeSkin::deform(std::span<const geometry::Vec3> masses) {
   geometry::require(masses.size() == rest_at_.size(), "as many masses as at rest");
   axis_.set(masses);
   sampling_.place(axis_, u_);
-  geometry::carry_frames(axis_, u_, geometry::Vec3(frames_.front().k), frames_);
+  geometry::carry_frames(axis_, u_, frames_.front(), frames_);
   find_bends();
   length_m_ = lengths_along(masses).back();
   for (std::size_t ring = 0; ring < rings_.size(); ++ring) write_ring(ring);

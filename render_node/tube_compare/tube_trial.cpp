@@ -58,7 +58,7 @@ BruteSweep::BruteSweep(std::size_t masses, std::size_t sections_of_segment)
 
 void BruteSweep::deform(std::span<const geometry::Vec3> masses) {
   axis_.set(masses);
-  geometry::carry_frames(axis_, u_, geometry::Vec3(frames_.front().k), frames_);
+  geometry::carry_frames(axis_, u_, frames_.front(), frames_);
   for (std::size_t j = 0; j < frames_.size(); ++j) {
     const Vec3f origin = frames_[j].origin.cast<float>();
     const Vec3f k = frames_[j].k.cast<float>(), b = frames_[j].b.cast<float>();

@@ -1,6 +1,7 @@
 #include "geometry/tube_axis.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>
@@ -50,11 +51,29 @@ std::vector<double> sampled(const std::vector<Vec3>& masses, double bend_m, std:
 }
 
 std::vector<TubeFrame> frames_of(const std::vector<Vec3>& masses, std::size_t count,
-                                 const Vec3& first_k = Vec3::Zero()) {
+                                 const TubeFrame& last_first = {}) {
   const std::vector<double> u = sampled(masses, 0.02, count);
   std::vector<TubeFrame> frames(count);
-  carry_frames(axis_through(masses), u, first_k, frames);
+  carry_frames(axis_through(masses), u, last_first, frames);
   return frames;
+}
+
+/// Of a tube that begins along x.
+TubeFrame first_across(const Vec3& k) {
+  return {Vec3::Zero(), Vec3::UnitX(), k, Vec3::UnitX().cross(k)};
+}
+
+/// Of the triangle of great arcs between three unit vectors: its sign is that of a x b towards c.
+double area_on_sphere(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+}
+
+/// The angle about `to`'s axis by which `from`'s k is ahead of its own, after the least turn of one axis to
+/// the other.
+double ahead_about_axis(const TubeFrame& from, const TubeFrame& to) {
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(from.t, to.t);
+  const Vec3 k = turn * from.k;
+  return std::atan2(to.b.dot(k), to.k.dot(k));
 }
 
 void expect_right_handed(const TubeFrame& f) {
@@ -133,7 +152,7 @@ TEST(TubeFrames, ArePerpendicularAndFaceForward) {
     const TubeAxis axis = axis_through(masses);
     const std::vector<double> u = sampled(masses, 0.02, 200);
     std::vector<TubeFrame> frames(u.size());
-    carry_frames(axis, u, Vec3::Zero(), frames);
+    carry_frames(axis, u, {}, frames);
     for (std::size_t j = 0; j < u.size(); ++j) {
       expect_right_handed(frames[j]);
       EXPECT_LT((frames[j].t - axis.at(u[j]).slope.normalized()).norm(), kRounding);
@@ -142,8 +161,42 @@ TEST(TubeFrames, ArePerpendicularAndFaceForward) {
 }
 
 TEST(TubeFrames, KeepTheNormalOfAPlaneTheyBendIn) {
-  const std::vector<TubeFrame> frames = frames_of(hairpin(), 200, Vec3(0, 0, 1));
+  const std::vector<TubeFrame> frames = frames_of(hairpin(), 200, first_across({0, 0, 1}));
   for (const TubeFrame& frame : frames) EXPECT_LT((frame.k - Vec3(0, 0, 1)).norm(), kRounding);
+}
+
+TEST(TubeFrames, KeepTheirAngleToAPlaneTheyBendInHoweverFewTheyAre) {
+  for (const std::size_t count : {8u, 20u, 200u}) {
+    const Vec3 first_k(0, std::cos(0.8), std::sin(0.8));
+    for (const TubeFrame& frame : frames_of(hairpin(), count, first_across(first_k)))
+      EXPECT_NEAR(frame.k.z(), first_k.z(), 1e-10) << count;
+  }
+}
+
+TEST(TubeFrames, TurnFromStateToStateByWhatTheirDirectionsSweepAndByNothingElse) {
+  // what is carried around a loop on the sphere of directions comes back turned by the loop's area: here
+  // along the tube's last state, over to this one, and back to its first frame
+  constexpr std::size_t kCount = 60;
+  std::vector<TubeFrame> last = frames_of(Helix().masses(40), kCount);
+  double most = 0;
+  for (int s = 1; s <= 20; ++s) {
+    std::vector<Vec3> masses = Helix().masses(40);
+    for (std::size_t i = 0; i < masses.size(); ++i)
+      masses[i] +=
+          0.03 * Vec3(std::sin(0.3 * s + 0.2 * static_cast<double>(i)), std::cos(0.5 * s), std::sin(0.2 * s));
+    const std::vector<TubeFrame> now = frames_of(masses, kCount, last.front());
+    double swept = 0;
+    EXPECT_NEAR(ahead_about_axis(last.front(), now.front()), 0, 1e-9);
+    for (std::size_t j = 1; j < kCount; ++j) {
+      const Vec3 &a = last[j - 1].t, &b = last[j].t, &c = now[j].t, &d = now[j - 1].t;
+      swept += area_on_sphere(a, b, c) + area_on_sphere(a, c, d);
+      ASSERT_NEAR(std::remainder(ahead_about_axis(last[j], now[j]) - swept, 2 * kPi), 0, 1e-9)
+          << s << ' ' << j;
+    }
+    most = std::max(most, std::abs(swept));
+    last = now;
+  }
+  EXPECT_GT(most, 0.05) << "they do sweep";
 }
 
 TEST(TubeFrames, TurnAboutAHelixAsLittleAsCanBe) {
@@ -168,7 +221,7 @@ TEST(TubeFrames, DoNotSwimFromStateToState) {
     std::vector<Vec3> masses = Helix().masses(60);
     for (std::size_t i = 0; i < masses.size(); ++i)
       masses[i].x() += 0.01 * std::sin(2 * kPi * s / kStates) * std::sin(0.2 * static_cast<double>(i));
-    const std::vector<TubeFrame> next = frames_of(masses, 100, now.front().k);
+    const std::vector<TubeFrame> next = frames_of(masses, 100, now.front());
     for (std::size_t j = 0; j < next.size(); ++j) ASSERT_GT(next[j].k.dot(now[j].k), 0.99) << s << " " << j;
     now = next;
   }
@@ -190,7 +243,7 @@ TEST(TubeFrames, GoOnWhereTheAxisTurnsIntoK) {
   const std::vector<Vec3> corner{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}};
   std::vector<TubeFrame> frames(2);
   const std::vector<double> u{0, 4};
-  carry_frames(axis_through(corner), u, Vec3(0, 1, 0), frames);
+  carry_frames(axis_through(corner), u, first_across({0, 1, 0}), frames);
   for (const TubeFrame& frame : frames) expect_right_handed(frame);
   EXPECT_LT((frames[1].b - frames[0].b).norm(), 0.2);
 }
