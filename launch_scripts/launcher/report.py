@@ -172,7 +172,9 @@ def score_lines(haptic, organs):
     """The trainee's score (docs/score.md), of a scene that plans a cut, and of hands whose jaws closed."""
     score = organs.get("score") if organs else None
     lines = []
-    if score:
+    if score and not score["way_mm"] and not score["removed_cm3"]:
+        lines.append("cut: nothing since the start or the last reset")
+    elif score:
         lines.append(f"cut: {score['mean_mm']:.1f} mm from the planned line in the mean, {score['largest_mm']:.1f} mm at most, over "
                      f"{score['way_mm']:.0f} mm; {score['outside_cm3']:.1f} of {score['removed_cm3']:.1f} cm^3 outside of it; "
                      f"{score['seconds']:.1f} s")

@@ -811,6 +811,8 @@ time.sleep({PATIENCE_S})"""), 0)
         self.assertEqual(report.score_lines({"hands": [probe]}, {"score": score}),
                          ["cut: 1.3 mm from the planned line in the mean, 4.0 mm at most, over 90 mm; "
                           "0.2 of 5.0 cm^3 outside of it; 6.0 s", "hand 0: largest force 1.23 N"])
+        nothing = dict.fromkeys(score, 0.0)
+        self.assertEqual(report.score_lines({"hands": [probe]}, {"score": nothing})[0], "cut: nothing since the start or the last reset")
 
     def nodes_asked(self, *words):
         """The names of the nodes that a session gives `words`, of its own command line."""
