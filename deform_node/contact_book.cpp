@@ -109,6 +109,17 @@ Rejection check_contact(const msg::Contact& contact, const std::vector<OrganNumb
   return moved_by(held, organ) <= organ.reach_m ? Rejection::kNone : Rejection::kReach;
 }
 
+bool SentBeforeReset::take(const msg::Contact& contact, const TopologyVersions& versions,
+                           std::int64_t now_ns) noexcept {
+  const std::uint64_t oldest = versions.oldest.load(std::memory_order_relaxed);
+  if (contact.topology_version >= oldest) return false;
+  if (oldest != oldest_) {
+    oldest_ = oldest;
+    first_ns_ = now_ns;
+  }
+  return 1e-9 * static_cast<double>(now_ns - first_ns_) <= kContactStale_s;
+}
+
 ContactBook::ContactBook(std::vector<OrganNumbers> organs, const ContactBounds& bounds,
                          runtime::FaultList& faults)
     : organs_(std::move(organs)), bounds_(bounds), faults_(faults) {
@@ -124,7 +135,8 @@ void ContactBook::take(const msg::Contact& contact, std::int64_t now_ns) noexcep
   OrganPages& pages = *pages_[contact.organ];
   pages.cuts.take(contact, now_ns);
   if (!pages.versions.hold(contact)) {
-    faults_.raise(describe(Rejection::kTopologyVersion));
+    if (!pages.late.take(contact, pages.versions, now_ns))
+      faults_.raise(describe(Rejection::kTopologyVersion));
     return;
   }
   draft_.received_ns = now_ns;

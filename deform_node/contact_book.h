@@ -80,6 +80,18 @@ struct TopologyVersions {
   }
 };
 
+/// Contacts with an organ as it was before a reset were sent by who had not heard of it: no fault, until they
+/// still come kContactStale_s after the first of them. One thread.
+class SentBeforeReset {
+ public:
+  /// Whether a contact that came now and is none of `versions` is one of those.
+  bool take(const msg::Contact& contact, const TopologyVersions& versions, std::int64_t now_ns) noexcept;
+
+ private:
+  std::uint64_t oldest_ = 0;  // after the reset that they did not hear of
+  std::int64_t first_ns_ = 0;
+};
+
 /// Contacts on their way from the receiving thread to the loop, one of each tool with each organ: who goes
 /// from one to another lets go of the first by an empty contact, or by telling it none. take() and the loop's
 /// methods may run at the same time on one thread each; neither waits or allocates.
@@ -119,6 +131,7 @@ class ContactBook {
   };
   struct OrganPages {
     TopologyVersions versions;
+    SentBeforeReset late;  // receiving thread
     CutBook cuts;
     std::array<Page, kMaxTools> tools;
     std::array<ToolLoad, kMaxTools> loads{};

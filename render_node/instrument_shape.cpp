@@ -50,11 +50,11 @@ std::vector<InstrumentPart> probe(const scene::ToolSpec& tool, const Vec3f& band
   const auto length = static_cast<float>(tool.shaft_length_m);
   std::vector<InstrumentPart> parts;
   parts.push_back({round_tip(radius, length), kSteel});
-  parts.push_back({sleeve(1.06f * radius, kBandFrom, kBandFrom + kBandLength), painted(band)});
+  parts.push_back({ring(1.06f * radius, kBandFrom, kBandFrom + kBandLength), painted(band)});
   InstrumentPart marks{{}, kInsulation};
   for (float z = kMarkSpacing; z + kMarkWidth < length; z += kMarkSpacing) {
     if (std::abs(z - kBandFrom) < 1.5f * kBandLength) continue;
-    append(sleeve(1.012f * radius, z, z + kMarkWidth), marks.mesh);
+    append(ring(1.012f * radius, z, z + kMarkWidth), marks.mesh);
   }
   parts.push_back(std::move(marks));
   return parts;
@@ -82,7 +82,7 @@ std::vector<InstrumentPart> scope(const scene::ToolSpec& tool, const Vec3f& band
   Material fibres = kCeramic;
   fibres.glow = kFibreGlow;
   parts.push_back({scope_fibres_mesh(radius, optics), fibres});
-  parts.push_back({sleeve(1.04f * radius, kBandFrom, kBandFrom + kBandLength), painted(band)});
+  parts.push_back({ring(1.04f * radius, kBandFrom, kBandFrom + kBandLength), painted(band)});
   return parts;
 }
 
@@ -97,7 +97,8 @@ std::vector<InstrumentPart> fine_parts(const scene::ToolSpec& tool, const Vec3f&
 std::vector<InstrumentPart> instrument_parts(const scene::ToolSpec& tool, const Vec3f& band_colour) {
   std::vector<InstrumentPart> parts = fine_parts(tool, band_colour);
   const float side_m = kFewSide * static_cast<float>(tool.shaft_radius_m);
-  for (InstrumentPart& part : parts) add_few_triangles(part.mesh, side_m);
+  for (InstrumentPart& part : parts)
+    if (part.mesh.few.empty()) add_few_triangles(part.mesh, side_m);
   return parts;
 }
 

@@ -45,6 +45,17 @@ MeshData sleeve(float radius, float from, float to) {
   return turned(profile, kTurnSegments);
 }
 
+MeshData ring(float radius, float from, float to) {
+  constexpr float kOutside = 0.99f;  // of the radius: broken edges lie below
+  MeshData mesh = sleeve(radius, from, to);
+  const auto is_outside = [&](std::uint32_t v) {
+    return mesh.vertices[v].position.head<2>().norm() > kOutside * radius;
+  };
+  for (const MeshTriangle& t : mesh.triangles)
+    if (std::ranges::all_of(t, is_outside)) mesh.few.push_back(t);
+  return mesh;
+}
+
 MeshData round_tip(float radius, float to) {
   std::vector<ProfilePoint> profile = hemisphere(radius, 10);
   profile.push_back({radius, to});
@@ -71,6 +82,7 @@ void append(const MeshData& mesh, MeshData& to) {
   const auto first = static_cast<std::uint32_t>(to.vertices.size());
   to.vertices.insert(to.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const auto& [a, b, c] : mesh.triangles) to.triangles.push_back({first + a, first + b, first + c});
+  for (const auto& [a, b, c] : mesh.few) to.few.push_back({first + a, first + b, first + c});
 }
 
 MeshData moved(const Mat4f& pose, MeshData mesh) {

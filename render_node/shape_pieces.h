@@ -13,11 +13,15 @@ inline constexpr int kTurnSegments = 28;
 
 /// A cylinder about z with slightly broken edges, m.
 MeshData sleeve(float radius, float from, float to);
+/// A sleeve that lies on a shaft: in the coarsest pictures (`few`) all of its outside and nothing else, since
+/// one of fewer corners would dip into the shaft.
+MeshData ring(float radius, float from, float to);
 /// A hemisphere about z, its pole at z = 0, and a cylinder on it up to `to`, m.
 MeshData round_tip(float radius, float to);
 /// A cylinder with round ends around both points, `segments` around it, m.
 MeshData capsule(const Vec3f& from, const Vec3f& to, float radius, int segments);
 
+/// With the few triangles of both, where `mesh` has some.
 void append(const MeshData& mesh, MeshData& to);
 /// Moved and turned, not scaled.
 MeshData moved(const Mat4f& pose, MeshData mesh);

@@ -211,7 +211,22 @@ TEST_F(CutVersionsTest, AContactMayBeSomeCutsBehindButNotAheadNorBeforeAReset) {
   now_s_ += kSample_s;
   EXPECT_EQ(push_with(5), 0) << "of the organ before the reset";
   EXPECT_EQ(push_with(7), 1);
-  EXPECT_EQ(faults_.list()[0].count, 2u);
+  EXPECT_EQ(faults_.list()[0].count, 1u) << "of the one ahead";
+}
+
+TEST_F(CutVersionsTest, OneThatWasSentBeforeAResetIsAFaultOnlyWhereTheyGoOn) {
+  for (const std::uint64_t reset : {7u, 9u}) {
+    book_.begins_at(0, reset);
+    EXPECT_EQ(push_with(reset - 2), 0);
+    now_s_ += 0.9 * kContactStale_s;
+    EXPECT_EQ(push_with(reset - 1), 0);
+    EXPECT_FALSE(faults_.any()) << "on its way when the organ was reset";
+    now_s_ += 0.1 * kContactStale_s;
+  }
+  now_s_ += kSample_s;
+  EXPECT_EQ(push_with(8), 0);
+  ASSERT_TRUE(faults_.any()) << "who sends it does not know of the reset";
+  EXPECT_EQ(faults_.list()[0].count, 1u);
 }
 
 TEST_F(CutVersionsTest, WhoLetsGoSaysNothingOfAVersion) {

@@ -1,6 +1,7 @@
 // Generated shapes: closed, turned outwards, where instruments say they are.
 #include "render_node/solids.h"
 #include "render_node/instrument_shape.h"
+#include "render_node/shape_pieces.h"
 #include "render_node/tissue_pattern.h"
 
 #include "ball_organ.h"
@@ -80,6 +81,39 @@ TEST(Instruments, AreClosedAndTurnedOutwards) {
     for (const auto& part : instrument_parts(tool, Vec3f::Ones())) {
       EXPECT_GT(volume(part.mesh), 0) << shape;
       expect_normals_outward(part.mesh);
+    }
+  }
+}
+
+// The most that a part's triangles of the coarsest pictures reach out from the axis in some direction, and
+// the least.
+std::pair<float, float> coarsest_reach(const InstrumentPart& part) {
+  float most = 0, least = 1;
+  for (const MeshTriangle& t : part.mesh.few) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3f middle =
+          0.5f * (part.mesh.vertices[t[c]].position + part.mesh.vertices[t[(c + 1) % 3]].position);
+      least = std::min(least, middle.head<2>().norm());
+    }
+    for (const std::uint32_t v : t) most = std::max(most, part.mesh.vertices[v].position.head<2>().norm());
+  }
+  return {most, least};
+}
+
+TEST(Instruments, BandsAndMarksLieOnTheirShaftInTheCoarsestPicturesToo) {
+  for (const char* shape : {"probe", "endoscope"}) {
+    scene::ToolSpec tool;
+    tool.shape = shape;
+    if (tool.shape == "endoscope") tool.scope.emplace();
+    const auto parts = instrument_parts(tool, Vec3f::Ones());
+    const float shaft = coarsest_reach(parts.front()).first;
+    EXPECT_NEAR(shaft, tool.shaft_radius_m, kSolidFloat);
+    for (const InstrumentPart& part : parts) {
+      const bool is_mark = tool.shape == "probe" && part.material.colour == kInsulation.colour;
+      if (part.material.colour != Vec3f::Ones() && !is_mark) continue;
+      EXPECT_FALSE(part.mesh.few.empty());
+      EXPECT_GT(coarsest_reach(part).second, shaft) << shape << (is_mark ? " mark" : " band");
+      EXPECT_LT(3 * part.mesh.few.size(), part.mesh.triangles.size());
     }
   }
 }
