@@ -51,9 +51,9 @@ class PictureSchedule {
   Quality others_;
 };
 
-/// `asked_period_s` negative: every 2 s off-screen, none in a window. Where software draws a window, only the
-/// last picture is finer than a frame may be: a person would see the window stand still while a hand presses,
-/// for half a second (fine) or a third (plain).
+/// `asked_period_s` negative: every 2 s off-screen, none in a window. Where software draws a window, all but
+/// the last picture are drafts: a person would see the window stand still while a hand presses, for half a
+/// second (fine) or a third (plain).
 PictureSchedule schedule_of(double asked_period_s, const Renderer& renderer);
 
 }  // namespace omentum::render
