@@ -73,7 +73,7 @@ TEST_F(HeldToolsTest, TheScenesDeviceIsSeenWhoeverElseMovesTheTool) {
   go(10, {kGuest});
   EXPECT_EQ(seen(), kGuest[0]) << "nobody else is there";
   introduce("omega", kWanted);
-  go(100, {kWanted, kGuest});
+  go(110, {kWanted, kGuest});
   EXPECT_EQ(seen(), kWanted[0]) << "the last pose is the guest's, and it does not count";
   msg::ToolPose invalid = well();
   invalid.valid = false;
