@@ -11,7 +11,6 @@
 namespace omentum::deform {
 
 using geometry::GutSkin;
-using geometry::MassId;
 
 namespace {
 
@@ -60,23 +59,21 @@ GutModel::GutModel(GutPhysics parts)
       imposed_(system_->shape().positions.size(), GutPresses::kMostPatterns),
       wanted_(system_->state()),
       values_(3 * system_->shape().positions.size()),
-      look_(std::make_unique<Felt>(skin_, system_->shape().positions.size())),
+      look_(std::make_unique<Felt>(skin_, system_->shape().positions.size(), parts.wall_m_n)),
       meeting_(std::make_unique<GutMeeting>(*felt_)) {
   status_.collisions.emplace();
   show();
 }
 
-GutModel::Felt::Felt(const GutSkin& skin, std::size_t all)
+GutModel::Felt::Felt(const GutSkin& skin, std::size_t all, double wall_m_n)
     : places(skin.node_count()),
       dented(skin.node_count()),
       next(skin.node_count()),
       ahead(all),
       wanted(all),
       forces(all),
-      block(kMostPatchMasses * kMostPatchMasses),
-      choice(skin.node_count(), skin.triangles().size(), kPatchNodes) {
-  masses.reserve(kMostPatchMasses);
-}
+      choice(skin.node_count(), skin.triangles().size(), kPatchNodes),
+      compliance(skin, wall_m_n, kPatchNodes) {}
 
 ModelSizes GutModel::sizes() const {
   return {.values = values_.size(),
@@ -282,38 +279,8 @@ bool GutModel::local_model(const PatchPlace& place, LocalPatch& patch) const noe
     patch.positions[i] = look_->dented[n] + ahead_s_ * patch.velocities[i];
     patch.forces[i] = presses_.of_tool(place.tool, nodes[i]);
   }
-  find_compliance(nodes, patch.compliance);
+  look_->compliance.find(*felt_, nodes, patch.compliance);
   return true;
-}
-
-// C = J A^-1 J^T + wall, alike in all directions: J has the weights by which masses carry nodes.
-void GutModel::find_compliance(std::span<const NodeId> nodes, std::span<float> upper) const noexcept {
-  std::vector<MassId>& masses = look_->masses;
-  std::array<std::array<std::size_t, GutSkin::kMostWeights>, kPatchNodes> place_of{};
-  masses.clear();
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const GutSkin::Node& node = skin_.node(nodes[i]);
-    for (std::size_t k = 0; k < GutSkin::kMostWeights; ++k) {
-      if (node.weight[k] == 0) continue;
-      place_of[i][k] = static_cast<std::size_t>(std::ranges::find(masses, node.mass[k]) - masses.begin());
-      if (place_of[i][k] == masses.size()) masses.push_back(node.mass[k]);
-    }
-  }
-  const std::size_t m = masses.size();
-  const std::span<double> block = std::span(look_->block).first(m * m);
-  felt_->compliance(masses, block);
-  const auto between = [&](std::size_t i, std::size_t j) {
-    double sum = i == j ? presses_.wall_m_n() : 0;
-    for (std::size_t k = 0; k < GutSkin::kMostWeights; ++k)
-      for (std::size_t l = 0; l < GutSkin::kMostWeights; ++l)
-        sum += skin_.node(nodes[i]).weight[k] * skin_.node(nodes[j]).weight[l] *
-               block[place_of[i][k] * m + place_of[j][l]];
-    return static_cast<float>(sum);
-  };
-  float* value = upper.data();
-  for (std::size_t row = 0; row < 3 * nodes.size(); ++row)
-    for (std::size_t column = row; column < 3 * nodes.size(); ++column)
-      *value++ = row % 3 == column % 3 ? between(row / 3, column / 3) : 0.0F;
 }
 
 }  // namespace omentum::deform

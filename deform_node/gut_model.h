@@ -1,6 +1,7 @@
 // An intestine and its mesentery as deform_node moves them (Raghupathi 2004).
 #pragma once
 
+#include "deform_node/gut_compliance.h"
 #include "deform_node/gut_meeting.h"
 #include "deform_node/gut_presses.h"
 #include "deform_node/organ_models.h"
@@ -61,7 +62,6 @@ class GutModel final : public OrganModel {
   double coming_tick_s() const noexcept;
   void foresee() const noexcept;
   void look_ahead() const noexcept;
-  void find_compliance(std::span<const NodeId> nodes, std::span<float> upper) const noexcept;
 
   std::unique_ptr<physics::GutSystem> system_, felt_, ahead_;
   std::vector<physics::GutObstacle> obstacles_;
@@ -75,18 +75,16 @@ class GutModel final : public OrganModel {
   ModelStatus status_;
   std::vector<float> values_;  // [3 masses]
   // workspace of local_model()
-  static constexpr std::size_t kMostPatchMasses = kPatchNodes * geometry::GutSkin::kMostWeights;
   struct Felt {
-    Felt(const geometry::GutSkin& skin, std::size_t masses);
+    Felt(const geometry::GutSkin& skin, std::size_t masses, double wall_m_n);
     // [nodes of the skin] now, with the dents that tools press, and a felt step later under the same forces
     std::vector<Vec3> places, dented, next;
     bool is_seen = false, is_foreseen = false, is_next_seen = false;
-    std::vector<Vec3> ahead;               // [masses] velocities on the way there, m/s
-    std::vector<Vec3> wanted;              // [masses] places there, m
-    std::vector<Vec3> forces;              // [masses] of tools and other organs, N
-    std::vector<geometry::MassId> masses;  // that carry a patch
-    std::vector<double> block;             // A^-1 of these
+    std::vector<Vec3> ahead;   // [masses] velocities on the way there, m/s
+    std::vector<Vec3> wanted;  // [masses] places there, m
+    std::vector<Vec3> forces;  // [masses] of tools and other organs, N
     PatchChoice choice;
+    GutCompliance compliance;
   };
   std::unique_ptr<Felt> look_;
   std::unique_ptr<GutMeeting> meeting_;

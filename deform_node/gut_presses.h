@@ -51,8 +51,6 @@ class GutPresses {
   void dent(std::span<Vec3> places) const noexcept;
   bool any_grasps() const noexcept;
 
-  double wall_m_n() const noexcept { return wall_m_n_; }
-
  private:
   static constexpr std::size_t kMostMasses = kMaxNodesPerTool * geometry::GutSkin::kMostWeights;
   struct HeldPress {

@@ -38,8 +38,11 @@ struct HandOver {
 /// two wanted ones, and of two that nobody asked for, the first one keeps it.
 ///
 /// A taking takes as long as a silence: neither is heard until what the tool's last hand felt has decayed. So
-/// forces end and begin as with a device that leaves and another one that comes. Who takes a tool that is
-/// silent must have come for so long too: a node that stood still may hear a stranger first.
+/// forces end and begin as with a device that leaves and another one that comes. It begins when the wanted
+/// one's poses have come for so long, none of them so late that it would lose a tool: one that is too slow to
+/// hold the tool interrupts nobody. Then one may come twice as late. A silent tool the wanted one has at
+/// once; any other one that takes it must have come for so long, too: a node that stood still may hear a
+/// stranger first.
 ///
 /// Plain arithmetic on given times; reads no clock. One thread at a time.
 class ToolHolder {
@@ -65,20 +68,28 @@ class ToolHolder {
     transport::ParticipantId who{};
     std::int64_t since_ns = 0, heard_ns = 0;
   };
+  struct Heir : Candidate {
+    std::optional<std::int64_t> handing_ns;  // since when the tool goes over to it
+  };
 
   bool outranks_holder(const transport::ParticipantId& who, const KnownDevices& known) const noexcept {
     return known.wants(who) && !known.wants(*holder_);
   }
-  bool is_gone(const Candidate& next, std::int64_t now_ns) const noexcept {
-    return now_ns - next.heard_ns >= silence_ns_;
+  bool has_left(const Heir& heir, std::int64_t now_ns) const noexcept {
+    return now_ns - heir.heard_ns >= (heir.handing_ns ? 2 : 1) * silence_ns_;
   }
   PoseRight of_holder(std::int64_t now_ns, const KnownDevices& known) noexcept;
+  PoseRight of_heir(const transport::ParticipantId& who, std::int64_t now_ns,
+                    const KnownDevices& known) noexcept;
+  PoseRight of_next(const transport::ParticipantId& who, std::int64_t now_ns,
+                    const KnownDevices& known) noexcept;
   PoseRight take(const transport::ParticipantId& who, std::int64_t now_ns,
                  const KnownDevices& known) noexcept;
 
   std::int64_t silence_ns_;
   std::optional<transport::ParticipantId> holder_;
-  std::optional<Candidate> next_;  // who would have the tool, of all that came since the holder was heard
+  std::optional<Heir> heir_;       // who outranks the holder
+  std::optional<Candidate> next_;  // of the others, who came since the holder was heard
   std::int64_t heard_ns_ = 0;
   DeviceName holder_name_{};
   HandOver last_;

@@ -22,6 +22,11 @@ bool PictureSchedule::indent_due(double time_s, double dent_m) const {
   return indent_m_ == 0 || time_s - indent_written_s_ >= kIndentPeriod_s;
 }
 
+Quality PictureSchedule::quality(const std::string& name) const {
+  if (name == kLastPicture || !dear_) return Quality::kFine;
+  return stalls_ && name == kIndentPicture ? Quality::kDraft : Quality::kPlain;
+}
+
 PicturesDue PictureSchedule::due(double time_s, double dent_m) {
   PicturesDue due;
   if (frame_due(time_s)) {
@@ -41,8 +46,7 @@ PicturesDue PictureSchedule::due(double time_s, double dent_m) {
 PictureSchedule schedule_of(double asked_period_s, const Renderer& renderer) {
   const bool has_window = renderer.has_window();
   const double period_s = asked_period_s >= 0 ? asked_period_s : has_window ? 0 : kPeriod_s;
-  const bool stalls = has_window && !renderer.software().empty();
-  return PictureSchedule(period_s, stalls ? Quality::kDraft : Quality::kFine);
+  return PictureSchedule(period_s, has_window && !renderer.software().empty());
 }
 
 }  // namespace omentum::render

@@ -3,7 +3,6 @@
 
 #include "render_node/renderer.h"
 
-#include <algorithm>
 #include <string>
 
 namespace omentum::render {
@@ -23,18 +22,18 @@ struct PicturesDue {
 /// clock: times are given. One thread.
 class PictureSchedule {
  public:
-  /// period_s <= 0: no numbered frames. `others`: of all pictures but the last one, until they prove dear.
-  explicit PictureSchedule(double period_s, Quality others = Quality::kFine)
-      : period_s_(period_s), others_(others) {}
+  /// period_s <= 0: no numbered frames. `stalls`: a person sees the window stand still while a fine picture
+  /// is drawn.
+  explicit PictureSchedule(double period_s, bool stalls = false)
+      : period_s_(period_s), stalls_(stalls), dear_(stalls) {}
 
   /// `dent_m`: depth of the deepest dent in this frame (dent.h). Times must not decrease.
   PicturesDue due(double time_s, double dent_m);
   /// What a frame with pictures cost, s.
-  void took(double cost_s) {
-    if (cost_s > kDear_s) others_ = std::max(others_, Quality::kPlain);
-  }
-  /// Of the picture of that name. The last one is fine whatever it costs.
-  Quality quality(const std::string& name) const { return name == kLastPicture ? Quality::kFine : others_; }
+  void took(double cost_s) { dear_ = dear_ || cost_s > kDear_s; }
+  /// Of the picture of that name: the last one is fine whatever it costs; where fine ones are dear, others
+  /// are plain, and the close-up, which nobody asked for in this moment, stalls no window.
+  Quality quality(const std::string& name) const;
 
  private:
   // A program that draws takes this from the organ, which then falls behind the clock.
@@ -48,12 +47,11 @@ class PictureSchedule {
   double next_s_ = 0;
   double indent_m_ = 0;  // in indent.png
   double indent_written_s_ = 0;
-  Quality others_;
+  bool stalls_, dear_;
 };
 
-/// `asked_period_s` negative: every 2 s off-screen, none in a window. Where software draws a window, only the
-/// last picture is finer than a frame may be: a person would see the window stand still while a hand presses,
-/// for half a second (fine) or a third (plain).
+/// `asked_period_s` negative: every 2 s off-screen, none in a window. Where software draws a window, a
+/// person would see it stand still while a hand presses: for half a second (fine), or a third (plain).
 PictureSchedule schedule_of(double asked_period_s, const Renderer& renderer);
 
 }  // namespace omentum::render

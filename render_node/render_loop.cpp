@@ -1,11 +1,9 @@
 #include "render_node/render_loop.h"
 
 #include "node_common/node_identity.h"
-#include "node_common/organ_source.h"
 #include "node_common/session_orders.h"
 #include "render_node/frame_cost.h"
 #include "render_node/panel_keys.h"
-#include "render_node/plausible.h"
 #include "render_node/view_choices.h"
 #include "runtime/report.h"
 
@@ -26,39 +24,6 @@ constexpr double kSettled_s = 3;  // the frame rate's control has found its leve
 constexpr double kTurnPerHeight = 3.0;  // rad, when the mouse crosses the picture's height
 constexpr double kNearestRadii = 0.15, kFarthestRadii = 12;  // of the orbit, in radii of what is seen
 
-OrganShape shape_of(node::OrganSource source, const std::string& look) {
-  std::vector<geometry::SurfaceId> surface_of_file_node = source.organ.surface_of_file_node();
-  std::vector<geometry::CoveredFace> covered;
-  if (source.organ.split) covered = std::move(source.organ.split->covered);
-  return {source.kind,
-          std::move(source.organ.surface),
-          std::move(source.rest),
-          std::move(surface_of_file_node),
-          tissue_material(look),
-          bared_material(look),
-          std::make_shared<const geometry::TetraMesh>(std::move(source.organ.mesh)),
-          std::move(covered),
-          std::move(source.gut)};
-}
-
-// The largest value of a state: displacements, or places in the scene.
-double most_m(const node::OrganSource& source) {
-  double farthest = 0;
-  if (source.gut)
-    for (const geometry::Vec3& x : source.rest) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
-  return farthest + reach_of(source.rest);
-}
-
-LoadedOrgan loaded_organ(const node::OrganSource& source) {
-  return {.name = source.organ.name,
-          .hash = source.organ.hash,
-          .node_count = source.rest.size(),
-          .reach_m = most_m(source),
-          .state_kind = node::state_kind(source.kind),
-          .tetrahedron_count = source.organ.mesh.tetrahedra.size(),
-          .most_nodes = source.organ.mesh.positions.size()};
-}
-
 std::optional<std::size_t> organ_to_expose(const scene::Scene& scene) {
   for (std::size_t o = 0; o < scene.organs.size(); ++o)
     if (scene.organs[o].name == scene.score.exposed_organ) return o;
@@ -67,22 +32,12 @@ std::optional<std::size_t> organ_to_expose(const scene::Scene& scene) {
 
 }  // namespace
 
-RenderLoop::Loaded RenderLoop::load(const RenderOptions& options) {
-  Loaded loaded{node::load_scene(options.node), {}, {}};
-  for (const scene::OrganSpec& spec : loaded.scene.organs) {
-    node::OrganSource source = node::load_organ_source(loaded.scene, spec, organ::Load::kMeshOnly);
-    loaded.organs.push_back(loaded_organ(source));
-    loaded.shapes.push_back(shape_of(std::move(source), spec.look));
-  }
-  return loaded;
-}
-
 RenderLoop::RenderLoop(const RenderOptions& options, const transport::OpenBus& open_bus, Renderer& renderer,
                        runtime::Pace& pace)
-    : RenderLoop(options, load(options), open_bus, renderer, pace) {}
+    : RenderLoop(options, read_scene_files(options.node), open_bus, renderer, pace) {}
 
-RenderLoop::RenderLoop(const RenderOptions& options, const Loaded& loaded, const transport::OpenBus& open_bus,
-                       Renderer& renderer, runtime::Pace& pace)
+RenderLoop::RenderLoop(const RenderOptions& options, const SceneFiles& loaded,
+                       const transport::OpenBus& open_bus, Renderer& renderer, runtime::Pace& pace)
     : options_(options),
       renderer_(renderer),
       pace_(pace),

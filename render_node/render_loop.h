@@ -10,6 +10,7 @@
 #include "render_node/picture_schedule.h"
 #include "render_node/picture_writer.h"
 #include "render_node/pointer_link.h"
+#include "render_node/scene_files.h"
 #include "render_node/session_watch.h"
 #include "render_node/touch_view.h"
 #include "render_node/video_recorder.h"
@@ -70,13 +71,7 @@ class RenderLoop {
   void require_written();
 
  private:
-  struct Loaded {
-    scene::Scene scene;
-    std::vector<LoadedOrgan> organs;
-    std::vector<OrganShape> shapes;
-  };
-  static Loaded load(const RenderOptions& options);
-  RenderLoop(const RenderOptions& options, const Loaded& loaded, const transport::OpenBus& open_bus,
+  RenderLoop(const RenderOptions& options, const SceneFiles& loaded, const transport::OpenBus& open_bus,
              Renderer& renderer, runtime::Pace& pace);
   void frame(bool last);
   void measure_exposure();

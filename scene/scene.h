@@ -159,13 +159,13 @@ inline constexpr double kLineWidth_m = 0.005, kPullLimit_n = 5;
 
 /// What a trainee is measured by (docs/score.md).
 struct ScoreSpec {
-  std::string exposed_organ;  // its name: the share of it that nothing hides is told; empty: none
-  double from_s = 0;    // since render_node began: what is seen earlier, while organs settle, does not count
-  std::string line_of;  // the name of the organ that is to be cut; empty: none
-  std::vector<Vec3> planned_line;         // [2 or more] along which, in W, m, the organ at rest; or empty
-  double line_width_m = kLineWidth_m;     // what is removed farther from the line's cut lies outside of it
-  double pull_limit_n = kPullLimit_n;     // a pull that is stronger counts
-  std::optional<CameraScoreSpec> camera;  // who holds the endoscope
+  std::string exposed_organ{};  // its name: the share of it that nothing hides is told; empty: none
+  double from_s = 0;  // since render_node began: what is seen earlier, while organs settle, does not count
+  std::string line_of{};                    // the name of the organ that is to be cut; empty: none
+  std::vector<Vec3> planned_line{};         // [2 or more] along which, in W, m, the organ at rest; or empty
+  double line_width_m = kLineWidth_m;       // what is removed farther from the line's cut lies outside of it
+  double pull_limit_n = kPullLimit_n;       // a pull that is stronger counts
+  std::optional<CameraScoreSpec> camera{};  // who holds the endoscope
 };
 
 struct Scene {

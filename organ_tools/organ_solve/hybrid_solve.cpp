@@ -180,7 +180,7 @@ class HybridRest {
     const MeshPart& dynamic = split_.parts.dynamic;
     const Eigen::MatrixXd S = stiffness_of_held();
     const Eigen::VectorXd f_c = force_at_rest(S);
-    physics::AddedStiffness added = connection_.added(S.topLeftCorner(f_c.size(), f_c.size()));
+    const physics::AddedStiffness added = connection_.added(S.topLeftCorner(f_c.size(), f_c.size()));
     std::vector<double> external;
     for (const NodeId n : dynamic.node)
       external.insert(external.end(), weights_[n].begin(), weights_[n].end());
@@ -192,7 +192,7 @@ class HybridRest {
       if (law_ == DynamicLaw::kLinear)
         return run_to_rest([&] { return stepper.step(state, external); }, state);
       const auto turning = turning_law();
-      JoinedLaw joined(*turning, std::move(added));
+      JoinedLaw joined(*turning, added);
       return physics::search_rest(joined, stepper.factor(), external, state.u);
     };
     const bool rests = stepper.remove(removed()) && find_rest();

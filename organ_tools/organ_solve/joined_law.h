@@ -4,15 +4,13 @@
 #include "physics/dynamics/added_forces.h"
 #include "physics/dynamics/force_law.h"
 
-#include <utility>
-
 namespace omentum::organ_tools {
 
 /// Of a hybrid organ's dynamic part with what the precomputed one is to it: energies and forces add up. `law`
 /// outlives it.
 class JoinedLaw final : public physics::ForceLaw {
  public:
-  JoinedLaw(physics::ForceLaw& law, physics::AddedStiffness added) : law_(law), added_(std::move(added)) {}
+  JoinedLaw(physics::ForceLaw& law, const physics::AddedStiffness& added) : law_(law), added_(added) {}
 
   void forces(std::span<const double> u, std::span<double> f) noexcept override {
     law_.forces(u, f);

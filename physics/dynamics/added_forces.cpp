@@ -11,12 +11,12 @@ Eigen::Index place(std::size_t k) {
 }  // namespace
 
 AddedForces::AddedForces(const AddedStiffness& added)
-    : nodes_(added.nodes), K_(added.K), u_(added.K.rows()), f_(added.K.rows()) {}
+    : nodes_(added.nodes), stiffness_(added.K), u_(added.K.rows()), f_(added.K.rows()) {}
 
 void AddedForces::multiply(std::span<const double> u) noexcept {
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     u_.segment<3>(place(k)) = Eigen::Map<const Eigen::Vector3d>(u.data() + 3 * nodes_[k]);
-  K_.product({u_.data(), K_.size()}, {f_.data(), K_.size()});
+  stiffness_.product({u_.data(), stiffness_.size()}, {f_.data(), stiffness_.size()});
 }
 
 void AddedForces::add_product(double scale, std::span<const double> u, std::span<double> f) noexcept {

@@ -29,7 +29,7 @@ class AddedForces {
   void multiply(std::span<const double> u) noexcept;
 
   std::vector<geometry::NodeId> nodes_;
-  SymmetricTiles K_;
+  SymmetricTiles stiffness_;
   Eigen::VectorXd u_, f_;  // [3n]
 };
 

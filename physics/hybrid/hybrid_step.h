@@ -1,35 +1,13 @@
 // Backward Euler for a hybrid organ: one part has masses and is cut, the other one is precomputed.
 #pragma once
 
-#include "geometry/surface.h"
-#include "physics/dynamics/joinable_step.h"
 #include "physics/dynamics/known_blocks.h"
-#include "physics/hybrid/connection.h"
-#include "physics/hybrid/mesh_split.h"
+#include "physics/hybrid/hybrid_body.h"
 #include "physics/hybrid/precomputed_part.h"
 
 #include <memory>
 
 namespace omentum::physics {
-
-/// How the dynamic part's forces come about; the precomputed part is linear whatever they are.
-enum class DynamicLaw {
-  kLinear,        // ImplicitStep: small turns
-  kCorotational,  // WarpedStep: what is pulled, turned and lifted away
-};
-
-/// What a hybrid step is of; all of it outlives the step, but for `inertia`, `weights` and `tie`.
-struct HybridBody {
-  const MeshSplit& split;
-  const geometry::Surface& surface;     // of the precomputed part, in its own nodes
-  const SurfaceCompliance& compliance;  // of that surface
-  const MaterialMap& material;
-  const FixedComponents& fixed;  // [n] of the precomputed part
-  Inertia inertia;               // of the whole, [N]; what the precomputed part's own nodes weigh is not read
-  std::vector<double> weights;   // [3N], N, that always act on the precomputed part's own nodes
-  DynamicLaw law = DynamicLaw::kLinear;
-  const BorderTie* tie = nullptr;  // of parts that share no nodes: how they hold together
-};
 
 /// The tissue of the precomputed part is that of the dynamic one without its mass: K (u + b v) = f at all of
 /// its nodes but the connection nodes, whose masses are whole. Condensed onto these it is a stiffness S of

@@ -45,8 +45,7 @@ class CutScoreTest : public testing::Test {
   static constexpr double kMiddle_m = 0.05, kTop_m = 0.01;
   geometry::TetraMesh mesh_ = test::make_box_mesh(10, 10, 1, {0.1, 0.1, kTop_m});
   geometry::Surface surface_ = geometry::extract_surface(mesh_, std::vector<bool>(mesh_.positions.size()));
-  scene::ScoreSpec spec_{.exposed_organ = {},
-                         .line_of = "plate",
+  scene::ScoreSpec spec_{.line_of = "plate",
                          .planned_line = {Vec3(0.02, kMiddle_m, kTop_m), Vec3(0.08, kMiddle_m, kTop_m)},
                          .line_width_m = kLineWidth_m};
   std::vector<double> u_;

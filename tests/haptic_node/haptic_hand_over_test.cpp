@@ -86,7 +86,9 @@ TEST_F(HandOverTest, TheScenesDeviceTakesThePressedToolAndNeitherHandIsStruck) {
   ASSERT_GT(pressed_n, 0.1);
 
   introduce("omega", kWantedInfo);
-  go(*node, 20, kPressed, kPressed);
+  go(*node, 40, kPressed, kPressed);
+  EXPECT_GT(newton(newest_), 0.9 * pressed_n) << "he is served until the other one has shown that it comes";
+  go(*node, 30, kPressed, kPressed);
   EXPECT_TRUE(guest_is_felt()) << "the last force of the one that leaves is his";
   go(*node, 100, kPressed, kPressed);
   EXPECT_FALSE(guest_is_felt());

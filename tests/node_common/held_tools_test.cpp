@@ -19,7 +19,7 @@ class HeldToolsTest : public testing::Test {
     scene::Scene scene;
     scene.tools.resize(2);
     scene.tools[1].id = 3;
-    scene.tools[1].device = device;
+    for (scene::ToolSpec& tool : scene.tools) tool.device = device;
     return scene;
   }
   void begin(const std::string& device) {
@@ -28,9 +28,9 @@ class HeldToolsTest : public testing::Test {
     poses_ = std::make_unique<transport::LatestByTool<msg::ToolPose>>(
         *bus_, std::function<void(const msg::ToolPose&)>{}, [this] { return now_ns_; }, held_->admits());
   }
-  void introduce(const std::string& name, const transport::WriterId& writer) {
+  void introduce(const std::string& name, const transport::WriterId& writer, std::uint32_t tool = 3) {
     msg::DeviceInfo info{};
-    info.tool = 3;
+    info.tool = tool;
     info.name = name;
     fake_.post(info, writer);
   }
@@ -73,7 +73,7 @@ TEST_F(HeldToolsTest, TheScenesDeviceIsSeenWhoeverElseMovesTheTool) {
   go(10, {kGuest});
   EXPECT_EQ(seen(), kGuest[0]) << "nobody else is there";
   introduce("omega", kWanted);
-  go(100, {kWanted, kGuest});
+  go(110, {kWanted, kGuest});
   EXPECT_EQ(seen(), kWanted[0]) << "the last pose is the guest's, and it does not count";
   msg::ToolPose invalid = well();
   invalid.valid = false;
@@ -104,6 +104,17 @@ TEST_F(HeldToolsTest, AHandThatCountsLowerIsSeenAsSoonAsItHasTheTool) {
   introduce("omega", kWanted);
   go(60, {kWanted});
   EXPECT_EQ(seen(), kWanted[0]);
+}
+
+TEST_F(HeldToolsTest, WhoDescribesTwoToolsIsWantedAtBothUntilHeCallsHimselfOtherwiseAtOne) {
+  begin("omega");
+  introduce("omega", kWanted);
+  introduce("omega", kWanted, 0);
+  go(10, {kGuest});
+  EXPECT_FALSE(seen()) << "the wanted one is there, its hand rests";
+  introduce("resting", kWanted);
+  go(10, {kGuest});
+  EXPECT_EQ(seen(), kGuest[0]);
 }
 
 TEST_F(HeldToolsTest, WhereTheSceneNamesNoDeviceEverythingCounts) {

@@ -65,8 +65,8 @@ TEST_F(ToolHolderTest, TheWantedOneTakesTheToolWhenTheLastForceHasEndedAndKeepsI
   go(500, {kFirst});
   names_.hear(called("omega"), kSecond);
   EXPECT_EQ(go(100, {kFirst}), kHolds) << "it said what it is, and moves nothing";
-  EXPECT_EQ(go(50, {kFirst, kSecond}), kWaits);
-  EXPECT_EQ(go(1, {kFirst}), kWaits) << "the last hand's force shall end";
+  EXPECT_EQ(go(50, {kSecond, kFirst}), kHolds) << "nobody knows yet that it goes on coming";
+  EXPECT_EQ(go(50, {kSecond, kFirst}), kWaits) << "the last hand's force shall end";
   EXPECT_EQ(go(1, {kSecond}), kTakes);
   EXPECT_EQ(go(500, {kSecond, kFirst}), kRefused);
   now_ns_ += 100 * kSilence_ns;
@@ -88,10 +88,43 @@ TEST_F(ToolHolderTest, WhenTheWantedOneLeavesTheNextOneIsTaken) {
 TEST_F(ToolHolderTest, AnHeirThatIsGoneAgainInheritsNothing) {
   go(500, {kFirst});
   names_.hear(called("omega"), kSecond);
-  go(20, {kFirst, kSecond});
-  EXPECT_EQ(go(49, {kFirst}), kWaits);
+  go(70, {kFirst, kSecond});
+  EXPECT_EQ(go(99, {kFirst}), kWaits);
   EXPECT_EQ(go(1, {kFirst}), kHolds);
+  EXPECT_EQ(go(10, {kSecond, kFirst}), kHolds) << "one that comes again has to show it anew";
   EXPECT_EQ(holder_.last().count, 0u);
+}
+
+TEST_F(ToolHolderTest, AWantedOneTooSlowToHoldAToolDoesNotInterruptWhoHoldsIt) {
+  go(500, {kFirst});
+  names_.hear(called("omega"), kSecond);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(go(1, {kSecond}), i == 0 ? kWaits : kRefused)
+        << "from the second one on it is known to be slow";
+    for (int ms = 1; ms < 51; ++ms) ASSERT_EQ(go(1, {kFirst}), kHolds) << "pose " << i << ", " << ms << " ms";
+  }
+  EXPECT_EQ(holder_.last().count, 0u);
+}
+
+TEST_F(ToolHolderTest, AWantedOneThatIsJustFastEnoughTakesTheTool) {
+  go(500, {kFirst});
+  names_.hear(called("omega"), kSecond);
+  const auto after = [&](int ms) {
+    go(ms - 1, {kFirst});
+    return go(1, {kSecond});
+  };
+  for (const int ms : {40, 40, 40}) EXPECT_EQ(after(ms), kWaits);
+  EXPECT_EQ(after(60), kTakes) << "in a hand-over nobody else is heard, so that one late pose spoils none";
+}
+
+TEST_F(ToolHolderTest, AWantedOneTakesAtOnceWhatNobodyMovesHoweverSlowItIs) {
+  go(500, {kFirst});
+  names_.hear(called("omega"), kSecond);
+  now_ns_ += kSilence_ns - 2 * kMs_ns;
+  EXPECT_EQ(go(1, {kSecond}), kWaits) << "the last hand's force may not have ended";
+  now_ns_ += 2 * kSilence_ns;
+  EXPECT_EQ(go(1, {kSecond}), kTakes);
+  EXPECT_EQ(holder_.last().count, 1u);
 }
 
 TEST_F(ToolHolderTest, OfTwoOfTheWantedNameTheFirstOneStays) {
@@ -106,7 +139,7 @@ TEST_F(ToolHolderTest, OfTwoHeirsTheFirstOneTakesIt) {
   go(100, {kFirst});
   names_.hear(called("omega"), kSecond);
   names_.hear(called("omega"), kThird);
-  EXPECT_EQ(go(60, {kFirst, kSecond, kThird}), kRefused);
+  EXPECT_EQ(go(110, {kFirst, kSecond, kThird}), kRefused);
   EXPECT_EQ(go(1, {kSecond}), kHolds);
 }
 

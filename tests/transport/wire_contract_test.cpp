@@ -179,6 +179,7 @@ TEST_P(WireContract, AKilledWriterIsNoticed) {
   EXPECT_TRUE(eventually([&] { return asking->status().liveliness_lost > before.liveliness_lost; }));
   EXPECT_TRUE(eventually([&] { return poses.status().matched == 0; }));
   EXPECT_GT(poses.status().deadline_missed, 0U) << "counted by every reader";
+  EXPECT_EQ(poses.status().liveliness_lost, 0U) << "requested by none that does not ask";
 }
 
 TEST_P(WireContract, ARestartedWriterIsHeardAgain) {

@@ -68,9 +68,13 @@ class CycloneReader final : public Reader<M> {
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
                                                                               dds_delete_listener);
     dds_lset_data_available(listener.get(), on_data_available);
-    dds_lset_liveliness_changed(listener.get(), on_liveliness_changed);
-    if (callbacks_.on_gone) dds_lset_subscription_matched(listener.get(), on_subscription_matched);
-    const Qos qos = reader_qos(requested(spec, static_cast<bool>(callbacks_.on_gone)));
+    const bool asks_who_is_gone = static_cast<bool>(callbacks_.on_gone);
+    if (asks_who_is_gone) {
+      dds_lset_subscription_matched(listener.get(), on_subscription_matched);
+      // Cyclone would tell the others too, whatever they request
+      dds_lset_liveliness_changed(listener.get(), on_liveliness_changed);
+    }
+    const Qos qos = reader_qos(requested(spec, asks_who_is_gone));
     reader_ = checked(dds_create_reader(entities.participant, topic, qos.get(), listener.get()),
                       std::string("a reader of ") + spec.name);
   }
