@@ -18,6 +18,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 
 TOGETHER = 24
 INCLUDED = re.compile(r"^\.+ (.+)$")  # a line of -H: a dot for each level, and the header
@@ -27,6 +28,13 @@ UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | r
 NAMED = re.compile(r"^(?:struct|class|enum(?: class)?) (\w+)|^(?!template)[^\s/#}][^(={\[;\n]*?\b(\w+\(.*|\w+ *[={\[])",
                    re.MULTILINE)
 INCLUDES = re.compile(r" (?:-I|-isystem) ?\S+")
+TELLING = threading.Lock()
+
+
+def tell(text):
+    """Prints what one thread found, unmixed with another's: print() alone writes a text and its line's end apart."""
+    with TELLING:
+        print(text, flush=True)
 
 
 def state_of(part, root):
@@ -106,7 +114,7 @@ class Lint:
         done = self.tidy(name, self.build, self.checks)
         if done.returncode == 0:
             self.remember(name, headers_in(done.stderr))
-        print(f"{name}\n{done.stdout}", end="", flush=True)
+        tell(f"{name}\n{done.stdout}".removesuffix("\n"))
         return done.returncode == 0
 
     def together(self, names):
@@ -131,7 +139,7 @@ class Lint:
         headers = [header for header in headers_in(done.stderr) if header not in {str(self.root / name) for name in names}]
         for name in names:
             self.remember(name, headers)
-        print("\n".join(names), flush=True)
+        tell("\n".join(names))
         return True
 
     def batch(self, names):
@@ -181,7 +189,7 @@ def main():
     lint = Lint(pathlib.Path(build).resolve(), checks, pathlib.Path.cwd().resolve())
     clean = {name for name in names if lint.was_clean(name)}
     if clean:
-        print("\n".join(sorted(clean)), flush=True)
+        tell("\n".join(sorted(clean)))
     left = [name for name in names if name not in clean]
     batches = [[name] for name in left] if apart else batches_of(left, lint)
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
