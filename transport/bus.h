@@ -43,8 +43,8 @@ template <class M>
 class Writer {
  public:
   virtual ~Writer() = default;
-  /// Sends on the calling thread (Fast DDS hands samples above one message's size to a thread of its
-  /// own). False: a sequence or string is over its bound in the IDL, a string contains a zero byte, or
+  /// Sends on the calling thread (Fast DDS hands samples of reliable topics that fit no message to a thread
+  /// of its own). False: a sequence or string is over its bound in the IDL, a string contains a zero byte, or
   /// the vendor refused, or it is joining the domain anew after a standstill of the process. Never throws.
   virtual bool write(const M& sample) noexcept = 0;
   virtual EndpointStatus status() const = 0;

@@ -21,6 +21,13 @@ constexpr std::uint32_t kPeerParticipants = 16;
 // default 5, so that a busy machine may miss some.
 constexpr std::uint32_t kFirstAnnouncements = 10;
 
+// Messages that one key of a session encrypts. Each has 64 random bits of its own; two of a session with the
+// same ones, which would betray it, are in one session of 2^49, where NIST SP 800-38D (section 8.3) takes one
+// of 2^32. With the default of 32 keys are derived eight times as often, by whoever sends and by each
+// receiver.
+constexpr const char* kSessionLength = "dds.sec.crypto.maxblockspersession";
+constexpr int kMessagesOfASession = 256;
+
 Duration_t duration(int milliseconds) {
   return Duration_t(milliseconds / 1000, static_cast<std::uint32_t>(milliseconds % 1000) * 1'000'000U);
 }
@@ -83,6 +90,7 @@ void secure(dds::DomainParticipantQos& qos, const Credentials& credentials) {
   set_file("dds.sec.access.builtin.Access-Permissions.governance", credentials.governance);
   set_file("dds.sec.access.builtin.Access-Permissions.permissions", credentials.permissions);
   set("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+  set(kSessionLength, std::to_string(kMessagesOfASession));
 }
 
 dds::DomainParticipantQos participant_qos(const BusOptions& options) {
@@ -121,6 +129,15 @@ void set_common(Qos& qos, const TopicSpec& spec) {
   }
 }
 
+// Fast DDS' own thread takes a sample by trying its writer's lock over and over, which the writing thread has
+// until it is done: a twentieth of a processor for organ states and local models, at the same priority. It
+// also puts samples that wait into one message, secured of up to 8 kB, which IP splits; of what is split the
+// kernel keeps the rest for 30 s when a part is lost, until it has no room for any. So who writes sends. Only
+// what is repeated until it came is left to that thread, where it does not fit one message.
+bool sent_by_another_thread(const TopicSpec& spec, Profile profile, std::size_t max_bytes) {
+  return spec.reliability == Reliability::kReliable && max_bytes > max_message_bytes(profile);
+}
+
 }  // namespace
 
 Entities::Entities(const BusOptions& options) : profile(options.profile) {
@@ -157,11 +174,12 @@ dds::Topic* Entities::topic(const TopicSpec& spec, const dds::TypeSupport& type)
 dds::DataWriterQos writer_qos(const TopicSpec& spec, Profile profile, std::size_t max_bytes) {
   dds::DataWriterQos qos;
   set_common(qos, spec);
+  // of no effect where nothing is encrypted
+  qos.properties().properties().emplace_back(kSessionLength, std::to_string(kMessagesOfASession));
   if (spec.deadline.count() > 0) qos.deadline().period = duration(spec.deadline);
   set_heartbeat_period(qos.reliable_writer_qos().times, duration(kHeartbeat_ms));
-  // a sample that fits no single message is sent by Fast DDS' own thread; smaller ones without that hop
-  qos.publish_mode().kind =
-      max_bytes > max_message_bytes(profile) ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
+  qos.publish_mode().kind = sent_by_another_thread(spec, profile, max_bytes) ? dds::ASYNCHRONOUS_PUBLISH_MODE
+                                                                             : dds::SYNCHRONOUS_PUBLISH_MODE;
   return qos;
 }
 

@@ -13,7 +13,6 @@
 #include <atomic>
 #include <shared_mutex>
 #include <stdexcept>
-#include <type_traits>
 
 namespace omentum::transport::fast {
 
@@ -27,17 +26,6 @@ WriterId writer_id(const dds::InstanceHandle_t& publication) {
 
 // A process that stood still for so long forgot some others and not all, or they it.
 constexpr auto kForgottenAfter = std::chrono::milliseconds(std::min(kCycloneLease_ms, kFastLease_ms)) * 3 / 4;
-
-// On a LAN a block fits a datagram, whatever its type's bound. So its writer sends it, alone: Fast DDS' own
-// thread would put those that wait into one message, secured of up to 8 kB, which IP splits. Of what is split
-// the kernel keeps the rest for 30 s when a part is lost, until it has no room for any.
-template <class M>
-constexpr std::size_t largest_sample(Profile profile) {
-  constexpr bool kBlocks = std::is_same_v<M, msg::OrganState> || std::is_same_v<M, msg::OrganStress> ||
-                           std::is_same_v<M, msg::TouchingPairs>;
-  if (kBlocks && profile == Profile::kLan) return fragment_bytes(profile);
-  return kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes;
-}
 
 template <class M>
 class FastWriter final : public Writer<M>, private Endpoint {
@@ -66,7 +54,7 @@ class FastWriter final : public Writer<M>, private Endpoint {
   void join(Entities& entities) override {
     const TopicSpec& spec = kTopicSpec<M>;
     dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    const auto qos = writer_qos(spec, entities.profile, largest_sample<M>(entities.profile));
+    const auto qos = writer_qos(spec, entities.profile, kEncapsulationBytes + msg::MessageInfo<M>::kMaxBytes);
     const std::lock_guard lock(mutex_);
     writer_ = entities.publisher->create_datawriter(topic, qos, nullptr, dds::StatusMask::none());
     if (!writer_) throw std::runtime_error(std::string("Fast DDS refused a writer of ") + spec.name);

@@ -1,4 +1,4 @@
-// Spares Fast DDS 2.9 the derivation of a key for each message that it decrypts.
+// Spares Fast DDS 2.9 the derivation of keys that it knows.
 #pragma once
 
 namespace omentum::transport::fast {
