@@ -2,6 +2,7 @@
 
 #include "transport/fast/complaints.h"
 #include "transport/fast/domain_names.h"
+#include "transport/fast/fetched_cipher.h"
 #include "transport/fast/session_keys.h"
 #include "transport/keystore.h"
 #include "transport/settings.h"
@@ -75,7 +76,9 @@ void add_peers(dds::DomainParticipantQos& qos, const std::vector<std::string>& p
 }
 
 void secure(dds::DomainParticipantQos& qos, const Credentials& credentials) {
+  // both make a message cheaper, and nothing else
   remember_session_keys();
+  fetch_cipher();
   auto& properties = qos.properties().properties();
   const auto set = [&](const char* name, const std::string& value) { properties.emplace_back(name, value); };
   const auto set_file = [&](const char* name, const std::filesystem::path& file) {
