@@ -193,6 +193,7 @@ struct DataWriterQos : EndpointQos {
   };
   Reliable& reliable_writer_qos();
   PublishMode& publish_mode();
+  rtps::PropertyPolicy& properties();
 };
 struct DataReaderQos : EndpointQos {};
 struct TopicQos {};
