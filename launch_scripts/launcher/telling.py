@@ -8,14 +8,17 @@ TURN = threading.Lock()
 
 
 def tell(text):
-    """One line or several, unmixed with another thread's: print() writes a text and its line's end apart. Where nobody reads any
-    more (`launch_scripts/run | head`), that is a closed terminal: SIGHUP, and what is still told goes nowhere."""
+    """One line or several, unmixed with another thread's: print() writes a text and its line's end apart. Where it cannot be written
+    (a full disk), this and what follows goes nowhere: no session ends for it. Where nobody reads any more (`run | head`), that is a
+    closed terminal besides: SIGHUP."""
     with TURN:
         try:
             print(text, flush=True)
             return
-        except BrokenPipeError:
+        except OSError as error:
+            is_closed = isinstance(error, BrokenPipeError)
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, sys.stdout.fileno())  # which takes what is left in the buffer, too
             os.close(nowhere)
-    signal.raise_signal(signal.SIGHUP)
+    if is_closed:
+        signal.raise_signal(signal.SIGHUP)
