@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_loop.h"
 
+#include "files/console.h"
 #include "node_common/link_write.h"
 #include "node_common/node_identity.h"
 #include "runtime/report.h"
@@ -7,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <iostream>
 #include <thread>
 
 namespace omentum::haptic {
@@ -148,7 +148,7 @@ void HapticLoop::run() {
   });
   if (local_models_) looks_ = loop_.beside(kLookPeriod, [this] { local_models_->look(); });
   grant_ = runtime::request_realtime(runtime::kHandLoopPriority, tensor_bytes(setup_.model));
-  if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
+  if (!grant_.warning.empty()) files::say("haptic_node: warning: " + grant_.warning);
   serve_from_ns_ = loop_.now_ns() + kListen_ns;
   while (loop_.wait() != runtime::Pace::Cause::kStopped) {
     const std::int64_t now_ns = loop_.now_ns();
@@ -262,7 +262,8 @@ void HapticLoop::publish_status() {
 void HapticLoop::tell_hand_overs() {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (const node::HandOver* last = lines_[i]->fetch_hand_over()) hand_overs_[i].take(*last);
-    hand_overs_[i].tell(lines_[i]->id(), loop_.now_ns(), std::cerr);
+    const std::string line = hand_overs_[i].line(lines_[i]->id(), loop_.now_ns());
+    if (!line.empty()) files::say(line);
   }
 }
 
