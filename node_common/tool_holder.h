@@ -42,7 +42,8 @@ struct HandOver {
 /// one's poses have come for so long, none of them so late that it would lose a tool: one that is too slow to
 /// hold the tool interrupts nobody. Then one may come twice as late. A silent tool the wanted one has at
 /// once; any other one that takes it must have come for so long, too: a node that stood still may hear a
-/// stranger first.
+/// stranger first. A tool that nobody took is still its last hand's, also beside a wanted one that rests: a
+/// node cannot tell a silence of the device from one of the wire or its own.
 ///
 /// Plain arithmetic on given times; reads no clock. One thread at a time.
 class ToolHolder {
