@@ -54,6 +54,10 @@ class ToolHolder {
   /// For a pose that is well formed, and is one by its own word.
   PoseRight judge(const transport::ParticipantId& who, std::int64_t now_ns,
                   const KnownDevices& known) noexcept;
+  /// Somebody who knows better says whose it is. No other one's first force waits for the last one's here.
+  void give(const transport::ParticipantId& who, std::int64_t now_ns, const KnownDevices& known) noexcept {
+    take(who, now_ns, known);
+  }
   /// The holder's pose was one that counts.
   void heard(std::int64_t now_ns) noexcept {
     heard_ns_ = now_ns;
