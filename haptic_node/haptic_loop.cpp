@@ -80,12 +80,14 @@ void HapticLoop::connect(const transport::OpenBus& open_bus) {
         bus_->reader<msg::LocalModel>([this](const msg::LocalModel& model) { local_models_->hear(model); });
   pose_reader_ = bus_->reader<msg::ToolPose>(transport::ByWriter<msg::ToolPose>{
       [this](const msg::ToolPose& pose, const transport::WriterId& writer) { hear(pose, writer); },
-      [](const transport::WriterId&) {}});  // who left is silent
+      [](const transport::WriterId&) {},  // who left is silent
+      [this](transport::QosPolicy policy) { unheard_.refused_poses(policy); }});
   device_reader_ = bus_->reader<msg::DeviceInfo>(transport::ByWriter<msg::DeviceInfo>{
       [this](const msg::DeviceInfo& info, const transport::WriterId& writer) { hear(info, writer); },
       [this](const transport::WriterId& writer) {
         for (const auto& line : lines_) line->gone(writer);
-      }});
+      },
+      [this](transport::QosPolicy policy) { unheard_.refused_infos(policy); }});
   command_reader_ = bus_->reader<msg::SessionCommand>(
       [this](const msg::SessionCommand& command) { orders_.hear(command, loop_.now_ns()); });
   scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& scene) { hear(scene); });
@@ -250,6 +252,7 @@ void HapticLoop::publish_status() {
   snapshots_.fetch();
   const Snapshot& snapshot = snapshots_.value();
   tell_hand_overs();
+  unheard_.tell(loop_.now_ns(), lines_, faults_);
   orders_.tell(status_);
   status_.tools_served = served_.load(std::memory_order_relaxed);
   status_.echoes.assign(snapshot.echoes.begin(),
