@@ -38,7 +38,9 @@ class SurfaceDrawing final : public OrganDrawing {
       outline_.normals.push_back(surface_.skin.rest_normal(geometry::SurfaceId(s)));
   }
 
-  Outline outline() const override { return outline_; }
+  Outline outline() const override { return cut_ ? outline_now() : outline_; }
+  // what was cut off falls, and comes back with a reset
+  bool wanders() const override { return cut_.has_value(); }
   void deform(std::span<const float> values) override { surface_.skin.deform(values); }
   CutOutcome cut(const RemovedSet& removed, std::size_t node_count) override;
   bool map(std::span<const float> shares) override {
@@ -60,6 +62,7 @@ class SurfaceDrawing final : public OrganDrawing {
 
  private:
   void show_cut();
+  Outline outline_now() const;
 
   OrganShape shape_;
   PressedSurface surface_;
@@ -69,6 +72,20 @@ class SurfaceDrawing final : public OrganDrawing {
   std::int32_t removed_count_ = 0;
   std::vector<Press> on_skin_, on_bared_;  // workspace
 };
+
+// Of what is left, where it is; each node stands for as much of the surface as it did.
+Outline SurfaceDrawing::outline_now() const {
+  Outline now;
+  const OrganSkin& skin = surface_.skin;
+  for (geometry::SurfaceId s(0); s < skin.node_count(); s = geometry::SurfaceId(s + 1)) {
+    if (!skin.has(s)) continue;
+    now.points.push_back(skin.position(s).cast<double>());
+    now.normals.push_back(skin.normal(s));
+  }
+  now.area_m2 =
+      outline_.area_m2 * static_cast<double>(now.points.size()) / static_cast<double>(outline_.points.size());
+  return now;
+}
 
 bool SurfaceDrawing::live(std::span<const NodeForce> forces, double dt_s) {
   on_skin_.clear();

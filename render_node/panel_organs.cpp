@@ -84,7 +84,8 @@ void scene_lines(const PanelView& view) {
   if (view.dents) figure("deepest dent", format("%.1f mm", view.dent_mm));
   if (view.exposed_share)
     figure(view.exposed_organ + " exposed", format("%.0f %%", 100 * *view.exposed_share));
-  if (view.map != TissueMap::kOff) {
+  // where nothing is drawn by it a scale would promise colours; each organ's line says that nothing is told
+  if (view.map != TissueMap::kOff && std::ranges::any_of(view.organs, &OrganRow::mapped)) {
     map_scale(view);
     largest_line(view);
   }

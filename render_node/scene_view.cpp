@@ -109,7 +109,7 @@ Outline SceneView::outline() const {
 
 void SceneView::shade_ground() {
   const auto wanders = [](const DrawnOrgan& organ) { return organ.drawing->wanders(); };
-  if (std::ranges::none_of(organs_, wanders)) return;
+  if (scenery_.encloses() || std::ranges::none_of(organs_, wanders)) return;
   const Outline all = outline();
   render::shade_ground(all.points, all.normals, all.area_m2, kGroundSamples, drape_);
   renderer_.update_vertices(ground_, drape_.vertices);

@@ -249,6 +249,28 @@ TEST(CutOrgan, EverythingMayBeCutAway) {
   EXPECT_TRUE(stage.mesh(Look::kBared).triangles.empty());
 }
 
+TEST(CutOrgan, TheGroundIsShadedByWhatIsLeftWhereItLies) {
+  Stage stage;
+  Cutter cutter(stage.shape);
+  const std::vector<float> at_rest = cutter.rest();
+  const auto darkest = [&] {
+    stage.view.shade_ground();
+    return *std::ranges::min_element(stage.mesh(Look::kGround).vertices, {}, &Vertex::openness);
+  };
+  const Vertex whole = darkest();
+  ASSERT_LT(whole.openness, 0.5f);
+  cutter.cut([](const geometry::Vec3& p) { return p.x() < 0.3 * kBoxSide_m; });
+  const geometry::Vec3 fallen(4 * kBoxSide_m, 0, 0);
+  ASSERT_TRUE(stage.view.show(0, cutter.removed(), cutter.state([&](const auto&) { return fallen; })));
+  EXPECT_NEAR(darkest().position.x() - whole.position.x(), fallen.x(), kBoxSide_m);
+  EXPECT_LT(darkest().openness, 0.9f) << "rings are farther apart out there";
+  cutter.cut([](const geometry::Vec3&) { return true; });
+  ASSERT_TRUE(stage.show(cutter));
+  EXPECT_GT(darkest().openness, 0.99f) << "nothing is left";
+  ASSERT_TRUE(stage.view.show(0, RemovedSet{}, at_rest));
+  EXPECT_NEAR(darkest().openness, whole.openness, 0.05) << "a reset brings it back";
+}
+
 TEST(CutOrgan, AStateOfAnotherSetThanItSaysIsNotDrawn) {
   Stage stage;
   Cutter cutter(stage.shape);

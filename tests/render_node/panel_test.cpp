@@ -1,6 +1,8 @@
 // What the panel says, and that it can be laid out.
 #include "render_node/panel.h"
+#include "render_node/panel_lines.h"
 #include "render_node/pose_arrivals.h"
+#include "render_node/tissue_map.h"
 
 #include "panel_context.h"
 
@@ -336,17 +338,34 @@ TEST_F(PanelLayout, TheMapsScaleAndWhatIsNotToldTakeALineEach) {
   const float tissue = height_of(view);
   view.map = TissueMap::kStress;
   view.full_stress_pa = 1800;
-  const float without = height_of(view);
-  EXPECT_GT(without, tissue);
+  EXPECT_GT(height_of(view), tissue) << "that none is told";
   view.organs[0].mapped = true;
-  EXPECT_LT(height_of(view), without);
   const float unknown = height_of(view);
+  EXPECT_GT(unknown, tissue);
   view.organs[0].stressed_pa = 420;
   EXPECT_GT(height_of(view), unknown) << "the largest of it has a line of its own";
   view.organs[0].trusted = scene::Trusted::kSmallStrains;
   const float linear = height_of(view);
   view.organs[0].strained = 0.4;
   EXPECT_GT(height_of(view), linear);
+}
+
+TEST_F(PanelLayout, WhereNoStressIsToldNoScaleSaysWhatColoursMean) {
+  PanelView view = busy();
+  view.full_stress_pa = 1800;
+  const auto scale_corners = [&](TissueMap map, bool mapped) {
+    view.map = map;
+    view.organs[0].mapped = mapped;
+    height_of(view);
+    const ImU32 brightest = ImGui::GetColorU32(shown(map_colours().back()));
+    int count = 0;
+    for_each_corner([&](const ImDrawVert& v) { count += v.col == brightest; });
+    return count;
+  };
+  for (const TissueMap map : {TissueMap::kStrain, TissueMap::kStress}) {
+    EXPECT_EQ(scale_corners(map, false), 0);
+    EXPECT_EQ(scale_corners(map, true), 2) << "the end of the scale";
+  }
 }
 
 TEST_F(PanelLayout, WhatIsNewIsInTheBoxAtOnceInTheFirstFrameToo) {
