@@ -1,5 +1,6 @@
 #include "deform_node/cut_journal.h"
 
+#include "files/console.h"
 #include "files/whole_file.h"
 #include "scene/scene_values.h"
 #include "transport/messages.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <iostream>
 #include <stdexcept>
 #include <utility>
 
@@ -203,7 +203,7 @@ CutJournal::CutJournal(std::filesystem::path file, JournalScene scene, runtime::
 std::vector<OrganCuts> CutJournal::read() const {
   JournalContents contents = read_journal(file_, scene_);
   if (!contents.flaw.empty()) {
-    std::cerr << "deform_node: " << contents.flaw << "; ignored, the organs are whole" << std::endl;
+    files::say("deform_node: " + contents.flaw + "; ignored, the organs are whole");
     faults_.raise("cuts: the journal cannot be used, the organs are whole");
   }
   return std::move(contents.organs);

@@ -1,5 +1,6 @@
 #include "deform_node/deform_loop.h"
 
+#include "files/console.h"
 #include "node_common/node_identity.h"
 #include "runtime/report.h"
 #include "transport/topics.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <utility>
 
 namespace omentum::deform {
@@ -24,7 +24,7 @@ constexpr auto kSettled_ns = static_cast<std::int64_t>(1e9 * node::kSettled_s);
 
 // whoever writes statuses must not fill a terminal
 void say_once(bool& said, const char* what) {
-  if (!std::exchange(said, true)) std::cerr << "deform_node: " << what << std::endl;
+  if (!std::exchange(said, true)) files::say(std::string("deform_node: ").append(what));
 }
 
 nlohmann::json to_json(const CutAccount& cuts) {

@@ -1,12 +1,12 @@
 #include "device_bridge/device_bridge.h"
 
+#include "files/console.h"
 #include "node_common/link_write.h"
 #include "node_common/node_identity.h"
 #include "node_common/rivals.h"
 #include "runtime/report.h"
 
 #include <chrono>
-#include <iostream>
 #include <utility>
 
 namespace omentum::device {
@@ -67,7 +67,7 @@ void DeviceBridge::connect(const transport::OpenBus& open_bus) {
 
 void DeviceBridge::run() {
   realtime_ = runtime::request_realtime(runtime::kHandLoopPriority);
-  if (!realtime_.warning.empty()) std::cerr << "virtual_device: " << realtime_.warning << std::endl;
+  if (!realtime_.warning.empty()) files::say("virtual_device: " + realtime_.warning);
   const std::int64_t begin_ns = loop_.now_ns();
   std::int64_t recorded_ns = begin_ns;
 

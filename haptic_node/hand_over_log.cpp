@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <ostream>
-
 namespace omentum::haptic {
 namespace {
 
@@ -17,14 +15,14 @@ std::string quoted(const node::DeviceName& name) {
 
 }  // namespace
 
-void HandOverLog::tell(std::uint32_t tool, std::int64_t now_ns, std::ostream& out) {
-  if (newest_.count == told_ || (told_ > 0 && now_ns - told_ns_ < kLineEvery_ns)) return;
-  out << "haptic_node: tool " << tool << " goes from " << quoted(newest_.from) << " to "
-      << quoted(newest_.to);
-  if (newest_.count > told_ + 1) out << " (" << newest_.count << " hand-overs by now)";
-  out << std::endl;
+std::string HandOverLog::line(std::uint32_t tool, std::int64_t now_ns) {
+  if (newest_.count == told_ || (told_ > 0 && now_ns - told_ns_ < kLineEvery_ns)) return {};
+  std::string line = "haptic_node: tool " + std::to_string(tool) + " goes from " + quoted(newest_.from) +
+                     " to " + quoted(newest_.to);
+  if (newest_.count > told_ + 1) line += " (" + std::to_string(newest_.count) + " hand-overs by now)";
   told_ = newest_.count;
   told_ns_ = now_ns;
+  return line;
 }
 
 nlohmann::json HandOverLog::report() const {

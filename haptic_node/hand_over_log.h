@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <iosfwd>
+#include <string>
 
 namespace omentum::haptic {
 
@@ -16,8 +16,8 @@ class HandOverLog {
   static constexpr std::int64_t kLineEvery_ns = 1'000'000'000;
 
   void take(const node::HandOver& newest) noexcept { newest_ = newest; }
-  /// Writes what was not told yet as one line, where the last one was long enough ago.
-  void tell(std::uint32_t tool, std::int64_t now_ns, std::ostream& out);
+  /// The line of what was not told yet, where the last one was long enough ago; else empty.
+  std::string line(std::uint32_t tool, std::int64_t now_ns);
   /// {"count", "from", "to"}: of the newest one; without names before the first.
   nlohmann::json report() const;
 

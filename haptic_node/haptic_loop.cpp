@@ -1,5 +1,6 @@
 #include "haptic_node/haptic_loop.h"
 
+#include "files/console.h"
 #include "haptic_node/enclosed_tool.h"
 #include "node_common/link_write.h"
 #include "node_common/node_identity.h"
@@ -8,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <iostream>
 #include <thread>
 
 namespace omentum::haptic {
@@ -81,12 +81,14 @@ void HapticLoop::connect(const transport::OpenBus& open_bus) {
         bus_->reader<msg::LocalModel>([this](const msg::LocalModel& model) { local_models_->hear(model); });
   pose_reader_ = bus_->reader<msg::ToolPose>(transport::ByWriter<msg::ToolPose>{
       [this](const msg::ToolPose& pose, const transport::WriterId& writer) { hear(pose, writer); },
-      [](const transport::WriterId&) {}});  // who left is silent
+      [](const transport::WriterId&) {},  // who left is silent
+      [this](transport::QosPolicy policy) { unheard_.refused_poses(policy); }});
   device_reader_ = bus_->reader<msg::DeviceInfo>(transport::ByWriter<msg::DeviceInfo>{
       [this](const msg::DeviceInfo& info, const transport::WriterId& writer) { hear(info, writer); },
       [this](const transport::WriterId& writer) {
         for (const auto& line : lines_) line->gone(writer);
-      }});
+      },
+      [this](transport::QosPolicy policy) { unheard_.refused_infos(policy); }});
   command_reader_ = bus_->reader<msg::SessionCommand>(
       [this](const msg::SessionCommand& command) { orders_.hear(command, loop_.now_ns()); });
   scene_reader_ = bus_->reader<msg::SceneInfo>([this](const msg::SceneInfo& scene) { hear(scene); });
@@ -149,7 +151,7 @@ void HapticLoop::run() {
   });
   if (local_models_) looks_ = loop_.beside(kLookPeriod, [this] { local_models_->look(); });
   grant_ = runtime::request_realtime(runtime::kHandLoopPriority, tensor_bytes(setup_.model));
-  if (!grant_.warning.empty()) std::cerr << "haptic_node: warning: " << grant_.warning << std::endl;
+  if (!grant_.warning.empty()) files::say("haptic_node: warning: " + grant_.warning);
   serve_from_ns_ = loop_.now_ns() + kListen_ns;
   while (loop_.wait() != runtime::Pace::Cause::kStopped) {
     const std::int64_t now_ns = loop_.now_ns();
@@ -252,6 +254,7 @@ void HapticLoop::publish_status() {
   snapshots_.fetch();
   const Snapshot& snapshot = snapshots_.value();
   tell_hand_overs();
+  unheard_.tell(loop_.now_ns(), lines_, faults_);
   orders_.tell(status_);
   status_.tools_served = served_.load(std::memory_order_relaxed);
   status_.echoes.assign(snapshot.echoes.begin(),
@@ -264,7 +267,8 @@ void HapticLoop::publish_status() {
 void HapticLoop::tell_hand_overs() {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (const node::HandOver* last = lines_[i]->fetch_hand_over()) hand_overs_[i].take(*last);
-    hand_overs_[i].tell(lines_[i]->id(), loop_.now_ns(), std::cerr);
+    const std::string line = hand_overs_[i].line(lines_[i]->id(), loop_.now_ns());
+    if (!line.empty()) files::say(line);
   }
 }
 

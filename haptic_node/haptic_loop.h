@@ -9,6 +9,7 @@
 #include "haptic_node/local_models.h"
 #include "haptic_node/serving_claim.h"
 #include "haptic_node/tool_line.h"
+#include "haptic_node/unheard_writers.h"
 #include "node_common/loaded_scene.h"
 #include "node_common/refusal.h"
 #include "node_common/session_orders.h"
@@ -107,7 +108,8 @@ class HapticLoop {
 
   node::Refusal refusal_;
   msg::NodeStatus status_;
-  std::vector<HandOverLog> hand_overs_;                               // [tools] the ordinary thread's
+  std::vector<HandOverLog> hand_overs_;  // [tools] the ordinary thread's
+  UnheardWriters unheard_;
   node::Rivals rivals_;                                               // the status reader's thread
   std::atomic<node::Standing> standing_{node::Standing::kListening};  // as the last status told
   std::atomic<std::uint32_t> served_;                                 // bit t: answers for tool t

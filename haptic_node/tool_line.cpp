@@ -99,6 +99,7 @@ void ToolLine::hear(const msg::DeviceInfo& info, const transport::WriterId& writ
   device_.post(devices_.limits());
   named_.hear(info, writer);
   known_.post(named_.known());
+  described_.post(named_.known());
 }
 
 void ToolLine::gone(const transport::WriterId& writer) noexcept {
@@ -106,6 +107,7 @@ void ToolLine::gone(const transport::WriterId& writer) noexcept {
   device_.post(devices_.limits());
   named_.gone(writer);
   known_.post(named_.known());
+  described_.post(named_.known());
 }
 
 void ToolLine::tell(const RefusedLimit& refused) noexcept {

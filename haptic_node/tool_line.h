@@ -57,6 +57,11 @@ class ToolLine {
 
   // ---- the ordinary thread
 
+  /// Who says that he is this tool's device.
+  const node::KnownDevices& described() noexcept {
+    described_.fetch();
+    return described_.value();
+  }
   /// The newest hand-over if there was one since the last call.
   const node::HandOver* fetch_hand_over() noexcept { return handed_.fetch() ? &handed_.value() : nullptr; }
 
@@ -126,8 +131,9 @@ class ToolLine {
   std::array<DeviceFault, kLimitFields> device_faults_{};
   runtime::Mailbox<DeviceLimits> device_;
   node::DeviceRegister named_;
-  runtime::Mailbox<node::KnownDevices> known_;  // to the poses' thread
-  runtime::Mailbox<node::HandOver> handed_;     // and from it to the ordinary one
+  runtime::Mailbox<node::KnownDevices> known_;      // to the poses' thread
+  runtime::Mailbox<node::HandOver> handed_;         // and from it to the ordinary one
+  runtime::Mailbox<node::KnownDevices> described_;  // to the ordinary one
 
   // the loop's thread
   ForceSafety safety_;

@@ -17,6 +17,8 @@ import subprocess
 import sys
 import xml.etree.ElementTree as xml
 
+from launcher.telling import tell
+
 LIBRARY = re.compile(r"(?:=> )?(/\S+) \(0x")  # in a line of ldd
 UNREAD = (".cpp", ".h", ".md")  # by test programs: what they are made of, and what people read
 DATA = pathlib.Path("..") / "shared" / "data"
@@ -103,7 +105,7 @@ def main():
     settled = {name for program, names in programs.items() if known.get(program.name) == keys[program] for name in names}
     chosen = [str(number) for number, test in enumerate(tests, 1) if test["name"] not in settled]
     if settled:
-        print(f"test: {len(settled)} unit tests passed as they are now: not run again (--again runs them)", flush=True)
+        tell(f"test: {len(settled)} unit tests passed as they are now: not run again (--again runs them)")
     code = subprocess.run([*ctest, "-I", ",".join(["0", "0", "0", *chosen])], check=False).returncode if chosen else 0
 
     passed = passed_in(results) | settled

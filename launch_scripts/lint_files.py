@@ -18,7 +18,8 @@ import re
 import shutil
 import subprocess
 import sys
-import threading
+
+from launcher.telling import tell
 
 TOGETHER = 24
 INCLUDED = re.compile(r"^\.+ (.+)$")  # a line of -H: a dot for each level, and the header
@@ -28,13 +29,6 @@ UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | r
 NAMED = re.compile(r"^(?:struct|class|enum(?: class)?) (\w+)|^(?!template)[^\s/#}][^(={\[;\n]*?\b(\w+\(.*|\w+ *[={\[])",
                    re.MULTILINE)
 INCLUDES = re.compile(r" (?:-I|-isystem) ?\S+")
-TELLING = threading.Lock()
-
-
-def tell(text):
-    """Prints what one thread found, unmixed with another's: print() alone writes a text and its line's end apart."""
-    with TELLING:
-        print(text, flush=True)
 
 
 def state_of(part, root):

@@ -9,6 +9,7 @@ from launcher import keystore, options, organs
 from launcher.errors import Refusal
 from launcher.hosts import Hosts
 from launcher.session import Session
+from launcher.telling import tell
 
 
 def interrupt(*_):
@@ -34,7 +35,7 @@ def run(arguments):
         print(f"run: {scene}")
         return 0
     if chosen.keystore == options.OWN_KEYSTORE and not keystore.is_current(chosen.keystore):
-        print("run: making keys for --secure", flush=True)
+        tell("run: making keys for --secure")
         shutil.rmtree(chosen.keystore, ignore_errors=True)
         keystore.make(chosen.keystore)
     hosts = Hosts(chosen.hosts)

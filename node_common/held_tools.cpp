@@ -26,6 +26,10 @@ HeldTools::HeldTools(transport::Bus& bus, const scene::Scene& scene) {
           tool->known.post(tool->names.known());
         }
       }});
+  answers_ = bus.reader<msg::ToolForce>([this](const msg::ToolForce& answer) {
+    if (answer.tool >= tools_.size() || !tools_[answer.tool]) return;
+    tools_[answer.tool]->answers.post({answer.tool, answer.echo_seq, answer.echo_stamp_ns});
+  });
 }
 
 transport::LatestByTool<msg::ToolPose>::Admits HeldTools::admits() {
@@ -45,7 +49,8 @@ transport::Admission HeldTools::admits(const msg::ToolPose& pose, const transpor
   if (form_of(pose) != PoseForm::kWell)
     return !tool.holder.holder() || tool.holder.holder() == who ? Admission::kContinues : Admission::kRefused;
   tool.known.fetch();
-  const PoseRight right = tool.holder.judge(who, now_ns, tool.known.value());
+  if (tool.answers.fetch()) tool.holder.answered(tool.answers.value(), now_ns, tool.known.value());
+  const PoseRight right = tool.holder.judge(who, pose, now_ns, tool.known.value());
   if (right != PoseRight::kHolds && right != PoseRight::kTakes) return Admission::kRefused;
   // one that is sent again was not measured anew
   if (right == PoseRight::kTakes || pose.stamp_ns != tool.stamp_ns) tool.holder.heard(now_ns);

@@ -1,11 +1,11 @@
 #include "node_common/node_identity.h"
 
+#include "files/console.h"
 #include "node_common/loaded_scene.h"
 
 #include <unistd.h>
 
 #include <chrono>
-#include <iostream>
 
 namespace omentum::node {
 
@@ -31,7 +31,7 @@ transport::BusOptions bus_options(const runtime::LinkOptions& options, std::stri
 std::unique_ptr<transport::Bus> open_bus(const runtime::LinkOptions& options, const std::string& name) {
   auto bus = transport::Bus::open(bus_options(options, name));
   const std::string warning = bus->warning();
-  if (!warning.empty()) std::cerr << name << ": warning: " << warning << std::endl;
+  if (!warning.empty()) files::say(name + ": warning: " + warning);
   return bus;
 }
 

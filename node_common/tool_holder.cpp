@@ -11,9 +11,6 @@ PoseRight ToolHolder::judge(const transport::ParticipantId& who, std::int64_t no
 }
 
 PoseRight ToolHolder::of_holder(std::int64_t now_ns, const KnownDevices& known) noexcept {
-  // who was silent asks anew
-  const bool may = known.wants(*holder_) || !known.another_wanted(*holder_);
-  if (!may && now_ns - heard_ns_ >= silence_ns_) return PoseRight::kRefused;
   // an heir that is gone again inherits nothing
   if (heir_ && heir_->handing_ns && !has_left(*heir_, now_ns) && outranks_holder(heir_->who, known)) {
     heard_ns_ = now_ns;

@@ -42,7 +42,8 @@ struct HandOver {
 /// one's poses have come for so long, none of them so late that it would lose a tool: one that is too slow to
 /// hold the tool interrupts nobody. Then one may come twice as late. A silent tool the wanted one has at
 /// once; any other one that takes it must have come for so long, too: a node that stood still may hear a
-/// stranger first.
+/// stranger first. A tool that nobody took is still its last hand's, also beside a wanted one that rests: a
+/// node cannot tell a silence of the device from one of the wire or its own.
 ///
 /// Plain arithmetic on given times; reads no clock. One thread at a time.
 class ToolHolder {
@@ -53,6 +54,10 @@ class ToolHolder {
   /// For a pose that is well formed, and is one by its own word.
   PoseRight judge(const transport::ParticipantId& who, std::int64_t now_ns,
                   const KnownDevices& known) noexcept;
+  /// Somebody who knows better says whose it is. No other one's first force waits for the last one's here.
+  void give(const transport::ParticipantId& who, std::int64_t now_ns, const KnownDevices& known) noexcept {
+    take(who, now_ns, known);
+  }
   /// The holder's pose was one that counts.
   void heard(std::int64_t now_ns) noexcept {
     heard_ns_ = now_ns;

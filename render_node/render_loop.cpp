@@ -1,5 +1,6 @@
 #include "render_node/render_loop.h"
 
+#include "files/console.h"
 #include "node_common/node_identity.h"
 #include "node_common/session_orders.h"
 #include "render_node/frame_cost.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <stdexcept>
 
 namespace omentum::render {
@@ -125,7 +125,7 @@ void RenderLoop::tell_software(double time_s) {
   told_software_ = true;
   const std::string rasterizer = renderer_.software();
   if (rasterizer.empty()) return;
-  std::cout << "render_node: " << software_words(rasterizer, control_) << std::endl;
+  files::say("render_node: " + software_words(rasterizer, control_), STDOUT_FILENO);
 }
 
 void RenderLoop::measure_exposure() {

@@ -17,8 +17,8 @@ struct ToolNow {
   std::int64_t pose_ns = 0, force_ns = 0;  // when they came, since 1970
 };
 
-/// Older than this a pose or force is none, s: a device that was killed is missed by then (its lease), and an
-/// observer on a busy machine, who often gets nothing for 25 ms, is not.
+/// Older than this a pose or force is none, s: long enough for an observer on a busy machine, who often gets
+/// nothing for 25 ms. By its age alone a device that was killed is missed: no lease is requested.
 inline constexpr double kFresh_s = 0.1;
 
 /// Messages whose stamp is 0 where there is nothing valid. `frame` must outlive what is returned.

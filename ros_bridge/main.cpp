@@ -1,4 +1,5 @@
 // Shows a session's tools to ROS 2 (docs/devices.md, "Seen from ROS 2").
+#include "files/console.h"
 #include "node_common/node_identity.h"
 #include "ros_bridge/republisher.h"
 #include "ros_bridge/ros_domain.h"
@@ -8,7 +9,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -63,13 +63,12 @@ void run(Options& options) {
     loop.finish_tick();
     if (told || republisher.has_tools() || loop.now_ns() - begin_ns < kSilence_ns) continue;
     told = true;
-    std::cerr << "ros_bridge: no tool in DDS domain " << options.bus.domain
-              << " yet: the launcher says which one a session has (--domain), --profile and --secure are the "
-                 "session's"
-              << std::endl;
+    files::say("ros_bridge: no tool in DDS domain " + std::to_string(options.bus.domain) +
+               " yet: the launcher says which one a session has (--domain), --profile and --secure are the "
+               "session's");
   }
   if (republisher.refused() > 0)
-    std::cerr << "ros_bridge: " << republisher.refused() << " messages could not be sent" << std::endl;
+    files::say("ros_bridge: " + std::to_string(republisher.refused()) + " messages could not be sent");
 }
 
 int ros_domain() {

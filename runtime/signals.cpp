@@ -57,6 +57,7 @@ void hear_stop_signals() {
     sigaddset(&held_back, number);
   }
   pthread_sigmask(SIG_UNBLOCK, &held_back, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM end a node cleanly.
+// SIGINT and SIGTERM end a node cleanly; a pipe that nobody reads any more does not end it.
 #pragma once
 
 #include <chrono>
@@ -15,6 +15,8 @@ namespace omentum::runtime {
 /// gone a further signal is the same wish again: it changes nothing, also while statics are destroyed. Only
 /// one that comes later than `patience` after that has met a program that hangs, and ends it as if there were
 /// no handler.
+///
+/// SIGPIPE is ignored from here on: the hand's loop must not end because whoever read what it prints did.
 class StopSignal {
  public:
   /// Longer than launchers repeat themselves, and no longer than a person waits.

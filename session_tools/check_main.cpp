@@ -8,6 +8,7 @@
 #include "session_tools/answer_trial.h"
 #include "session_tools/pose_record.h"
 #include "transport/bus.h"
+#include "transport/refused_writers.h"
 
 #include <nlohmann/json.hpp>
 
@@ -46,15 +47,19 @@ class Check {
         trial_(options.times),
         bus_(transport::Bus::open(options.bus)),
         forces_(bus_->writer<msg::ToolForce>()),
-        infos_(bus_->reader<msg::DeviceInfo>([this](const msg::DeviceInfo& info) {
-          const std::lock_guard lock(mutex_);
-          if (info.tool == tool_) record_.take(info);
-        })),
+        infos_(bus_->reader<msg::DeviceInfo>(transport::ByWriter<msg::DeviceInfo>{
+            [this](const msg::DeviceInfo& info, const transport::WriterId&) {
+              const std::lock_guard lock(mutex_);
+              if (info.tool == tool_) record_.take(info);
+            },
+            {},
+            [this](transport::QosPolicy policy) { refuse<msg::DeviceInfo>("device_info", policy); }})),
         statuses_(bus_->reader<msg::NodeStatus>(
             [this](const msg::NodeStatus& status) { rival_ = rival_ || status.kind == msg::NODE_HAPTIC; })),
         poses_(bus_->reader<msg::ToolPose>(transport::ByWriter<msg::ToolPose>{
             [this](const msg::ToolPose& pose, const transport::WriterId& writer) { take(pose, writer); },
-            [this](const transport::WriterId& writer) { miss(writer); }})) {}
+            [this](const transport::WriterId& writer) { miss(writer); },
+            [this](transport::QosPolicy policy) { refuse<msg::ToolPose>("tool_pose", policy); }})) {}
 
   /// Throws std::runtime_error where somebody else answers.
   void require_alone() const {
@@ -69,6 +74,11 @@ class Check {
   bool begun() const {
     const std::lock_guard lock(mutex_);
     return record_.poses() > 0;
+  }
+  /// Empty: what it writes is heard.
+  std::vector<Verdict> refusals() const {
+    const std::lock_guard lock(mutex_);
+    return record_.refused() ? std::vector{record_.offered()} : std::vector<Verdict>{};
   }
   bool over() const {
     const std::lock_guard lock(mutex_);
@@ -100,6 +110,13 @@ class Check {
       answers = trial_.take(pose, now_ns);
     }
     for (const msg::ToolForce& answer : answers) forces_->write(answer);
+  }
+
+  template <class M>
+  void refuse(const char* topic, transport::QosPolicy policy) {
+    const transport::TopicSpec spec = transport::requested(transport::kTopicSpec<M>, true);
+    const std::lock_guard lock(mutex_);
+    record_.refuse(topic, transport::what_to_offer(spec, policy));
   }
 
   void miss(const transport::WriterId& writer) {
@@ -174,12 +191,23 @@ bool wait_for(double patience_s, const std::atomic<bool>& stopped, Condition&& c
   return true;
 }
 
+/// Whether none failed.
+bool conclude(const std::vector<Verdict>& verdicts, const Options& options) {
+  tell(verdicts);
+  if (!options.report.empty()) runtime::write_report(to_json(verdicts), options.report);
+  return std::none_of(verdicts.begin(), verdicts.end(),
+                      [](const Verdict& one) { return one.outcome == Verdict::Outcome::kFailed; });
+}
+
 bool run(const Options& options) {
   std::atomic<bool> stopped{false};
   const runtime::StopSignal stop([&] { stopped = true; });
   Check check(options);
   say("device_check: waiting for poses of tool " + std::to_string(options.tool));
-  if (!wait_for(options.patience_s, stopped, [&] { return check.begun(); }))
+  const bool begun = wait_for(options.patience_s, stopped, [&] { return check.begun(); });
+  if (const std::vector<Verdict> refusals = check.refusals(); !begun && !refusals.empty())
+    return conclude(refusals, options);
+  if (!begun)
     throw std::runtime_error("no pose of tool " + std::to_string(options.tool) +
                              " came; is the bridge in this domain, with this profile?");
   say("device_check: move and turn the tool; it then feels a small force upwards, let go of for half a "
@@ -192,11 +220,7 @@ bool run(const Options& options) {
     say("device_check: now end the bridge");
     wait_for(options.patience_s, stopped, [&] { return check.left(); });
   }
-  const std::vector<Verdict> verdicts = check.verdicts();
-  tell(verdicts);
-  if (!options.report.empty()) runtime::write_report(to_json(verdicts), options.report);
-  return std::none_of(verdicts.begin(), verdicts.end(),
-                      [](const Verdict& one) { return one.outcome == Verdict::Outcome::kFailed; });
+  return conclude(check.verdicts(), options);
 }
 
 }  // namespace

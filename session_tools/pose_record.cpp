@@ -47,6 +47,12 @@ Verdict agrees(const char* requirement, const MotionAgreement& motion, double le
 
 }  // namespace
 
+void PoseRecord::refuse(const std::string& topic, const std::string& what_to_offer) {
+  const std::string line = topic + ": " + what_to_offer;
+  if (refused_.find(line) != std::string::npos) return;
+  refused_ += (refused_.empty() ? "" : "; ") + line;
+}
+
 void PoseRecord::take(const msg::ToolPose& pose, std::int64_t arrival_ns) {
   watch_order(pose, arrival_ns);
   ++poses_;
@@ -95,6 +101,7 @@ double PoseRecord::median_gap_s() const {
 
 std::vector<Verdict> PoseRecord::verdicts() const {
   return {
+      offered(),
       described(),
       often(),
       evenly(),
@@ -104,6 +111,11 @@ std::vector<Verdict> PoseRecord::verdicts() const {
       within_workspace(),
       agrees("velocity is that of the poses", motion_.linear(), kMoving_m_s, "m/s", "move the tool"),
       agrees("turning is that of the poses", motion_.angular(), kTurning_rad_s, "rad/s", "turn the tool")};
+}
+
+Verdict PoseRecord::offered() const {
+  return verdict("its quality of service is enough to be heard", !refused(),
+                 refused() ? refused_ : "no reader refused a writer");
 }
 
 Verdict PoseRecord::described() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "transport/messages.h"  // generated from idl/ by idl/generate.py
+#include "transport/qos_policy.h"
 
 #include <array>
 #include <cstdint>
@@ -73,8 +74,8 @@ inline ParticipantId participant_of(const WriterId& writer) noexcept {
   return participant;
 }
 
-/// For a reader that tells writers apart, which needs both. They are called as its callback is (see Reader),
-/// never at the same time.
+/// For a reader that tells writers apart, which needs the first two. They are called as its callback is (see
+/// Reader), never at the same time.
 template <class M>
 struct ByWriter {
   std::function<void(const M&, const WriterId&)> on_sample;
@@ -82,6 +83,10 @@ struct ByWriter {
   /// Everything of it came before; maybe nothing did. Who was only out of sight comes back with its durable
   /// samples.
   std::function<void(const WriterId&)> on_gone;
+  /// Somebody writes the topic who offers less of that policy than this reader requests, and is not heard;
+  /// the transport has said so in a line. On a thread of the vendor's, maybe beside the other two; must not
+  /// block or throw.
+  std::function<void(QosPolicy)> on_refused{};
 };
 
 /// One participant in one domain. Topic names and QoS come from transport/topics.h, by message type.

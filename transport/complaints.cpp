@@ -1,6 +1,7 @@
 #include "transport/complaints.h"
 
-#include <cstdio>
+#include "files/console.h"
+
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -29,20 +30,16 @@ bool is_first(std::string_view kind) {
   return all.kinds.find(kind) == all.kinds.end() && all.kinds.emplace(kind).second;
 }
 
-int length(std::string_view text) {
-  return static_cast<int>(text.size());
-}
-
 }  // namespace
 
 bool tell_once(std::string_view who, std::string_view kind, std::string_view message) noexcept {
   try {
     if (!is_first(kind)) return false;
+    files::say(std::string(who).append(": ").append(message));
+    return true;
   } catch (const std::exception&) {
     return false;  // no memory to remember it by: better not told than told without end
   }
-  std::fprintf(stderr, "%.*s: %.*s\n", length(who), who.data(), length(message), message.data());
-  return true;
 }
 
 bool complain_once(std::string_view vendor, std::string_view kind, std::string_view message) noexcept {

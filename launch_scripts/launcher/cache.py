@@ -10,6 +10,7 @@ import time
 
 from .errors import Refusal
 from .options import REPOSITORY
+from .telling import tell
 
 PATIENCE_S = 2.0  # anything longer gets a line of progress
 POLL_S = 0.1
@@ -82,7 +83,7 @@ class Cache:
             while not try_lock(lock):
                 if not told and time.monotonic() - begin > PATIENCE_S:
                     lock.seek(0)
-                    print(f"run: waiting for another session: {lock.read().strip() or 'it has the cache'}", flush=True)
+                    tell(f"run: waiting for another session: {lock.read().strip() or 'it has the cache'}")
                     told = True
                 time.sleep(POLL_S)
             lock.truncate(0)

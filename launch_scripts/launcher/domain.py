@@ -7,6 +7,7 @@ from .errors import Refusal
 from .host import Here
 from .network_claim import NetworkClaim
 from .options import FIRST_DOMAIN, LAST_FREE_DOMAIN
+from .telling import tell
 
 UDP = pathlib.Path("/proc/net/udp")
 
@@ -71,7 +72,7 @@ class Domain:
         """Whether nobody else on the network had it; says who has."""
         self.network = NetworkClaim(self.program, number, self.host)
         if self.network.rival:
-            print(f"run: DDS domain {number} is {self.network.rival}", flush=True)
+            tell(f"run: DDS domain {number} is {self.network.rival}")
         return not self.network.rival
 
     def release(self):

@@ -8,6 +8,7 @@ from . import machine_advice, packages
 from .errors import Refusal
 from .host import Here
 from .remote_host import Elsewhere, rewritten
+from .telling import tell
 
 CONTROLS = ("omentum_domain", "omentum_session")  # run where haptic_node does
 SHARED_KEYS = ("identity_ca.pem", "permissions_ca.pem", "governance.p7s")
@@ -142,7 +143,7 @@ class Hosts:
                 host.gather()
                 host.forget()
             except Refusal as refusal:
-                print(f"run: {refusal}; what it wrote stays there", flush=True)
+                tell(f"run: {refusal}; what it wrote stays there")
 
     def close(self):
         for host in self.machines.values():

@@ -23,7 +23,7 @@ ROLES = {
     "haptic_node": ("tool_force contact node_status",
                     "tool_pose device_info local_model session_command scene_info node_status"),
     "deform_node": ("scene_info topology organ_state organ_stress touching_pairs local_model node_status",
-                    "contact tool_pose device_info session_command scene_info node_status"),
+                    "contact tool_pose tool_force device_info session_command scene_info node_status"),
     "render_node": ("pointer_ray session_command node_status",
                     "contact tool_pose device_info tool_force organ_state organ_stress touching_pairs topology scene_info session_command "
                     "node_status"),

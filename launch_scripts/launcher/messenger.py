@@ -1,5 +1,6 @@
 """A person's commands to the running nodes."""
 from .host import Here
+from .telling import tell
 
 SAID = {"reset": "run: reset", "clear-fault": "run: fault cleared", "record": "run: told to record, or to end it"}
 PAUSE = {"paused": "run: paused (p goes on)", "goes on": "run: goes on"}
@@ -31,9 +32,9 @@ class Messenger:
         word, _, then, quiet = self.waiting.pop(0)
         if self.process.returncode == 0:
             if not quiet:
-                print(SAID.get(word) or PAUSE.get(out.strip(), out.strip()), flush=True)
+                tell(SAID.get(word) or PAUSE.get(out.strip(), out.strip()))
         else:
-            print(f"run: {word} failed: {(err.strip().splitlines() or ['no reason given'])[-1]}", flush=True)
+            tell(f"run: {word} failed: {(err.strip().splitlines() or ['no reason given'])[-1]}")
         self.process = None
         if then:
             then()

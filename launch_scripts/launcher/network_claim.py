@@ -4,6 +4,7 @@ import subprocess
 from .errors import Refusal
 from .host import Here
 from .processes import STOP_PATIENCE_S
+from .telling import tell
 
 
 class NetworkClaim:
@@ -11,7 +12,7 @@ class NetworkClaim:
 
     def __init__(self, program, number, host=Here()):
         """`host`: the machine on which `program` listens."""
-        print(f"run: looking for other sessions in DDS domain {number} of the network", flush=True)
+        tell(f"run: looking for other sessions in DDS domain {number} of the network")
         self.process = host.popen([str(program), "--domain", str(number)], captured=True)
         said = self.process.stdout.readline().strip()
         self.rival = None if said == "free" else said

@@ -7,6 +7,7 @@ import time
 
 from .cache import PATIENCE_S, Cache
 from .errors import Refusal
+from .telling import tell
 
 SMALLEST_ORGAN_M = 0.01  # organ_build warns of what is smaller
 LARGEST_ORGAN_M = 1.0  # a mesh without --scale that would be larger is taken to be in millimetres
@@ -27,7 +28,7 @@ def pass_on_warnings(messages):
         _, is_warning, sentence = line.partition("warning: ")
         if is_warning and sentence not in told_warnings:
             told_warnings.add(sentence)
-            print(line, flush=True)
+            tell(line)
 
 
 def run_tool(options, arguments, doing):
@@ -45,7 +46,7 @@ def run_tool(options, arguments, doing):
                 out, err = process.communicate(timeout=PATIENCE_S)
                 break
             except subprocess.TimeoutExpired:
-                print(f"run: {doing} ... {time.monotonic() - begin:.0f} s", flush=True)
+                tell(f"run: {doing} ... {time.monotonic() - begin:.0f} s")
                 told = True
     except BaseException:
         process.kill()
@@ -56,7 +57,7 @@ def run_tool(options, arguments, doing):
         raise Refusal(lines[-1])
     pass_on_warnings(err)
     if told:
-        print(f"run: {doing}: done after {time.monotonic() - begin:.1f} s", flush=True)
+        tell(f"run: {doing}: done after {time.monotonic() - begin:.1f} s")
     return out
 
 
@@ -99,8 +100,8 @@ def guessed_scale(name, measured):
     taken, why = (("millimetres", f"in metres it would be longer than {LARGEST_ORGAN_M:g} m") if scale != 1.0 else
                   ("metres", f"that makes it no longer than {LARGEST_ORGAN_M:g} m"))
     kind = "warning: " if scale != 1.0 or largest < SMALLEST_ORGAN_M else ""
-    print(f"run: {kind}{name} is {largest:.4g} units long: taken as {taken}, since {why}: an organ of "
-          f"{1000 * scale * largest:.4g} mm (--scale says otherwise)", flush=True)
+    tell(f"run: {kind}{name} is {largest:.4g} units long: taken as {taken}, since {why}: an organ of "
+         f"{1000 * scale * largest:.4g} mm (--scale says otherwise)")
     return scale
 
 
@@ -112,10 +113,10 @@ def foreign_terms(options, spec):
         scale = guessed_scale(options.organ.name, measured)
     fixed = options.fixed or support_spec(measured, scale, spec["fixed"])
     if not options.fixed:
-        print(f"run: {options.organ.name} is supported at {fixed} (--fixed says otherwise)", flush=True)
+        tell(f"run: {options.organ.name} is supported at {fixed} (--fixed says otherwise)")
     dynamic = (spec.get("dynamic") or spec.get("dynamic_mesh", "")) and dynamic_spec(measured, scale, spec["fixed"])
     if dynamic:
-        print(f"run: {options.organ.name} moves by itself and can be cut at {dynamic}", flush=True)
+        tell(f"run: {options.organ.name} moves by itself and can be cut at {dynamic}")
     return scale, fixed, dynamic
 
 
@@ -161,7 +162,7 @@ def users_organ_file(options, cache, spec):
                       f"{options.organ.name}: expected --organ FILE.h5, or young_pa, poisson and density_kg_m3 beside it")
     scale, fixed, dynamic = foreign_terms(options, spec)
     if spec["regions"]:
-        print(f"run: {options.organ.name} is of one material: the scene's regions lie in its own organ", flush=True)
+        tell(f"run: {options.organ.name} is of one material: the scene's regions lie in its own organ")
     return build_organ(options, cache, options.organ, options.organ.stem, {**spec, "regions": []}, scale, fixed, dynamic)
 
 
@@ -212,5 +213,5 @@ def prepare(options):
     given += [word for file in scenery for word in ("--scenery", file)]
     notes = run_tool(options, ["scene_prepare", options.scene, *given, "-o", scene, *keep], "fitting the scene")
     for line in notes.strip().splitlines():
-        print(f"run: {line}", flush=True)
+        tell(f"run: {line}")
     return scene, describe(options, scene)["name"]

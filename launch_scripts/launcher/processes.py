@@ -5,6 +5,7 @@ import subprocess
 import time
 
 from .host import Here
+from .telling import tell
 
 STOP_PATIENCE_S = 8.0  # a node writes its report, render_node its last pictures
 LEAD_S = 0.15  # the hand lets go before the others end
@@ -89,6 +90,6 @@ def stop_all(nodes):
         try:
             node.exit = node.process.wait(max(0.0, deadline - time.monotonic()))
         except subprocess.TimeoutExpired:
-            print(f"run: {node.name} does not end: killed", flush=True)
+            tell(f"run: {node.name} does not end: killed")
             node.process.kill()
             node.exit = node.process.wait()

@@ -9,6 +9,7 @@ from .errors import Refusal
 from .host import Here
 from .link import Link
 from .remote_process import RemoteProcess
+from .telling import tell
 
 PATIENCE_S = 2.0  # anything longer gets a line
 READ_BYTES = 1 << 20
@@ -42,7 +43,7 @@ class Told:
         if time.monotonic() - self.said > PATIENCE_S:
             self.said = time.monotonic()
             name = os.path.basename(self.file)
-            print(f"run: bringing {name} to {self.where}: {self.read_bytes / 1e6:.0f} of {self.size / 1e6:.0f} MB", flush=True)
+            tell(f"run: bringing {name} to {self.where}: {self.read_bytes / 1e6:.0f} of {self.size / 1e6:.0f} MB")
         return part
 
 
@@ -84,7 +85,7 @@ class Elsewhere(Here):
             self.link.ask("link", name=name, digest=digest)
             self.files[str(file)] = str(self.session / name)
         if time.monotonic() - begin > PATIENCE_S:
-            print(f"run: {self.name} has what it needs: {sent / 1e6:.0f} MB brought there in {time.monotonic() - begin:.1f} s", flush=True)
+            tell(f"run: {self.name} has what it needs: {sent / 1e6:.0f} MB brought there in {time.monotonic() - begin:.1f} s")
 
     def put(self, content, name, mode=0o600):
         """Bytes of this session alone."""

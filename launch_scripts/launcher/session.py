@@ -12,6 +12,7 @@ from .hosts import Hosts
 from .keys import Keys
 from .machine import StealWatch
 from .messenger import Messenger
+from .telling import tell
 
 POLL_S = 0.1
 REFUSAL_WINDOW_S = 10.0  # a node that ends with code 2 within this refused to start
@@ -39,7 +40,7 @@ class Session:
         claim_program = control.file(options.programs / "omentum_domain") if options.profile == "lan" else None
         self.domain = Domain(options.domain, claim_program, hosts.others(), control)
         for line in hosts.advice(self.domain.number, options.profile == "lan"):
-            print(f"run: warning: {line}", flush=True)
+            tell(f"run: warning: {line}")
         self.folder = tempfile.TemporaryDirectory(prefix="omentum-")
         self.headless = options.headless
         self.stopping = False
@@ -47,7 +48,7 @@ class Session:
         self.restarts = {}
         if not self.headless and not hosts.of("render_node").has_display():
             self.headless = True
-            print("run: no display: writing pictures instead (--headless)", flush=True)
+            tell("run: no display: writing pictures instead (--headless)")
         self.nodes = self.make_nodes()
         self.messenger = Messenger(control.file(options.programs / "omentum_session"), [
             "--dds", options.dds["haptic_node"], *self.place(control)], control)
@@ -113,15 +114,15 @@ class Session:
     def announce(self):
         vendors = sorted(set(self.options.dds[node.name] for node in self.nodes))
         secured = ", secured" if self.options.keystore else ""
-        print(f"run: {self.name}; DDS domain {self.domain.number}, {' and '.join(vendors)}{secured}", flush=True)
+        tell(f"run: {self.name}; DDS domain {self.domain.number}, {' and '.join(vendors)}{secured}")
         for line in self.hosts.said():
-            print(f"run: {line}", flush=True)
+            tell(f"run: {line}")
         if self.options.split:
             sides = {}
             for node in self.nodes:
                 sides.setdefault(min(node.processors), []).append(node.name)
             said = "; ".join(f"processor {cpu}: {', '.join(names)}" for cpu, names in sides.items())
-            print(f"run: split as in the paper: {said}", flush=True)
+            tell(f"run: split as in the paper: {said}")
 
     # running
     def run(self):
@@ -185,23 +186,23 @@ class Session:
         with contextlib.suppress(Refusal):  # a machine that is lost
             node.host.fetch(node.report)
         if node.name == "render_node" and report.read_node(node.report, node.name).get("closed"):
-            print("run: the window was closed", flush=True)
+            tell("run: the window was closed")
             self.stop()
             return 0
-        print(f"run: {node.name} {node.how_it_ended()}; the others go on", flush=True)
+        tell(f"run: {node.name} {node.how_it_ended()}; the others go on")
         if node.exit == processes.MACHINE_LACKS:
             return 0  # its own line says what; trying again would not help
         if self.options.restart and node.exit not in (0, processes.REFUSED):
             self.restarts[node.name] = time.monotonic() + RESTART_PAUSE_S
         else:
-            print(f"run: to start it again: {node.command_line()}", flush=True)
+            tell(f"run: to start it again: {node.command_line()}")
         return 0
 
     def restart_due(self):
         for node in self.nodes:
             if self.restarts.get(node.name, float("inf")) <= time.monotonic():
                 del self.restarts[node.name]
-                print(f"run: starting {node.name} again", flush=True)
+                tell(f"run: starting {node.name} again")
                 node.start()
 
     def look_at_realtime(self):
@@ -231,7 +232,7 @@ class Session:
         for one in videos:
             one["folder"] = self.hosts.of("render_node").home(one["folder"])
         report.write(merged, self.options.out / "report.json")
-        print(report.summary(merged), flush=True)
-        print(f"run: {self.options.out / 'report.json'}", flush=True)
+        tell(report.summary(merged))
+        tell(f"run: {self.options.out / 'report.json'}")
         video.make_all(videos)
         return 1 if report.never_answered(merged) else 0

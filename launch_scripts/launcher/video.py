@@ -4,6 +4,8 @@ import shlex
 import shutil
 import subprocess
 
+from .telling import tell
+
 PICTURE = "[0-9]" * 6 + "*.png"
 FOLDERS = ("video", "video_[0-9]*")
 
@@ -38,16 +40,16 @@ def make(video):
         said += f", {video['repeated']} of them repeated because frames came later"
     if video["dropped"]:
         said += f" ({video['dropped']} were dropped: pictures came faster than they could be written)"
-    print(said, flush=True)
+    tell(said)
     if not shutil.which(words[0]):
-        print(f"run: ffmpeg is not installed; with it: {shlex.join(words)}", flush=True)
+        tell(f"run: ffmpeg is not installed; with it: {shlex.join(words)}")
         return
     done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     if done.returncode == 0:
-        print(f"run: {words[-1]}", flush=True)
+        tell(f"run: {words[-1]}")
     else:
         reason = (done.stderr.strip().splitlines() or ["no reason given"])[-1]
-        print(f"run: {words[-1]} was not made: {reason}; the command: {shlex.join(words)}", flush=True)
+        tell(f"run: {words[-1]} was not made: {reason}; the command: {shlex.join(words)}")
 
 
 def make_all(videos):

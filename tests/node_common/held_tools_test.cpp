@@ -54,6 +54,14 @@ class HeldToolsTest : public testing::Test {
       }
     }
   }
+  /// haptic_node's answer to the newest pose.
+  void answer(const transport::WriterId& writer) {
+    msg::ToolForce force{};
+    force.tool = 3;
+    force.echo_seq = seq_[writer[0]];
+    force.echo_stamp_ns = now_ns_;
+    fake_.post(force);
+  }
   std::optional<double> seen() {
     transport::Arrived<msg::ToolPose> pose;
     if (!poses_->load(3, pose) || pose.age_ns(now_ns_) > kPosePeriod_ns) return std::nullopt;
@@ -115,6 +123,39 @@ TEST_F(HeldToolsTest, WhoDescribesTwoToolsIsWantedAtBothUntilHeCallsHimselfOther
   introduce("resting", kWanted);
   go(10, {kGuest});
   EXPECT_EQ(seen(), kGuest[0]);
+}
+
+TEST_F(HeldToolsTest, WhoeverIsAnsweredIsSeenAlsoByWhoCameLate) {
+  begin("omega");
+  introduce("omega", kWanted);
+  go(100, {kGuest});
+  EXPECT_FALSE(seen()) << "nobody is known to have come before the wanted one";
+  answer(kGuest);
+  go(1, {kGuest});
+  EXPECT_EQ(seen(), kGuest[0]);
+  for (int i = 0; i < 1500; ++i) {
+    answer(kGuest);
+    go(1, {kGuest});
+  }
+  EXPECT_EQ(seen(), kGuest[0]);
+  go(1500, {kGuest});
+  EXPECT_FALSE(seen()) << "haptic_node began anew, and found the wanted one there";
+  go(1, {kWanted});
+  EXPECT_EQ(seen(), kWanted[0]);
+}
+
+TEST_F(HeldToolsTest, OfTwoEqualOnesTheOneThatIsAnsweredIsSeenWhateverItCounts) {
+  begin("omega");
+  go(100, {kWanted, kGuest});
+  ASSERT_EQ(seen(), kWanted[0]) << "it was heard first; its name nobody asks for";
+  answer(kGuest);
+  go(1, {kWanted, kGuest});
+  EXPECT_EQ(seen(), kGuest[0]);
+  go(100, {kWanted, kGuest});
+  EXPECT_EQ(seen(), kGuest[0]);
+  answer(kWanted);
+  go(1, {kGuest, kWanted});
+  EXPECT_EQ(seen(), kWanted[0]) << "which counts from far below";
 }
 
 TEST_F(HeldToolsTest, WhereTheSceneNamesNoDeviceEverythingCounts) {

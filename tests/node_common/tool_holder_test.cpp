@@ -75,6 +75,20 @@ TEST_F(ToolHolderTest, TheWantedOneTakesTheToolWhenTheLastForceHasEndedAndKeepsI
   EXPECT_EQ(holder_.last().count, 1u);
 }
 
+TEST_F(ToolHolderTest, AHolderThatComesAgainHasTheToolWhileTheWantedOneRests) {
+  go(500, {kFirst});
+  names_.hear(called("omega"), kSecond);
+  for (const int silent_ms : {49, 50, 51, 200, 60'000}) {
+    now_ns_ += silent_ms * kMs_ns;
+    EXPECT_EQ(go(20, {kThird, kFirst}), kHolds) << "after " << silent_ms << " ms";
+    EXPECT_EQ(go(100, {kFirst, kThird}), kRefused) << "it is no third one's";
+  }
+  EXPECT_EQ(holder_.last().count, 0u);
+  now_ns_ += kSilence_ns;
+  EXPECT_EQ(go(1, {kSecond}), kTakes);
+  EXPECT_EQ(go(500, {kFirst}), kRefused) << "somebody took it meanwhile";
+}
+
 TEST_F(ToolHolderTest, WhenTheWantedOneLeavesTheNextOneIsTaken) {
   names_.hear(called("omega"), kFirst);
   names_.hear(called("falcon"), kSecond);

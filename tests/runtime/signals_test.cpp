@@ -113,5 +113,18 @@ TEST(StopSignal, ANewOneHearsAgain) {
   }
 }
 
+// A pager that is closed takes no force from a hand.
+TEST(StopSignal, APipeThatNobodyReadsDoesNotEndTheProgram) {
+  EXPECT_EXIT(
+      {
+        const StopSignal stop([] {});
+        int ends[2];
+        if (pipe(ends) != 0) std::exit(1);
+        close(ends[0]);
+        std::exit(write(ends[1], "told", 4) < 0 ? 0 : 2);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
 }  // namespace
 }  // namespace omentum::runtime

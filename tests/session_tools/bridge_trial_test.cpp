@@ -198,5 +198,15 @@ TEST(BridgeTrial, AToolThatNobodyMovedIsNotSeen) {
   EXPECT_EQ(not_seen, 2);
 }
 
+TEST(PoseRecord, ABridgeOfWhichAnythingIsRefusedFailsWithWhatToOffer) {
+  PoseRecord record;
+  EXPECT_EQ(record.offered().outcome, Outcome::kPassed);
+  for (int i = 0; i < 3; ++i) record.refuse("tool_pose", "LIVELINESS must be automatic");
+  record.refuse("device_info", "DURABILITY must be transient local");
+  EXPECT_EQ(record.offered().outcome, Outcome::kFailed);
+  EXPECT_EQ(record.offered().detail,
+            "tool_pose: LIVELINESS must be automatic; device_info: DURABILITY must be transient local");
+}
+
 }  // namespace
 }  // namespace omentum::session

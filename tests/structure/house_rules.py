@@ -15,10 +15,10 @@ FLOORS = {
     "physics": {"geometry"},
     "organ": {"files", "geometry", "physics"},
     "idl": set(),
-    "transport": {"idl"},
+    "transport": {"files", "idl"},
     "runtime": {"files", "idl"},
     "scene": {"files", "geometry", "idl"},
-    "node_common": {"geometry", "organ", "idl", "transport", "runtime", "scene"},
+    "node_common": {"files", "geometry", "organ", "idl", "transport", "runtime", "scene"},
 }
 STANDING_ON = set(FLOORS)
 PROGRAMS = {"haptic_node", "deform_node", "render_node", "device_bridge", "ros_bridge", "session_tools", "organ_tools"}

@@ -1,14 +1,10 @@
 """launch_scripts/lint_files.py: what is looked at again, and what together, with a clang-tidy that notes its calls."""
-import concurrent.futures
-import contextlib
-import io
 import json
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "launch_scripts" / "lint_files.py"
@@ -133,16 +129,6 @@ class LintFilesTest(unittest.TestCase):
         self.assertEqual(self.lint(*self.names), (1, ["a.cpp", "all.cpp", "all.cpp", "all.cpp", "b.cpp"]))
         self.write("room/b.cpp", "right")
         self.assertEqual(self.lint(*self.names), (0, ["b.cpp"]))
-
-    def test_what_two_find_at_once_is_not_mixed(self):
-        class Slow(io.StringIO):
-            def write(self, text):
-                super().write(text)
-                time.sleep(1e-3)  # the other's turn
-        told = [f"room/{name}.cpp\n{name}: error" for name in "ab" * 5]
-        with contextlib.redirect_stdout(Slow()) as out, concurrent.futures.ThreadPoolExecutor(2) as pool:
-            list(pool.map(lint_files.tell, told))
-        self.assertEqual(sorted(out.getvalue().splitlines()), sorted("\n".join(told).splitlines()))
 
 
 if __name__ == "__main__":

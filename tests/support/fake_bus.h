@@ -50,6 +50,9 @@ class FakeTopic {
     if (const auto late = std::exchange(held_, std::nullopt)) deliver(late->first, late->second);
   }
   void leave(const transport::WriterId& writer);
+  void offer_too_little(transport::QosPolicy policy) {
+    for (const FakeReader<M>* reader : readers_) reader->refuse(policy);
+  }
   void expect(Matcher matcher) { expected_.push_back(std::move(matcher)); }
   void watch() { watched_ = true; }
   std::deque<M> take_all() { return std::exchange(written_, {}); }
@@ -147,6 +150,9 @@ class FakeReader final : public transport::Reader<M> {
   }
   void gone(const transport::WriterId& writer) const {
     if (callbacks_.on_gone) callbacks_.on_gone(writer);
+  }
+  void refuse(transport::QosPolicy policy) const {
+    if (callbacks_.on_refused) callbacks_.on_refused(policy);
   }
   transport::EndpointStatus status() const override { return topic_.reader_status(); }
 
@@ -266,6 +272,11 @@ class FakeBus {
   template <class M>
   void on_write(std::function<void(const M&)> action) {
     topic<M>().on_write(std::move(action));
+  }
+  /// Somebody writes it who offers less of that policy than its readers request.
+  template <class M>
+  void offer_too_little(transport::QosPolicy policy) {
+    topic<M>().offer_too_little(policy);
   }
   /// What readers say of themselves.
   template <class M>

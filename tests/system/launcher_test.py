@@ -285,6 +285,15 @@ class Endings(LauncherTest):
         self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
         self.check_shape(self.report(), SHAPE)
 
+    def test_where_nobody_reads_any_more_it_ends_like_a_closed_terminal(self):
+        process = self.start(HOLD, "--headless", "--out", self.out)
+        nodes = self.nodes_of(process)
+        process.stdout.close()
+        os.kill(nodes["render_node"], signal.SIGTERM)  # which is told
+        self.assertEqual(process.wait(PATIENCE_S), 0)
+        self.assertEqual([name for name, pid in nodes.items() if alive(pid)], [])
+        self.check_shape(self.report(), SHAPE)
+
     def start_in_terminal(self, *arguments):
         """The process, and our end of its terminal. What it says is in `log`."""
         ours, theirs = pty.openpty()

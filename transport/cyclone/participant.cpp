@@ -7,6 +7,7 @@
 #include "transport/cyclone/writer_names.h"
 #include "transport/departures.h"
 #include "transport/reader_counters.h"
+#include "transport/refused_writers.h"
 
 #include <atomic>
 #include <stdexcept>
@@ -68,15 +69,15 @@ class CycloneReader final : public Reader<M> {
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
                                                                               dds_delete_listener);
     dds_lset_data_available(listener.get(), on_data_available);
-    const bool asks_who_is_gone = static_cast<bool>(callbacks_.on_gone);
-    if (asks_who_is_gone) {
+    dds_lset_requested_incompatible_qos(listener.get(), on_requested_incompatible_qos);
+    if (callbacks_.on_gone) {
       dds_lset_subscription_matched(listener.get(), on_subscription_matched);
       // Cyclone would tell the others too, whatever they request
       dds_lset_liveliness_changed(listener.get(), on_liveliness_changed);
     }
-    const Qos qos = reader_qos(requested(spec, asks_who_is_gone));
-    reader_ = checked(dds_create_reader(entities.participant, topic, qos.get(), listener.get()),
-                      std::string("a reader of ") + spec.name);
+    reader_ =
+        checked(dds_create_reader(entities.participant, topic, reader_qos(requested_).get(), listener.get()),
+                std::string("a reader of ") + spec.name);
   }
 
   ~CycloneReader() override {
@@ -108,6 +109,14 @@ class CycloneReader final : public Reader<M> {
 
   static void on_liveliness_changed(dds_entity_t, dds_liveliness_changed_status_t status, void* self) {
     static_cast<CycloneReader*>(self)->counters_.liveliness_changed(status.not_alive_count_change);
+  }
+
+  static void on_requested_incompatible_qos(dds_entity_t, dds_requested_incompatible_qos_status_t status,
+                                            void* self) {
+    const auto& me = *static_cast<const CycloneReader*>(self);
+    const QosPolicy policy = policy_of(status.last_policy_id, DDS_DATA_REPRESENTATION_QOS_POLICY_ID);
+    tell_refused_writer(me.requested_, policy);
+    if (me.callbacks_.on_refused) me.callbacks_.on_refused(policy);
   }
 
   // a sample over a bound of the IDL does not pass Cyclone's own deserializer, which tells its log only
@@ -142,6 +151,7 @@ class CycloneReader final : public Reader<M> {
   }
 
   ByWriter<M> callbacks_;
+  const TopicSpec requested_ = requested(kTopicSpec<M>, static_cast<bool>(callbacks_.on_gone));
   Departures departures_;  // of handles, where somebody asks for them
   WriterNames names_;      // for whoever takes samples
   M message_;              // its sequences keep their memory from sample to sample

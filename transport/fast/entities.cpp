@@ -2,6 +2,7 @@
 
 #include "transport/fast/complaints.h"
 #include "transport/fast/domain_names.h"
+#include "transport/fast/session_keys.h"
 #include "transport/keystore.h"
 #include "transport/settings.h"
 
@@ -67,6 +68,7 @@ void add_peers(dds::DomainParticipantQos& qos, const std::vector<std::string>& p
 }
 
 void secure(dds::DomainParticipantQos& qos, const Credentials& credentials) {
+  remember_session_keys();
   auto& properties = qos.properties().properties();
   const auto set = [&](const char* name, const std::string& value) { properties.emplace_back(name, value); };
   const auto set_file = [&](const char* name, const std::filesystem::path& file) {

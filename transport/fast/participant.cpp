@@ -6,6 +6,7 @@
 #include "transport/fast/message_type.h"
 #include "transport/fast/newest_by_key.h"
 #include "transport/reader_counters.h"
+#include "transport/refused_writers.h"
 #include "transport/settings.h"
 #include "transport/standstill.h"
 
@@ -130,13 +131,14 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
   void join(Entities& entities) override {
     const TopicSpec& spec = kTopicSpec<M>;
     dds::Topic* topic = entities.topic(spec, dds::TypeSupport(new MessageType<M>));
-    auto mask = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed();
+    auto mask = dds::StatusMask::data_available()
+                << dds::StatusMask::liveliness_changed() << dds::StatusMask::requested_incompatible_qos();
     if (callbacks_.on_gone) mask << dds::StatusMask::subscription_matched();
     if (callbacks_.on_gone)
       for (const WriterId& writer : departures_.take_all()) callbacks_.on_gone(writer);
     arrivals_.open();
-    const dds::DataReaderQos qos = reader_qos(requested(spec, static_cast<bool>(callbacks_.on_gone)));
-    dds::DataReader* reader = entities.subscriber->create_datareader(topic, qos, this, mask);
+    dds::DataReader* reader =
+        entities.subscriber->create_datareader(topic, reader_qos(requested_), this, mask);
     if (!reader) throw std::runtime_error(std::string("Fast DDS refused a reader of ") + spec.name);
     const std::lock_guard lock(mutex_);
     reader_ = reader;
@@ -166,6 +168,14 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
     counters_.liveliness_changed(status.not_alive_count_change);
   }
 
+  void on_requested_incompatible_qos(dds::DataReader*,
+                                     const dds::RequestedIncompatibleQosStatus& status) override {
+    const QosPolicy policy = policy_of(static_cast<std::uint32_t>(status.last_policy_id),
+                                       static_cast<std::uint32_t>(dds::DATAREPRESENTATION_QOS_POLICY_ID));
+    tell_refused_writer(requested_, policy);
+    if (callbacks_.on_refused) callbacks_.on_refused(policy);
+  }
+
   void take_all(dds::DataReader& reader) {
     const auto gone = callbacks_.on_gone ? departures_.take() : std::vector<WriterId>{};
     SampleRef<M> data{&message_};
@@ -186,6 +196,7 @@ class FastReader final : public Reader<M>, private Endpoint, private dds::DataRe
 
   Membership& membership_;
   ByWriter<M> callbacks_;
+  const TopicSpec requested_ = requested(kTopicSpec<M>, static_cast<bool>(callbacks_.on_gone));
   Departures departures_;  // where somebody asks for them
   M message_;              // its sequences keep their memory from sample to sample
   Arrivals arrivals_;

@@ -131,7 +131,10 @@ struct BaseStatus {
 };
 struct OfferedDeadlineMissedStatus : BaseStatus {};
 struct OfferedIncompatibleQosStatus : BaseStatus {};
-struct RequestedIncompatibleQosStatus : BaseStatus {};
+enum QosPolicyId_t : std::uint32_t { DATAREPRESENTATION_QOS_POLICY_ID = 23 };
+struct RequestedIncompatibleQosStatus : BaseStatus {
+  QosPolicyId_t last_policy_id;
+};
 struct LivelinessLostStatus : BaseStatus {};
 class StatusMask {
  public:
@@ -140,6 +143,7 @@ class StatusMask {
   static StatusMask data_available();
   static StatusMask liveliness_changed();
   static StatusMask subscription_matched();
+  static StatusMask requested_incompatible_qos();
   StatusMask& operator<<(const StatusMask& mask);
 };
 
@@ -242,6 +246,8 @@ class DataReaderListener {
   virtual void on_data_available(DataReader* reader);
   virtual void on_subscription_matched(DataReader* reader, const SubscriptionMatchedStatus& status);
   virtual void on_liveliness_changed(DataReader* reader, const LivelinessChangedStatus& status);
+  virtual void on_requested_incompatible_qos(DataReader* reader,
+                                             const RequestedIncompatibleQosStatus& status);
 };
 class DataReader {
  public:
