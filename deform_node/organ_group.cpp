@@ -49,6 +49,7 @@ void OrganGroup::reset(ContactBook& book) noexcept {
 void OrganGroup::reset(std::uint32_t organ, ContactBook& book) noexcept {
   OrganModel& model = *organs_[organ].model;
   model.reset();
+  ++organs_[organ].begun_anew;
   collision_.reset(organ);
   book.begins_at(organ, model.view().topology_version);
 }
@@ -62,6 +63,7 @@ void OrganGroup::take_up(const std::vector<OrganCuts>& cuts, ContactBook& book) 
     if (cuts[i].version == 0 || is_there) continue;
     const std::uint64_t version = std::max(cuts[i].version, now.topology_version + 1);
     model.take_up(cuts[i].removed_bits, cuts[i].burnt_bits, version);
+    ++organs_[i].begun_anew;
     collision_.reset(i);
     book.begins_at(i, model.view().topology_version);
   }

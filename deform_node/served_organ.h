@@ -12,6 +12,7 @@ namespace omentum::deform {
 struct ServedOrgan {
   std::unique_ptr<const node::OrganSource> source;  // the model refers to it
   std::unique_ptr<OrganModel> model;
+  std::uint64_t begun_anew = 0;  // how often it was put back to rest, or to what another node left of it
 };
 
 /// Loads every organ of the scene and makes the model that the scene chose for it. Throws

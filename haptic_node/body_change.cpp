@@ -1,6 +1,7 @@
 #include "haptic_node/body_change.h"
 
 #include "haptic_node/contact_list.h"
+#include "haptic_node/enclosed_tool.h"
 #include "haptic_node/node_forces.h"
 #include "haptic_node/other_tools.h"
 #include "transport/messages.h"
@@ -91,7 +92,7 @@ void forget_distances(BodyId place, bool replaced, HapticState& state) {
       PointMemory& memory = tool.memory(place, p);
       memory.clearance_m = 0;
       if (!replaced) {
-        memory = {.adrift = true, .ask_in = 1};
+        memory = {.adrift = true, .ask_in = 1, .enclosed = memory.enclosed || tissue_comes_back(state)};
       } else if (!memory.adrift && memory.ask_in == 0 && !holds_contact(state, place, t, p)) {
         memory.ask_in = 1;
         memory.ask_m = Body::kReach_m;

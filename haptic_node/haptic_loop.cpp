@@ -1,6 +1,7 @@
 #include "haptic_node/haptic_loop.h"
 
 #include "files/console.h"
+#include "haptic_node/enclosed_tool.h"
 #include "node_common/link_write.h"
 #include "node_common/node_identity.h"
 #include "runtime/report.h"
@@ -175,8 +176,8 @@ void HapticLoop::tick(std::int64_t now_ns) noexcept {
     fresh_[i] = lines_[i]->listen(now_ns, inputs_[i]);
     if (!serves(i)) inputs_[i].engaged = inputs_[i].silent = inputs_[i].heard_again = false;  // it lets go
   }
-  obey();
   state_.now_ns = now_ns;
+  obey();
   result_ = haptic_step(setup_.model, inputs_, state_, work_, outputs_);
   if (result_.status != physics::ContactStatus::kConverged)
     faults_.raise("contacts: the solver did not converge");
@@ -192,6 +193,7 @@ void HapticLoop::obey() noexcept {
     work_.bodies.for_each([](BodyId, Body& body) { body.restore_rest(); });
   }
   if (!orders_.take_reset()) return;
+  expect_tissue_back(state_.now_ns, state_);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->restart();
     lines_[i]->expect_new_connection();

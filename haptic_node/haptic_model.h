@@ -105,6 +105,7 @@ struct PointMemory {
   std::uint8_t ask_in = 0;              // ticks until it is asked where the point is; 0: nobody asks
   double ask_m = kDeepestAppearance_m;  // how deep it is looked for then
   Vec3 way_out = Vec3::Zero();          // the normal of the contact that it lost; zero: any way
+  bool enclosed = false;                // if it is inside, tissue came back around it (enclosed_tool.h)
 };
 
 /// How a tool's grasps came to nothing: jaws closed and had nothing between them, tissue was pulled out of
@@ -141,6 +142,7 @@ struct HapticState {
 
   std::uint64_t ticks = 0;
   std::int64_t now_ns = 0;  // of the coming tick, on the clock that bodies which move by themselves know
+  std::int64_t tissue_back_until_ns = 0;  // on that clock: a reset's tissue comes back as yet
   std::vector<ToolState> tools;
   std::vector<ContactEnergy> energies;  // [tools]
   std::array<ToolContact, physics::kMaxContacts> contacts;

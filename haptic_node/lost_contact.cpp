@@ -1,6 +1,7 @@
 #include "haptic_node/lost_contact.h"
 
 #include "haptic_node/contact_list.h"
+#include "haptic_node/enclosed_tool.h"
 #include "haptic_node/jaws.h"
 
 #include <cmath>
@@ -129,7 +130,8 @@ void meet_appeared_in(BodyId id, std::size_t tool_index, HapticState& state, Bod
     if (memory.ask_in == 0 || --memory.ask_in > 0) continue;
     const auto inside = body.immersion(tool.now[p], memory.ask_m);
     memory.adrift = inside.has_value();
-    if (!inside || body.place_of(inside->nearest).normal.dot(memory.way_out) < 0) continue;
+    if (!inside) note_outside(state, memory);
+    if (!inside || memory.enclosed || body.place_of(inside->nearest).normal.dot(memory.way_out) < 0) continue;
     // what finds no room in the list stays adrift
     if (state.contact_count == physics::kMaxContacts) continue;
     ToolContact& contact =

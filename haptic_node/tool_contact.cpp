@@ -1,6 +1,7 @@
 #include "haptic_node/tool_contact.h"
 
 #include "haptic_node/contact_list.h"
+#include "haptic_node/enclosed_tool.h"
 #include "haptic_node/jaws.h"
 #include "haptic_node/lost_contact.h"
 #include "haptic_node/other_tools.h"
@@ -90,12 +91,13 @@ void go_to(const ToolModel& model, const ToolInput& input, ToolState& tool) {
 
 // Where its points are is asked now; a tick later where the surface is still dented by the tool's own force:
 // there it would seem to be outside.
-void appear(ToolState& tool) {
+void appear(const HapticState& state, ToolState& tool) {
   tool.before = tool.now;
   tool.grip_before = tool.grip;
   PointMemory unknown;
   unknown.adrift = true;
   unknown.ask_in = tool.let_go ? 2 : 1;
+  unknown.enclosed = tissue_comes_back(state);
   std::ranges::fill(tool.memories, unknown);
 }
 
@@ -133,7 +135,7 @@ bool slip_by_way(HapticState& state, std::int32_t index) {
 void arrive(HapticState& state, std::int32_t index, bool holds_on) {
   ToolState& tool = state.tools[index];
   if (!holds_on || !slip_by_way(state, index)) let_go(state, index);
-  appear(tool);
+  appear(state, tool);
   for (const ToolContact& contact : state.active())
     if (contact.tool == index) tool.memory(contact.body, static_cast<std::size_t>(contact.point)) = {};
 }
@@ -162,6 +164,7 @@ void find_contacts_with(BodyId id, Body& body, std::size_t tool_index, HapticSta
       continue;
     }
     const auto found = look_around(tool, p, motion, memory, body);
+    if (!memory.adrift) note_outside(state, memory);
     if (!found) continue;
     if (known) {
       const bool alone = known->other_dents.isZero(0);

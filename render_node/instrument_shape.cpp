@@ -14,10 +14,11 @@ namespace omentum::render {
 namespace {
 
 constexpr auto kHinge = static_cast<float>(scene::kJawLength_m);
-constexpr float kBandLength = 0.005f;      // m
-constexpr float kMarkSpacing = 0.01f;      // m: the probe is a ruler too
-constexpr float kMarkWidth = 0.0007f;      // m
-constexpr float kFewSide = 0.5f;           // of the shaft's radius: what the coarsest pictures show of a part
+constexpr float kBandLength = 0.005f;     // m
+constexpr float kMarkSpacing = 0.01f;     // m: the probe is a ruler too
+constexpr float kMarkWidth = 0.0007f;     // m
+constexpr float kFewMarkWidth = 0.0018f;  // m: a pixel of the coarsest pictures, where all of a probe is seen
+constexpr float kFewSide = 0.5f;          // of the shaft's radius: what the coarsest pictures show of a part
 const Vec3f kWireGlow(6.0f, 1.5f, 0.22f);  // of tungsten at about 2,000 K, far above what the lamps give
 const Vec3f kFibreGlow(9.0f, 8.8f, 8.4f);
 
@@ -27,7 +28,7 @@ void add_shaft(float radius, float from, float length, const Vec3f& band,
   constexpr float kCollar = 0.004f;
   const float band_from = from + kCollar, shaft_from = band_from + kBandLength;
   parts.push_back({sleeve(1.02f * radius, from, band_from), kSteel});
-  parts.push_back({sleeve(1.08f * radius, band_from, shaft_from), painted(band)});
+  parts.push_back({ring(1.08f * radius, band_from, shaft_from), painted(band)});
   if (length > shaft_from) parts.push_back({sleeve(radius, shaft_from, length), kInsulation});
 }
 
@@ -52,9 +53,9 @@ std::vector<InstrumentPart> probe(const scene::ToolSpec& tool, const Vec3f& band
   parts.push_back({round_tip(radius, length), kSteel});
   parts.push_back({ring(1.06f * radius, kBandFrom, kBandFrom + kBandLength), painted(band)});
   InstrumentPart marks{{}, kInsulation};
-  for (float z = kMarkSpacing; z + kMarkWidth < length; z += kMarkSpacing) {
+  for (float z = kMarkSpacing; z + kFewMarkWidth < length; z += kMarkSpacing) {
     if (std::abs(z - kBandFrom) < 1.5f * kBandLength) continue;
-    append(ring(1.012f * radius, z, z + kMarkWidth), marks.mesh);
+    append(ring(1.012f * radius, z, z + kMarkWidth, kFewMarkWidth), marks.mesh);
   }
   parts.push_back(std::move(marks));
   return parts;

@@ -77,6 +77,8 @@ std::vector<std::string> force_state_words(std::uint32_t state) {
                                         {msg::FORCE_SLEW, "slew-limited"},
                                         {msg::FORCE_RAMP, "fading in"},
                                         {msg::FORCE_PASSIVITY, "damped"}}};
+  // nothing fades in before a person clears it
+  if (state & msg::FORCE_FAULT) state &= ~msg::FORCE_RAMP;
   std::vector<std::string> words;
   for (const auto& [bit, text] : kWords) {
     if (state & bit) words.emplace_back(text);

@@ -45,14 +45,14 @@ MeshData sleeve(float radius, float from, float to) {
   return turned(profile, kTurnSegments);
 }
 
-MeshData ring(float radius, float from, float to) {
-  constexpr float kOutside = 0.99f;  // of the radius: broken edges lie below
+MeshData ring(float radius, float from, float to, float few_width) {
   MeshData mesh = sleeve(radius, from, to);
-  const auto is_outside = [&](std::uint32_t v) {
-    return mesh.vertices[v].position.head<2>().norm() > kOutside * radius;
-  };
-  for (const MeshTriangle& t : mesh.triangles)
-    if (std::ranges::all_of(t, is_outside)) mesh.few.push_back(t);
+  const float middle = 0.5f * (from + to), half = 0.5f * std::max(few_width, to - from);
+  const std::array<ProfilePoint, 2> outside{{{radius, middle - half}, {radius, middle + half}}};
+  const MeshData coarse = turned(outside, kTurnSegments);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), coarse.vertices.begin(), coarse.vertices.end());
+  for (const auto& [i, j, k] : coarse.triangles) mesh.few.push_back({first + i, first + j, first + k});
   return mesh;
 }
 

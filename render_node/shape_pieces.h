@@ -14,8 +14,9 @@ inline constexpr int kTurnSegments = 28;
 /// A cylinder about z with slightly broken edges, m.
 MeshData sleeve(float radius, float from, float to);
 /// A sleeve that lies on a shaft: in the coarsest pictures (`few`) all of its outside and nothing else, since
-/// one of fewer corners would dip into the shaft.
-MeshData ring(float radius, float from, float to);
+/// one of fewer corners would dip into the shaft; and at least `few_width` wide there, m, since what is
+/// narrower than their pixels falls apart into dots.
+MeshData ring(float radius, float from, float to, float few_width = 0);
 /// A hemisphere about z, its pole at z = 0, and a cylinder on it up to `to`, m.
 MeshData round_tip(float radius, float to);
 /// A cylinder with round ends around both points, `segments` around it, m.

@@ -232,6 +232,20 @@ TEST_F(LocalPublisherTest, WithoutAToolNearNothingLeaves) {
   EXPECT_TRUE(models_.all().empty());
 }
 
+// Else a hand would take the tissue that comes back for that which it touched.
+TEST_F(LocalPublisherTest, OfAnOrganThatBeginsAnewThereIsNothingForAMoment) {
+  LocalPublisher publisher(models_, organs_, kPatchNodes, runtime::on_own_thread);
+  const auto nodes_at = [&](double time_s) {
+    offer(publisher, Vec3::Zero(), std::llround(1e9 * time_s));
+    return models_.await(models_.all().size() + 1).back().nodes.size();
+  };
+  EXPECT_EQ(nodes_at(1), 1u);
+  ++organs_[0].begun_anew;
+  EXPECT_EQ(nodes_at(1.01), 0u);
+  EXPECT_EQ(nodes_at(1.01 + 0.9 * kUnfelt_s), 0u);
+  EXPECT_EQ(nodes_at(1.01 + 1.1 * kUnfelt_s), 1u);
+}
+
 TEST_F(LocalPublisherTest, AStuckStateDelaysNoLocalModel) {
   StatePublisher states = make_publisher();
   LocalPublisher locals(models_, organs_, kPatchNodes, runtime::on_own_thread);

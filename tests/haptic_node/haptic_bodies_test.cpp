@@ -1,6 +1,7 @@
 // Several bodies, bodies that come and go, and a body of another kind than any the product knows.
 #include "haptic_fixtures.h"
 #include "haptic_node/body_change.h"
+#include "haptic_node/enclosed_tool.h"
 
 #include <algorithm>
 #include <numbers>
@@ -216,6 +217,25 @@ TEST_F(Exchange, AToolInsideOfABodyThatComesIsHeldWhereItIs) {
   bench_.work().doors[0].post(body_of(bench_.model().organs[0]));
   for (int i = 0; i < 5; ++i) EXPECT_LE(bench_.step_to(pressed_).norm(), 1e-6);
   EXPECT_GT(bench_.move_to(pressed_ - Vec3(0, 0, 0.002), 100).z(), 0.05) << "it is pressed from there";
+}
+
+// A person reset the session: nothing was pressed on the way in.
+TEST_F(Exchange, ATipAroundWhichAResetBringsTissueBackPressesNothingUntilItWasOutside) {
+  const Vec3 deeper = pressed_ - Vec3(0, 0, 0.01), beside = pressed_ + Vec3(0.02, 0.01, 0);
+  bench_.work().doors[0].post(nullptr);
+  bench_.step_to(deeper);
+  haptic::expect_tissue_back(bench_.state().now_ns, bench_.state());
+  bench_.work().doors[0].post(body_of(bench_.model().organs[0]));
+  bench_.step_to(deeper);
+  bench_.state().now_ns += 1'000'000'000;
+  for (const Vec3& place : {beside, pressed_, deeper, pressed_}) {
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 from = bench_.input().frame.p_WT;
+      ASSERT_EQ(bench_.step_to(from + (place - from) / (100 - i)), Vec3(0, 0, 0)) << place.transpose();
+    }
+  }
+  EXPECT_EQ(bench_.move_to(over_, 100), Vec3(0, 0, 0));
+  EXPECT_GT(bench_.move_to(pressed_, 100).z(), 0.1) << "from outside it is a press";
 }
 
 TEST_F(Exchange, WhatGrewOverATipHoldsItWhereItIs) {

@@ -101,6 +101,7 @@ TEST(PanelView, FaultsNameTheirNode) {
 TEST(PanelView, ForceStateInWords) {
   EXPECT_THAT(force_state_words(0), IsEmpty());
   EXPECT_THAT(force_state_words(msg::FORCE_CLAMPED | msg::FORCE_FAULT), ElementsAre("FAULT", "clamped"));
+  EXPECT_THAT(force_state_words(msg::FORCE_RAMP | msg::FORCE_FAULT), ElementsAre("FAULT")) << "latched";
 }
 
 TEST(RememberStatus, RestartedNodeTakesItsPredecessorsPlace) {

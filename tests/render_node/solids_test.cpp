@@ -118,6 +118,32 @@ TEST(Instruments, BandsAndMarksLieOnTheirShaftInTheCoarsestPicturesToo) {
   }
 }
 
+TEST(Instruments, ABandBetweenCollarAndShaftStandsOutInTheCoarsestPicturesToo) {
+  scene::ToolSpec tool;
+  tool.shape = "grasper";
+  int bands = 0;
+  for (const InstrumentPart& part : instrument_parts(tool, Vec3f::Ones())) {
+    if (part.material.colour != Vec3f::Ones()) continue;
+    ++bands;
+    EXPECT_GT(coarsest_reach(part).second, 1.02 * tool.shaft_radius_m);
+  }
+  EXPECT_EQ(bands, 1);
+}
+
+TEST(Instruments, AProbesMarksAreAsWideAsAPixelOfTheCoarsestPictures) {
+  scene::ToolSpec tool;
+  tool.shape = "probe";
+  for (const InstrumentPart& part : instrument_parts(tool, Vec3f::Ones())) {
+    if (part.material.colour != kInsulation.colour) continue;
+    for (const MeshTriangle& t : part.mesh.few) {
+      const auto [low, high] =
+          std::minmax({part.mesh.vertices[t[0]].position.z(), part.mesh.vertices[t[1]].position.z(),
+                       part.mesh.vertices[t[2]].position.z()});
+      EXPECT_GT(high - low, 0.0015f) << "from border to border: a mark is 0.7 mm wide, a pixel 1.8 mm";
+    }
+  }
+}
+
 TEST(Instruments, ReachFromTheTipAlongZ) {
   for (const char* shape : {"probe", "grasper"}) {
     scene::ToolSpec tool;
