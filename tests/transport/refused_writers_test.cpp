@@ -75,8 +75,8 @@ TEST_P(RefusedWriters, ThePolicyIsToldAndAGoodOneIsHeardBesideThem) {
     fast::SampleRef<msg::ToolPose> sample{&pose};
     EXPECT_TRUE(eventually([&] {
       good->write(&sample);
-      return heard > 0 && poses->status().incompatible_qos >= 2 && infos->status().incompatible_qos >= 1 &&
-             unasked->status().matched == 3;
+      return heard > 0 && poses->status().incompatible_qos >= 2 && poses_by.policies != 0 &&
+             infos_by.policies != 0 && unasked->status().matched == 3;
     }));
   }
   const std::string told = testing::internal::GetCapturedStderr();
