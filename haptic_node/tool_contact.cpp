@@ -161,6 +161,7 @@ void find_contacts_with(BodyId id, Body& body, std::size_t tool_index, HapticSta
     if (known && (known->point != point || known->tool != of_tool || known->body != id)) known = nullptr;
     if (known && (known->touches() || known->grasped || known->sunken_m > 0)) {
       memory.clearance_m = 0;
+      note_outside(state, memory);  // what tissue came back around has no contact
       continue;
     }
     const auto found = look_around(tool, p, motion, memory, body);

@@ -238,6 +238,16 @@ TEST_F(Exchange, ATipAroundWhichAResetBringsTissueBackPressesNothingUntilItWasOu
   EXPECT_GT(bench_.move_to(pressed_, 100).z(), 0.1) << "from outside it is a press";
 }
 
+TEST_F(Exchange, WhoPressesSoonAfterAResetIsNotTakenForEnclosed) {
+  haptic::expect_tissue_back(bench_.state().now_ns, bench_.state());
+  bench_.step_to(over_);
+  EXPECT_GT(bench_.move_to(pressed_, 100).z(), 0.1);
+  bench_.state().now_ns += 1'000'000'000;
+  bench_.step_to(pressed_);
+  haptic::ToolState& tool = bench_.state().tools[0];
+  for (std::size_t p = 0; p < tool.now.size(); ++p) EXPECT_FALSE(tool.memory(BodyId(0), p).enclosed);
+}
+
 TEST_F(Exchange, WhatGrewOverATipHoldsItWhereItIs) {
   bench_.step_to(over_);
   haptic::ElasticSurface grown = bench_.model().organs[0];
