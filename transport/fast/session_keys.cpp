@@ -1,12 +1,12 @@
 #include "transport/fast/session_keys.h"
 
+#include "files/console.h"
 #include "transport/fast/names.h"
 #include "transport/fast/session_key_memo.h"
 
 #include <dlfcn.h>
 
 #include <cstdlib>
-#include <iostream>
 
 // Fast DDS 2.9 derives a session's key anew for each thing that it decrypts, which are three for a sample:
 // the datagram, the time stamp and the sample. That is some 35 us each, more than all else that a small
@@ -35,7 +35,7 @@ Derivation* the_librarys() {
   auto* found = reinterpret_cast<Derivation*>(dlsym(RTLD_NEXT, OMENTUM_DERIVATION));
   if (found != nullptr) return found;
   // Who called us is that library; without its answer nobody could tell a message from a forged one.
-  std::cerr << "Fast DDS: its derivation of keys was not found" << std::endl;
+  files::say("Fast DDS: its derivation of keys was not found");
   std::abort();
 }
 
